@@ -1,0 +1,37 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace damslip {
+
+/// One thing that is wrong with the input, in the words its user needs.
+struct Diagnostic {
+    std::string file;     ///< as the user named it; empty: the command line
+    int line = 0;         ///< from 1; 0: unknown or the file as a whole
+    int column = 0;       ///< from 1; 0: unknown
+    std::string problem;  ///< what is there: "contact.friction = -0.77 is not allowed."
+    std::string expected; ///< what is allowed, with unit and range; may be empty
+    std::string fix;      ///< what to do about it; may be empty
+
+    /// "file:line:column: error: problem" and the indented lines "expected: ..." and "fix: ...".
+    std::string text() const;
+};
+
+/// The input is wrong: thrown while reading, before anything is computed, with everything found wrong at once.
+class InputError : public std::runtime_error {
+public:
+    explicit InputError(Diagnostic diagnostic);
+    explicit InputError(std::vector<Diagnostic> diagnostics);
+    const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+private:
+    std::vector<Diagnostic> diagnostics_;
+};
+
+/// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is near.
+std::string_view nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+} // namespace damslip

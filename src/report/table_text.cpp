@@ -1,0 +1,166 @@
+#include "report/table_text.hpp"
+
+#include "core/number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::report {
+
+namespace {
+
+/// Characters as a terminal counts them: UTF-8 continuation bytes take no place.
+std::size_t width(const std::string& s)
+{
+    return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Fixed notation for everyday magnitudes, scientific beyond: 0.0123, 12.3, 1230, 1.23e+07.
+std::string number_text(double value, int digits)
+{
+    if (std::isnan(value)) return "–";
+    if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+    if (value == 0.0) return "0";
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    if (exponent < -5 || exponent > 7) return fmt::format("{:.{}e}", value, digits - 1);
+    return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+}
+
+std::string cell_text(const Cell& cell, int digits)
+{
+    struct Show {
+        int digits;
+        std::string operator()(std::monostate) const { return "–"; }
+        std::string operator()(double v) const { return number_text(v, digits); }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(const std::string& v) const { return v; }
+        std::string operator()(bool v) const { return v ? "yes" : "no"; }
+    };
+    return std::visit(Show{digits}, cell);
+}
+
+bool is_number(const Cell& cell)
+{
+    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) || std::holds_alternative<std::monostate>(cell);
+}
+
+std::string padded(const std::string& s, std::size_t to, bool right)
+{
+    const std::string fill(to - std::min(to, width(s)), ' ');
+    return right ? fill + s : s + fill;
+}
+
+std::string csv_field(const Cell& cell)
+{
+    struct Show {
+        std::string operator()(std::monostate) const { return ""; }
+        std::string operator()(double v) const { return std::isfinite(v) ? shortest(v) : ""; }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(const std::string& v) const
+        {
+            if (v.find_first_of(",\"\n\r") == std::string::npos) return v;
+            std::string quoted = "\"";
+            for (char c : v) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+            return quoted + "\"";
+        }
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+    };
+    return std::visit(Show{}, cell);
+}
+
+} // namespace
+
+std::string text(const Table& table)
+{
+    const std::size_t n = table.columns.size();
+    std::vector<std::vector<std::string>> lines{std::vector<std::string>(n), std::vector<std::string>(n)};
+    std::vector<bool> right(n, true);
+    for (std::size_t j = 0; j < n; ++j) {
+        lines[0][j] = table.columns[j].heading;
+        lines[1][j] = table.columns[j].unit;
+        right[j] = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return is_number(row[j]); });
+    }
+    for (const auto& row : table.rows) {
+        lines.emplace_back(n);
+        for (std::size_t j = 0; j < n; ++j) lines.back()[j] = cell_text(row[j], table.columns[j].digits);
+    }
+    std::vector<std::size_t> widths(n, 0);
+    for (const auto& line : lines)
+        for (std::size_t j = 0; j < n; ++j) widths[j] = std::max(widths[j], width(line[j]));
+
+    std::string out = table.title.empty() ? "" : table.title + "\n";
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const bool units = i == 1;
+        if (units && std::all_of(lines[1].begin(), lines[1].end(), [](const auto& s) { return s.empty(); })) {
+        } else {
+            std::string line;
+            for (std::size_t j = 0; j < n; ++j) line += (j ? "  " : "") + padded(lines[i][j], widths[j], right[j]);
+            total = std::max(total, width(line));
+            while (!line.empty() && line.back() == ' ') line.pop_back();
+            out += line + "\n";
+        }
+        if (units) {
+            for (std::size_t k = 0; k < total; ++k) out += "─";
+            out += "\n";
+        }
+    }
+    for (const std::string& note : table.notes) out += "  " + note + "\n";
+    return out;
+}
+
+std::string csv(const Table& table, const std::vector<std::string>& comments)
+{
+    std::string out;
+    for (const std::string& comment : comments) out += "# " + comment + "\n";
+    for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j ? "," : "") + table.columns[j].key;
+    out += "\n";
+    for (const auto& row : table.rows) {
+        for (std::size_t j = 0; j < row.size(); ++j) out += (j ? "," : "") + csv_field(row[j]);
+        out += "\n";
+    }
+    return out;
+}
+
+std::string json_rows(const Table& table)
+{
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& row : table.rows) {
+        nlohmann::ordered_json object = nlohmann::ordered_json::object();
+        for (std::size_t j = 0; j < row.size(); ++j)
+            std::visit(
+                [&](const auto& v) {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
+                        object[table.columns[j].key] = nullptr;
+                    else
+                        object[table.columns[j].key] = v;
+                },
+                row[j]);
+        rows.push_back(std::move(object));
+    }
+    return rows.dump(2);
+}
+
+std::string markdown(const Table& table)
+{
+    std::string out = "|", rule = "|";
+    for (const Column& c : table.columns) {
+        out += " " + c.heading + (c.unit.empty() || c.unit == "–" ? "" : " [" + c.unit + "]") + " |";
+        rule += " --- |";
+    }
+    out += "\n" + rule + "\n";
+    for (const auto& row : table.rows) {
+        out += "|";
+        for (std::size_t j = 0; j < row.size(); ++j) {
+            std::string cell = cell_text(row[j], table.columns[j].digits);
+            for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.replace(at, 1, "\\|");
+            out += " " + cell + " |";
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+} // namespace damslip::report

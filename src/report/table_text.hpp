@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace damslip::report {
+
+/// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
+std::string text(const Table& table);
+
+/// Header row of keys, one row per line, numbers as shortest exact text, RFC 4180 quoting; `comments` become "# ..." lines on top.
+std::string csv(const Table& table, const std::vector<std::string>& comments = {});
+
+/// A JSON array of objects, one per row, by column key; nothing and non-finite numbers are null.
+std::string json_rows(const Table& table);
+
+/// GitHub-style table, heading and unit in the header.
+std::string markdown(const Table& table);
+
+} // namespace damslip::report

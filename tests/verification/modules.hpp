@@ -1,0 +1,14 @@
+#pragma once
+
+#include "verification/registry.hpp"
+
+/// One function per file of this folder; each appends its cases.
+namespace damslip::verification {
+
+void add_record_cases(Registry& registry);
+void add_block_cases(Registry& registry);
+void add_empirical_cases(Registry& registry);
+void add_load_cases(Registry& registry);
+void add_equilibrium_cases(Registry& registry);
+
+} // namespace damslip::verification

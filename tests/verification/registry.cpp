@@ -1,0 +1,36 @@
+#include "verification/registry.hpp"
+
+#include "verification/modules.hpp"
+
+#include <cmath>
+
+namespace damslip::verification {
+
+double Check::error() const
+{
+    const double difference = std::abs(computed - expected);
+    return measure == Measure::relative && expected != 0.0 ? difference / std::abs(expected) : difference;
+}
+
+bool Check::passed() const
+{
+    if (!std::isfinite(computed)) return false;
+    switch (measure) {
+    case Measure::upper_bound: return computed <= expected;
+    case Measure::lower_bound: return computed >= expected;
+    default: return error() <= tolerance;
+    }
+}
+
+Registry all_cases()
+{
+    Registry registry;
+    add_record_cases(registry);
+    add_block_cases(registry);
+    add_empirical_cases(registry);
+    add_load_cases(registry);
+    add_equilibrium_cases(registry);
+    return registry;
+}
+
+} // namespace damslip::verification
