@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
-/// A checked scene in SI units, defaults filled in, never changed after reading. What an optional does not hold is not there:
-/// no reservoir, no water; it is neither assembled nor stored. The keys, their units, ranges and meanings: keys.cpp.
+/// A checked scene in SI units, defaults filled in, never changed after reading. What an optional does not hold is not
+/// there: no reservoir, no water; it is neither assembled nor stored. The keys, their units, ranges and meanings:
+/// keys.cpp.
 ///
 /// Axes: x downstream, y up, heel of the dam at the origin. Forces are per metre of dam length.
 namespace damslip {
 
-/// Cross-section of the dam or block, a simple polygon in counter-clockwise order that starts with the heel at (0, 0) and goes
-/// on to the toe: its first edge is the base. The upstream face is the chain from the last vertex back to the heel.
+/// Cross-section of the dam or block, a simple polygon in counter-clockwise order that starts with the heel at (0, 0)
+/// and goes on to the toe: its first edge is the base. The upstream face is the chain from the last vertex back to the
+/// heel.
 struct Section {
     Polyline polygon;
 };
@@ -48,12 +50,12 @@ struct Curtain {
 enum class ReservoirModel { automatic, hydrostatic, added_mass, acoustic };
 
 struct Reservoir {
-    double level = 0.0;             ///< water surface above the heel [m]
-    double density = 1000.0;        ///< [kg/m^3]
-    double bulk_modulus = 2200e6;   ///< [Pa]
-    double length = 0.0;            ///< of the acoustic reservoir [m]; default 2.4 x level
+    double level = 0.0;           ///< water surface above the heel [m]
+    double density = 1000.0;      ///< [kg/m^3]
+    double bulk_modulus = 2200e6; ///< [Pa]
+    double length = 0.0;          ///< of the acoustic reservoir [m]; default 2.4 x level
     ReservoirModel model = ReservoirModel::automatic;
-    bool floor_pressure = false;    ///< water pressure on the reservoir floor loads the rock
+    bool floor_pressure = false; ///< water pressure on the reservoir floor loads the rock
 };
 
 enum class AddedMassFormula { westergaard_simplified, westergaard, zangar, goldgruber };
@@ -61,10 +63,11 @@ enum class InclinedFaceRule { normal_component, printed }; ///< m_n = m / cos(ph
 
 struct AddedMass {
     AddedMassFormula formula = AddedMassFormula::westergaard;
-    std::optional<double> period;    ///< T of (3-1) [s]; none: infinite (incompressible)
-    bool period_of_dam = false;      ///< T is the dam's own first period, found by iteration on the FE model
+    std::optional<double> period; ///< T of (3-1) [s]; none: infinite (incompressible)
+    bool period_of_dam = false;   ///< T is the dam's own first period, found by iteration on the FE model
     InclinedFaceRule inclined_face = InclinedFaceRule::normal_component;
-    std::vector<Point> zangar_table; ///< x = face angle from the vertical [rad], y = C_m [-]; empty: 0.73 (1 - phi/90 deg)
+    std::vector<Point>
+        zangar_table; ///< x = face angle from the vertical [rad], y = C_m [-]; empty: 0.73 (1 - phi/90 deg)
 };
 
 struct Tailwater {
@@ -73,9 +76,9 @@ struct Tailwater {
 
 /// Sediment on the upstream face: thrust 1/2 K_s gamma' h^2.
 struct Silt {
-    double level = 0.0;                  ///< top of the sediment above the heel [m]
-    double submerged_unit_weight = 0.0;  ///< gamma' [N/m^3]
-    double pressure_coefficient = 0.0;   ///< K_s [-]
+    double level = 0.0;                 ///< top of the sediment above the heel [m]
+    double submerged_unit_weight = 0.0; ///< gamma' [N/m^3]
+    double pressure_coefficient = 0.0;  ///< K_s [-]
 };
 
 struct Ice {
@@ -95,8 +98,10 @@ enum class CrackRule { none, fixed_static, seismic_zero, seismic_unchanged, seis
 
 struct Uplift {
     UpliftModel model = UpliftModel::linear;
-    double curtain_ratio = 2.0 / 3.0; ///< model `curtain`: pressure head just behind the curtain over the head difference [-]
-    std::vector<Point> points;        ///< model `points`: x = distance along the base from the heel [m], y = p / p_heel [-]; a repeated x is a jump
+    double curtain_ratio =
+        2.0 / 3.0;             ///< model `curtain`: pressure head just behind the curtain over the head difference [-]
+    std::vector<Point> points; ///< model `points`: x = distance along the base from the heel [m], y = p / p_heel [-]; a
+                               ///< repeated x is a jump
     CrackRule crack = CrackRule::none;
 };
 
@@ -116,26 +121,27 @@ struct Contact {
     double cohesion = 0.0;                   ///< c [Pa]
     bool cohesion_lost_at_slip = true;       ///< cohesion is gone from the first slip on
     std::optional<double> residual_friction; ///< mu after `residual_slip` [-]
-    double residual_slip = 0.0;              ///< accumulated slip at which the residual value is reached [m]; 0: at first slip
-    Interpolation residual_path = Interpolation::steps; ///< between peak and residual: a step at residual_slip, or linear in slip
-    std::vector<Point> friction_table;       ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
+    double residual_slip = 0.0; ///< accumulated slip at which the residual value is reached [m]; 0: at first slip
+    Interpolation residual_path =
+        Interpolation::steps;          ///< between peak and residual: a step at residual_slip, or linear in slip
+    std::vector<Point> friction_table; ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
 };
 
 struct RecordFiles {
     std::string name;
-    std::filesystem::path horizontal;               ///< resolved against the scene's folder
+    std::filesystem::path horizontal; ///< resolved against the scene's folder
     std::optional<std::filesystem::path> vertical;
-    std::string unit;                               ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
-    std::optional<double> dt;                       ///< of one-column files [s]
-    double scale = 1.0;                             ///< of this pair, on top of motion.scale [-]
+    std::string unit;         ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
+    std::optional<double> dt; ///< of one-column files [s]
+    double scale = 1.0;       ///< of this pair, on top of motion.scale [-]
 };
 
 struct Motion {
     std::vector<RecordFiles> records;
-    double scale = 1.0;                       ///< both components [-]
-    std::optional<double> scale_to_pga;       ///< horizontal peak made equal to this [m/s^2], vertical by the same factor
-    int polarity = 1;                         ///< -1 flips the horizontal component
-    bool vertical = true;                     ///< false: vertical components are left out
+    double scale = 1.0;                 ///< both components [-]
+    std::optional<double> scale_to_pga; ///< horizontal peak made equal to this [m/s^2], vertical by the same factor
+    int polarity = 1;                   ///< -1 flips the horizontal component
+    bool vertical = true;               ///< false: vertical components are left out
 };
 
 enum class LiftOff { no_friction, ballistic };
@@ -145,8 +151,8 @@ enum class SlidingScheme { exact, slammer };
 struct SlidingOptions {
     SlidingScheme scheme = SlidingScheme::exact;
     LiftOff lift_off = LiftOff::no_friction;
-    bool two_way = true;        ///< upstream sliding allowed
-    double run_out_max = 60.0;  ///< integration after the record's end at most [s]; 0: none
+    bool two_way = true;       ///< upstream sliding allowed
+    double run_out_max = 60.0; ///< integration after the record's end at most [s]; 0: none
 };
 
 enum class CombinationKind { usual, unusual, extreme, post_seismic };
@@ -155,23 +161,24 @@ enum class CombinationKind { usual, unusual, extreme, post_seismic };
 struct Combination {
     std::string name;
     CombinationKind kind = CombinationKind::usual;
-    std::optional<double> reservoir_level;  ///< [m]
-    std::optional<double> tailwater_level;  ///< [m]
+    std::optional<double> reservoir_level; ///< [m]
+    std::optional<double> tailwater_level; ///< [m]
     bool ice = false;
     bool drains_effective = true;
     bool curtain_intact = true;
     bool residual_strength = false;
     std::optional<CrackRule> crack;
-    std::optional<double> friction;         ///< [-]
-    std::optional<double> cohesion;         ///< [Pa]
-    double k_h = 0.0;                       ///< seismic coefficient a_h / 9.80665, positive drives downstream [-]
-    double k_v = 0.0;                       ///< a_v / 9.80665, positive up [-]
-    double weight_factor = 1.0, water_factor = 1.0, uplift_factor = 1.0, silt_factor = 1.0, ice_factor = 1.0; ///< load factors [-]
-    std::optional<double> required_sliding_factor; ///< [-]
-    std::optional<double> required_flotation_factor; ///< [-]
+    std::optional<double> friction; ///< [-]
+    std::optional<double> cohesion; ///< [Pa]
+    double k_h = 0.0;               ///< seismic coefficient a_h / 9.80665, positive drives downstream [-]
+    double k_v = 0.0;               ///< a_v / 9.80665, positive up [-]
+    double weight_factor = 1.0, water_factor = 1.0, uplift_factor = 1.0, silt_factor = 1.0,
+           ice_factor = 1.0;                           ///< load factors [-]
+    std::optional<double> required_sliding_factor;     ///< [-]
+    std::optional<double> required_flotation_factor;   ///< [-]
     std::optional<double> required_overturning_factor; ///< [-]
-    std::optional<std::string> required_resultant; ///< "kern", "middle-half", "base"
-    std::string source;                     ///< document the required values are taken from
+    std::optional<std::string> required_resultant;     ///< "kern", "middle-half", "base"
+    std::string source;                                ///< document the required values are taken from
 };
 
 struct Criteria {
@@ -182,9 +189,9 @@ struct Criteria {
 enum class ElementKind { q4_incompatible, q4, t3 };
 
 struct MeshOptions {
-    std::optional<double> size;          ///< target element size in the dam [m]; default height / 40
-    std::optional<double> contact_size;  ///< on the contact plane [m]; default min(size, base / 60)
-    double growth = 1.15;                ///< ratio of neighbouring sizes away from the contact plane [-]
+    std::optional<double> size;         ///< target element size in the dam [m]; default height / 40
+    std::optional<double> contact_size; ///< on the contact plane [m]; default min(size, base / 60)
+    double growth = 1.15;               ///< ratio of neighbouring sizes away from the contact plane [-]
     ElementKind element = ElementKind::q4_incompatible;
 };
 
@@ -193,7 +200,7 @@ enum class PorePressure { none, total, effective };
 
 struct Stages {
     GravityStage gravity = GravityStage::dam;
-    bool geostatic = false;                        ///< displacements are set to zero after the gravity stage
+    bool geostatic = false;                          ///< displacements are set to zero after the gravity stage
     PorePressure pore_pressure = PorePressure::none; ///< water in the rock, THEORY 5 form (a) or (b)
 };
 
@@ -202,8 +209,8 @@ enum class MassDamping { total, relative, deformation_only };
 
 struct Damping {
     DampingMethod method = DampingMethod::rayleigh;
-    double ratio = 0.05;               ///< [-]
-    int first_mode = 1, second_mode = 5; ///< the two modes that get the ratio; counted from 1
+    double ratio = 0.05;                                           ///< [-]
+    int first_mode = 1, second_mode = 5;                           ///< the two modes that get the ratio; counted from 1
     std::optional<double> mass_coefficient, stiffness_coefficient; ///< a_M [1/s], b_K [s]: given directly
     MassDamping mass = MassDamping::deformation_only;
 };
@@ -212,22 +219,30 @@ enum class TimeScheme { hht, newmark };
 
 struct TimeOptions {
     TimeScheme scheme = TimeScheme::hht;
-    double alpha = -0.05;             ///< HHT, -1/3 ... 0 [-]
-    double gamma = 0.5, beta = 0.25;  ///< Newmark [-]
-    std::optional<double> dt;         ///< [s]; default: the record's
+    double alpha = -0.05;            ///< HHT, -1/3 ... 0 [-]
+    double gamma = 0.5, beta = 0.25; ///< Newmark [-]
+    std::optional<double> dt;        ///< [s]; default: the record's
+};
+
+/// A figure the scene's author knows by other means; examples are tests by these.
+struct Expectation {
+    std::string quantity; ///< key of a result: "yield_acceleration_m_s2"
+    double value = 0.0;
+    int digits = 6;     ///< significant digits that have to agree
+    std::string source; ///< where the value comes from
 };
 
 struct Scene {
-    std::filesystem::path file;     ///< as the user named it
+    std::filesystem::path file; ///< as the user named it
     std::string title;
-    double gravity = 9.81;          ///< in loads [m/s^2]
+    double gravity = 9.81; ///< in loads [m/s^2]
     Section section;
     Material dam;
     Contact contact;
     std::optional<Foundation> foundation;
     std::optional<Curtain> curtain;
     std::optional<Reservoir> reservoir;
-    AddedMass added_mass;           ///< used when the reservoir moves as added mass
+    AddedMass added_mass; ///< used when the reservoir moves as added mass
     std::optional<Tailwater> tailwater;
     std::optional<Silt> silt;
     std::optional<Ice> ice;
@@ -242,6 +257,7 @@ struct Scene {
     Stages stages;
     Damping damping;
     TimeOptions time;
+    std::vector<Expectation> expectations;
 };
 
 } // namespace damslip

@@ -28,7 +28,10 @@ Moments moments(const Polyline& p)
 
 } // namespace
 
-double area(const Section& section) { return 0.5 * moments(section.polygon).a2; }
+double area(const Section& section)
+{
+    return 0.5 * moments(section.polygon).a2;
+}
 
 Point centroid(const Section& section)
 {
@@ -36,8 +39,14 @@ Point centroid(const Section& section)
     return {m.x6 / (3.0 * m.a2), m.y6 / (3.0 * m.a2)};
 }
 
-Point heel(const Section& section) { return section.polygon.at(0); }
-Point toe(const Section& section) { return section.polygon.at(1); }
+Point heel(const Section& section)
+{
+    return section.polygon.at(0);
+}
+Point toe(const Section& section)
+{
+    return section.polygon.at(1);
+}
 
 double base_length(const Section& section)
 {
@@ -51,7 +60,8 @@ double base_inclination(const Section& section)
 
 double crest_level(const Section& section)
 {
-    return std::max_element(section.polygon.begin(), section.polygon.end(), [](Point a, Point b) { return a.y < b.y; })->y;
+    return std::max_element(section.polygon.begin(), section.polygon.end(), [](Point a, Point b) { return a.y < b.y; })
+        ->y;
 }
 
 Polyline upstream_face(const Section& section)

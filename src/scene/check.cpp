@@ -1,0 +1,370 @@
+#include "scene/check.hpp"
+
+#include "core/number.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace damslip {
+
+namespace {
+
+double cross(Point o, Point a, Point b)
+{
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+bool between(Point a, Point b, Point p)
+{
+    return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+           p.y <= std::max(a.y, b.y);
+}
+
+/// Closed segments ab and cd have a point in common.
+bool touch(Point a, Point b, Point c, Point d)
+{
+    const double d1 = cross(a, b, c), d2 = cross(a, b, d), d3 = cross(c, d, a), d4 = cross(c, d, b);
+    if (((d1 > 0) != (d2 > 0)) && ((d3 > 0) != (d4 > 0)) && d1 != 0 && d2 != 0 && d3 != 0 && d4 != 0) return true;
+    return (d1 == 0 && between(a, b, c)) || (d2 == 0 && between(a, b, d)) || (d3 == 0 && between(c, d, a)) ||
+           (d4 == 0 && between(c, d, b));
+}
+
+std::string point_text(Point p)
+{
+    return fmt::format("({}, {})", shortest(p.x), shortest(p.y));
+}
+
+void check_polygon(const Polyline& p, Findings& findings)
+{
+    const auto wrong = [&](std::string problem, std::string fix) {
+        findings.wrong("section.polygon", "section.polygon_m " + std::move(problem),
+                       "a simple polygon, counter-clockwise, from the heel at (0, 0) along the base to the toe",
+                       std::move(fix));
+    };
+    const std::size_t n = p.size();
+    if (n < 3) return wrong(fmt::format("has {} vertices.", n), "give at least three");
+    if (n > 400) return wrong(fmt::format("has {} vertices.", n), "a section needs far fewer; at most 400");
+    if (p[0] != Point{0, 0})
+        return wrong("starts at " + point_text(p[0]) + ".", "shift it so that the heel, given first, is (0, 0)");
+    for (const Point& q : p)
+        if (std::abs(q.x) > 1e5 || std::abs(q.y) > 1e5)
+            return wrong("has the vertex " + point_text(q) + ".", "coordinates are metres; at most 100 km");
+    for (std::size_t i = 0; i < n; ++i)
+        if (p[i] == p[(i + 1) % n])
+            return wrong("repeats the vertex " + point_text(p[i]) + ".", "delete one; the polygon closes by itself");
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 2; j < n; ++j) {
+            if (i == 0 && j == n - 1) continue;
+            if (touch(p[i], p[i + 1], p[j], p[(j + 1) % n]))
+                return wrong(fmt::format("crosses itself: edge {}-{} meets edge {}-{}.", point_text(p[i]),
+                                         point_text(p[i + 1]), point_text(p[j]), point_text(p[(j + 1) % n])),
+                             "put the vertices in order along the outline");
+        }
+    const double signed_area = area({p});
+    if (!(signed_area != 0)) return wrong("has no area.", "give the outline of the section");
+    if (signed_area < 0)
+        return wrong("runs clockwise.", "reverse the order after the heel: (0, 0), toe, ..., crest, back to the heel");
+    if (!(p[1].x > 0) || std::abs(p[1].y) > p[1].x)
+        return wrong("has the toe " + point_text(p[1]) + ".",
+                     "the second vertex is the toe, downstream (x > 0); the base dips less than 45 degrees");
+    if (crest_level({p}) <= 0) return wrong("has no vertex above the heel.", "y is up; the base is the first edge");
+    for (std::size_t i = 2; i < n; ++i)
+        if (cross(p[0], p[1], p[i]) <= 0)
+            return wrong("has the vertex " + point_text(p[i]) + " on or below the base.",
+                         "the base is the edge from heel to toe; all other vertices lie above its line");
+}
+
+Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
+{
+    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
+        if (!value)
+            findings.wrong("section", fmt::format("section.{} is missing.", key),
+                           "polygon_m, or height_m, base_m and crest_m",
+                           fmt::format("add  {} = {}  or a polygon_m to [section]", key, example));
+        return value.has_value();
+    };
+    if (!(need(in.height, "height_m", "62.5") & need(in.base, "base_m", "45"))) return {};
+    const double h = *in.height, b = *in.base, crest = in.crest.value_or(0), neck = in.neck.value_or(0);
+    const double batter_height = std::min(in.upstream_slope_height.value_or(h), h);
+    const double crest_from = in.upstream_slope.value_or(0) * batter_height; // x of the crest's upstream end
+    const double crest_to = crest_from + crest;
+    const auto wrong = [&](const char* key, std::string problem, std::string fix) {
+        findings.wrong(std::string("section.") + key, std::move(problem), "dimensions that make a section",
+                       std::move(fix));
+    };
+    if (neck >= h)
+        wrong("neck",
+              fmt::format("section.neck_m = {} is not below section.height_m = {}.", shortest(neck), shortest(h)),
+              "neck_m is the height of the vertical downstream face below the crest");
+    else if (crest_to > b)
+        wrong("crest",
+              fmt::format("the crest ends at x = {} m, downstream of the toe at section.base_m = {}.",
+                          shortest(crest_to), shortest(b)),
+              "widen the base, or lessen crest_m or upstream_slope");
+    const double toe_y = -b * std::tan(in.base_inclination.value_or(0));
+    if (toe_y >= h - neck)
+        wrong("base_inclination",
+              fmt::format("section.base_inclination_deg puts the toe at y = {} m.", shortest(toe_y)),
+              "the toe must lie below the downstream face");
+    Polyline p{{0, 0}, {b, toe_y}};
+    const auto add = [&p](Point q) {
+        if (q != p.back() && q != p.front()) p.push_back(q);
+    };
+    add({crest_to, h - neck});
+    add({crest_to, h});
+    add({crest_from, h});
+    if (batter_height < h) add({crest_from, batter_height});
+    return p;
+}
+
+std::string value(const char* key, double x)
+{
+    return fmt::format("{} = {}", key, shortest(x));
+}
+
+void check_base(const Scene& s, Findings& f)
+{
+    const double base = base_length(s.section);
+    if (s.curtain && s.curtain->distance + s.curtain->thickness > base)
+        f.wrong("curtain.distance",
+                fmt::format("the curtain ends outside the base: {} + {}, base length = {} m.",
+                            value("curtain.distance_m", s.curtain->distance),
+                            value("curtain.thickness_m", s.curtain->thickness), shortest(base)),
+                "distance_m + thickness_m at most the base length", "lessen curtain.distance_m");
+    if (s.curtain && s.foundation && s.curtain->depth >= s.foundation->depth)
+        f.wrong("curtain.depth",
+                fmt::format("{} reaches through the rock box, {}.", value("curtain.depth_m", s.curtain->depth),
+                            value("foundation.depth_m", s.foundation->depth)),
+                "curtain.depth_m below foundation.depth_m", "deepen the box or shorten the curtain");
+    if (s.foundation && s.foundation->width < 1.2 * base)
+        f.wrong("foundation.width",
+                fmt::format("{} is too narrow for a base of {} m.", value("foundation.width_m", s.foundation->width),
+                            shortest(base)),
+                "at least 1.2 x base; 5 to 7 x base is usual", "widen the box");
+    if (s.drains && s.drains->distance >= base)
+        f.wrong("drains.distance",
+                fmt::format("{} is not within the base of {} m.", value("drains.distance_m", s.drains->distance),
+                            shortest(base)),
+                "0 ... below the base length", "measure along the base from the heel");
+    if (!s.uplift) return;
+    const auto needs = [&](UpliftModel model, bool there, const char* word, const char* table) {
+        if (s.uplift->model == model && !there)
+            f.wrong("uplift.model", fmt::format("uplift.model = \"{}\" needs {}.", word, table), table,
+                    fmt::format("add {} or choose another uplift.model", table));
+    };
+    needs(UpliftModel::curtain, s.curtain.has_value(), "curtain", "a [curtain] with its distance_m");
+    needs(UpliftModel::drains, s.drains.has_value(), "drains", "a [drains] with its distance_m");
+    needs(UpliftModel::points, !s.uplift->points.empty(), "points", "uplift.points_m");
+    if (s.uplift->model != UpliftModel::points && !s.uplift->points.empty())
+        f.wrong("uplift.points", "uplift.points_m is given, but uplift.model is not \"points\".",
+                "model = \"points\" with points_m", "write  model = \"points\"  or delete points_m");
+    const auto& p = s.uplift->points;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (p[i].x < 0 || p[i].x > base * (1 + 1e-12) || (i && p[i].x < p[i - 1].x)) {
+            f.wrong("uplift.points",
+                    fmt::format("uplift.points_m has the distance {} at place {}.", shortest(p[i].x), i + 1),
+                    fmt::format("distances along the base from 0 to {} m, not decreasing", shortest(base)),
+                    "put the points in order from heel to toe");
+            break;
+        }
+    if (!p.empty() && (p.front().x != 0 || std::abs(p.back().x - base) > 1e-9 * base))
+        f.wrong("uplift.points",
+                fmt::format("uplift.points_m covers {} to {} m.", shortest(p.front().x), shortest(p.back().x)),
+                fmt::format("from 0 (heel) to {} (toe)", shortest(base)), "add the missing end");
+}
+
+void check_strength(const Scene& s, Findings& f)
+{
+    const Contact& c = s.contact;
+    if (c.residual_friction && *c.residual_friction > c.friction)
+        f.wrong("contact.residual_friction",
+                fmt::format("{} is above the peak value, {}.", value("contact.residual_friction", *c.residual_friction),
+                            value("contact.friction", c.friction)),
+                "at most contact.friction", "exchange the two values");
+    if (!c.residual_friction && (f.given("contact.residual_slip")))
+        f.wrong("contact.residual_slip", "contact.residual_slip_m is given without contact.residual_friction.",
+                "both or neither", "add  residual_friction = 0.65  to [contact]");
+    if (!c.friction_table.empty() && c.residual_friction)
+        f.wrong("contact.friction_table", "contact.friction_table_m and contact.residual_friction are both given.",
+                "one of them", "delete one");
+    for (std::size_t i = 0; i < c.friction_table.size(); ++i)
+        if (c.friction_table[i].x < 0 || (i == 0 && c.friction_table[i].x != 0) ||
+            (i && c.friction_table[i].x <= c.friction_table[i - 1].x)) {
+            f.wrong("contact.friction_table",
+                    fmt::format("contact.friction_table_m has the slip {} at place {}.",
+                                shortest(c.friction_table[i].x), i + 1),
+                    "slips from 0, increasing", "put the pairs in order, the first at slip 0");
+            break;
+        }
+}
+
+void check_water(const Scene& s, Findings& f)
+{
+    if (s.silt && s.silt->level > crest_level(s.section))
+        f.wrong("silt.level",
+                fmt::format("{} is above the crest at {} m.", value("silt.level_m", s.silt->level),
+                            shortest(crest_level(s.section))),
+                "at most the crest", "lower it");
+    if (s.reservoir && s.reservoir->level > 3 * crest_level(s.section))
+        f.wrong("reservoir.level",
+                fmt::format("{} is more than three times the height of the crest, {} m.",
+                            value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
+                "metres above the heel", "check datum and unit");
+    if (s.added_mass.period && s.reservoir) {
+        const double h = s.reservoir->level, c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
+        if (s.added_mass.formula == AddedMassFormula::westergaard && *s.added_mass.period <= 4 * h / c)
+            f.wrong("added_mass.period",
+                    fmt::format("{} is not above the reservoir's own first period 4 h/c = {:.4g} s.",
+                                value("added_mass.period_s", *s.added_mass.period), 4 * h / c),
+                    "the period of the excitation or of the dam, longer than 4 h/c; Westergaard's series (3-1) has a "
+                    "pole there",
+                    "leave period_s out for incompressible water, or model the reservoir as acoustic");
+    }
+    for (std::size_t i = 1; i < s.added_mass.zangar_table.size(); ++i)
+        if (s.added_mass.zangar_table[i].x <= s.added_mass.zangar_table[i - 1].x) {
+            f.wrong("added_mass.zangar_table", "added_mass.zangar_table_deg has angles that do not increase.",
+                    "angles from the vertical, increasing", "put the pairs in order");
+            break;
+        }
+}
+
+void check_motion(const Scene& s, Findings& f, FileCheck files)
+{
+    if (s.motion.polarity != 1 && s.motion.polarity != -1)
+        f.wrong("motion.polarity", fmt::format("motion.polarity = {} is not allowed.", s.motion.polarity), "1 or -1",
+                "write  polarity = -1  to flip the horizontal component");
+    static const std::set<std::string> known{"", "g", "m/s2", "cm/s2", "gal", "mg"};
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.motion.records.size(); ++i) {
+        const RecordFiles& r = s.motion.records[i];
+        const std::string label = fmt::format("motion.record[{}]", i + 1);
+        if (!known.contains(r.unit))
+            f.wrong(label + ".unit", fmt::format("{}.unit = \"{}\" is not allowed.", label, r.unit),
+                    "\"g\", \"m/s2\", \"cm/s2\", \"gal\" or \"mg\"", "write  unit = \"g\"");
+        if (!names.insert(r.name).second)
+            f.wrong(label + ".name", fmt::format("two records are named \"{}\".", r.name), "names that differ",
+                    fmt::format("give one a name of its own in [[motion.record]] number {}", i + 1));
+        if (files == FileCheck::skip) continue;
+        const auto exists = [&](const std::filesystem::path& p, const char* key) {
+            std::error_code error;
+            if (!std::filesystem::is_regular_file(p, error))
+                f.wrong(label + "." + key, fmt::format("{}.{}: there is no file {}.", label, key, p.string()),
+                        "an accelerogram file, named relative to the scene file",
+                        "correct the name, or copy the file there");
+        };
+        exists(r.horizontal, "horizontal");
+        if (r.vertical) exists(*r.vertical, "vertical");
+    }
+}
+
+void check_combinations(const Scene& s, Findings& f)
+{
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.combinations.size(); ++i) {
+        const Combination& c = s.combinations[i];
+        const std::string label = fmt::format("combination[{}]", i + 1);
+        if (!names.insert(c.name).second)
+            f.wrong(label + ".name", fmt::format("two combinations are named \"{}\".", c.name), "names that differ",
+                    "rename one");
+        if (c.ice && !s.ice)
+            f.wrong(label + ".ice", label + ".ice = true, but the scene has no [ice].",
+                    "an [ice] table with force_kN_m", "add [ice] or delete the line");
+        if ((f.given(label + ".reservoir_level") && !s.reservoir) ||
+            (f.given(label + ".tailwater_level") && !s.tailwater))
+            f.wrong(label + ".reservoir_level", label + " changes a water level of a table the scene does not have.",
+                    "[reservoir] for reservoir_level_m, [tailwater] for tailwater_level_m",
+                    "add the table; its level_m may be 0");
+        if (c.required_resultant && *c.required_resultant != "kern" && *c.required_resultant != "middle-half" &&
+            *c.required_resultant != "base")
+            f.wrong(label + ".required_resultant",
+                    fmt::format("{}.required_resultant = \"{}\" is not allowed.", label, *c.required_resultant),
+                    "\"kern\", \"middle-half\" or \"base\"", "write  required_resultant = \"base\"");
+    }
+}
+
+void check_fe(const Scene& s, Findings& f)
+{
+    const Damping& d = s.damping;
+    if (d.first_mode < 1 || d.second_mode <= d.first_mode || d.second_mode > 100)
+        f.wrong("damping.second_mode",
+                fmt::format("damping.first_mode = {} and damping.second_mode = {} are not allowed.", d.first_mode,
+                            d.second_mode),
+                "1 <= first_mode < second_mode <= 100", "write  first_mode = 1  and  second_mode = 5");
+    if (d.mass_coefficient.has_value() != d.stiffness_coefficient.has_value())
+        f.wrong("damping", "damping.mass_coefficient_1_s and damping.stiffness_coefficient_s are not both given.",
+                "both or neither", "add the other, 0 if it is meant to be absent");
+    if (s.mesh.size && s.mesh.contact_size && *s.mesh.contact_size > *s.mesh.size)
+        f.wrong("mesh.contact_size",
+                fmt::format("{} is above {}.", value("mesh.contact_size_m", *s.mesh.contact_size),
+                            value("mesh.size_m", *s.mesh.size)),
+                "at most mesh.size_m", "exchange the two values");
+    if (s.time.scheme == TimeScheme::newmark && f.given("time.alpha"))
+        f.wrong("time.alpha", "time.alpha belongs to time.scheme = \"hht\", but the scheme is \"newmark\".",
+                "gamma and beta for newmark", "delete alpha or choose hht");
+    if (s.time.scheme == TimeScheme::hht && (f.given("time.gamma") || f.given("time.beta")))
+        f.wrong(f.given("time.gamma") ? "time.gamma" : "time.beta",
+                "time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.",
+                "alpha for hht", "delete them or choose newmark");
+}
+
+} // namespace
+
+Section make_section(const SectionInput& in, Findings& findings)
+{
+    const bool dimensions = in.height || in.base || in.crest || in.neck || in.upstream_slope ||
+                            in.upstream_slope_height || in.base_inclination;
+    Section section{in.polygon};
+    if (!in.polygon.empty() && dimensions) {
+        findings.wrong("section", "section.polygon_m is given together with dimensions.",
+                       "polygon_m alone, or height_m, base_m, crest_m ... alone", "delete one of the two descriptions");
+        return section;
+    }
+    if (in.polygon.empty()) {
+        if (findings.given("section.polygon")) return section; // already reported
+        section.polygon = polygon_by_dimensions(in, findings);
+        if (section.polygon.empty()) return section;
+    }
+    if (!findings.any()) check_polygon(section.polygon, findings);
+    return section;
+}
+
+void fill_defaults(Scene& scene, const Findings& findings)
+{
+    const double base = base_length(scene.section);
+    if (scene.reservoir) {
+        if (!findings.given("reservoir.level")) scene.reservoir->level = crest_level(scene.section);
+        if (!findings.given("reservoir.length")) scene.reservoir->length = std::max(2.4 * scene.reservoir->level, 1e-3);
+    }
+    if (scene.ice && !findings.given("ice.level"))
+        scene.ice->level = scene.reservoir ? scene.reservoir->level : crest_level(scene.section);
+    if (scene.foundation) {
+        if (!findings.given("foundation.width")) scene.foundation->width = base * 20.0 / 3.0;
+        if (!findings.given("foundation.depth"))
+            scene.foundation->depth = std::max(base * 20.0 / 9.0, scene.curtain ? 2 * scene.curtain->depth : 0.0);
+    }
+    const bool water = scene.reservoir || scene.tailwater;
+    if (!scene.uplift && scene.curtain && water)
+        scene.uplift.emplace().model = UpliftModel::seepage;
+    else if (scene.uplift && !findings.given("uplift.model"))
+        scene.uplift->model = !scene.uplift->points.empty() ? UpliftModel::points
+                              : scene.curtain               ? UpliftModel::seepage
+                              : scene.drains                ? UpliftModel::drains
+                                                            : UpliftModel::linear;
+    for (PointForce& force : scene.forces)
+        if (force.name.empty()) force.name = "force";
+}
+
+void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
+{
+    check_base(scene, findings);
+    check_strength(scene, findings);
+    check_water(scene, findings);
+    check_motion(scene, findings, files);
+    check_combinations(scene, findings);
+    check_fe(scene, findings);
+}
+
+} // namespace damslip

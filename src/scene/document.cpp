@@ -1,0 +1,164 @@
+#include "scene/document.hpp"
+
+#include "scene/key_table.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_number(const Slot& slot)
+{
+    return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot) ||
+           std::holds_alternative<NumberOrWord>(slot);
+}
+
+Json number_schema(const Range& range, double canonical_to_unit)
+{
+    Json j{{"type", "number"}};
+    if (std::isfinite(range.low)) j[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low * canonical_to_unit;
+    if (std::isfinite(range.high)) j[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high * canonical_to_unit;
+    return j;
+}
+
+Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
+{
+    if (is_number(slot)) {
+        const Range degrees{0, 89.9, false, true};
+        Json j = unit.tangent ? number_schema(degrees, 1.0)
+                              : number_schema(key.range, key.units.front().factor / unit.factor);
+        if (const auto* either = std::get_if<NumberOrWord>(&slot)) return {{"anyOf", {j, {{"const", either->word}}}}};
+        return j;
+    }
+    if (std::holds_alternative<int*>(slot)) return {{"type", "integer"}};
+    if (std::holds_alternative<bool*>(slot)) return {{"type", "boolean"}};
+    if (const auto* c = std::get_if<Choice>(&slot)) return {{"enum", c->words}};
+    if (std::holds_alternative<std::vector<Point>*>(slot))
+        return {{"type", "array"},
+                {"minItems", 1},
+                {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "number"}}}}}};
+    return {{"type", "string"}, {"minLength", 1}};
+}
+
+/// A Scene with every optional table present, so that each key has a place to look at.
+Slot probe(const KeyGroup& group, const Key& key, Scene& scene)
+{
+    return key.slot(group.open(scene));
+}
+
+Json group_schema(const KeyGroup& group, Scene& scene)
+{
+    Json properties = Json::object();
+    Json required = Json::array();
+    Json one_of_spellings = Json::array();
+    for (const Key& key : group.keys) {
+        const Slot slot = probe(group, key, scene);
+        const Units units = key.units.empty() ? Units{{"", 1.0}} : key.units;
+        Json spellings = Json::array();
+        for (const UnitSuffix& unit : units) {
+            Json schema = value_schema(key, unit, slot);
+            schema["description"] = key.meaning + (key.default_text.empty() ? "" : ". Default: " + key.default_text);
+            const std::string name = unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix;
+            properties[name] = schema;
+            spellings.push_back({{"required", {name}}});
+        }
+        if (!key.required) continue;
+        if (spellings.size() == 1)
+            required.push_back(key.canonical());
+        else
+            one_of_spellings.push_back({{"oneOf", spellings}});
+    }
+    Json j{{"type", "object"},
+           {"description", group.meaning},
+           {"additionalProperties", false},
+           {"properties", properties}};
+    if (!required.empty()) j["required"] = required;
+    if (!one_of_spellings.empty()) j["allOf"] = one_of_spellings;
+    return group.presence == Presence::list ? Json{{"type", "array"}, {"items", j}} : j;
+}
+
+std::string escaped(std::string text)
+{
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
+    return text;
+}
+
+std::string allowed(const Key& key, const Slot& slot)
+{
+    if (const auto* c = std::get_if<Choice>(&slot)) return fmt::format("`{}`", fmt::join(c->words, "`, `"));
+    if (std::holds_alternative<bool*>(slot)) return "`true`, `false`";
+    if (std::holds_alternative<int*>(slot)) return "whole number";
+    if (const auto* either = std::get_if<NumberOrWord>(&slot))
+        return key.range.text() + " or `\"" + either->word + "\"`";
+    if (is_number(slot)) return key.range.text();
+    if (std::holds_alternative<std::vector<Point>*>(slot)) return "list of pairs, second entry " + key.range.text();
+    return "text";
+}
+
+} // namespace
+
+std::string scene_schema()
+{
+    SectionInput section;
+    Scene scene;
+    Json root{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "damslip scene"},
+              {"type", "object"},
+              {"additionalProperties", false}};
+    Json properties = Json::object();
+    Json required = Json::array();
+    for (const KeyGroup& group : key_groups(section)) {
+        Json schema = group_schema(group, scene);
+        if (group.name.empty()) {
+            for (auto& [name, value] : schema["properties"].items()) properties[name] = value;
+            continue;
+        }
+        const std::size_t dot = group.name.find('.');
+        if (dot != std::string::npos) {
+            properties[group.name.substr(0, dot)]["properties"][group.name.substr(dot + 1)] = schema;
+            continue;
+        }
+        if (group.presence == Presence::always && (schema.contains("required") || schema.contains("allOf")))
+            required.push_back(group.name);
+        properties[group.name] = schema;
+    }
+    required.push_back("section");
+    properties["expect"] = {
+        {"type", "object"},
+        {"additionalProperties", {{"type", "object"}, {"required", {"value", "digits", "source"}}}}};
+    root["required"] = required;
+    root["properties"] = properties;
+    return root.dump(2) + "\n";
+}
+
+std::string scene_keys_markdown()
+{
+    SectionInput section;
+    Scene scene;
+    std::string out = "# Keys of a scene file\n\nMade from the key table of the program (`damslip schema --markdown`). "
+                      "Numbers carry their unit in the key; the other spellings of a key "
+                      "accept other units.\nTables and keys that are not given switch nothing on.\n";
+    for (const KeyGroup& group : key_groups(section)) {
+        const std::string header = group.name.empty()                 ? "Top level"
+                                   : group.presence == Presence::list ? "`[[" + group.name + "]]`"
+                                                                      : "`[" + group.name + "]`";
+        out += fmt::format("\n## {}\n{}\n\n| key | allowed | default | meaning |\n| --- | --- | --- | --- |\n", header,
+                           group.meaning);
+        for (const Key& key : group.keys) {
+            std::vector<std::string> others = key.spellings();
+            others.erase(others.begin());
+            const Slot slot = probe(group, key, scene);
+            out += fmt::format("| `{}`{} | {} | {} | {} |\n", key.canonical(),
+                               others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")),
+                               escaped(allowed(key, slot)), escaped(key.default_text), escaped(key.meaning));
+        }
+    }
+    return out;
+}
+
+} // namespace damslip

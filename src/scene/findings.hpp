@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/input_error.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace damslip {
+
+/// What reading found: where each key stands in the file, and everything that is wrong so far.
+class Findings {
+public:
+    struct Place {
+        int line = 0, column = 0;
+    };
+
+    explicit Findings(std::string file) : file_(std::move(file)) {}
+
+    void saw(const std::string& key, Place place) { places_[key] = place; }
+    bool given(const std::string& key) const { return places_.contains(key); }
+    Place place(const std::string& key) const; ///< of the key or, failing that, of its table
+
+    /// `key` says where; `problem` is the whole first sentence.
+    void wrong(const std::string& key, std::string problem, std::string expected, std::string fix);
+    void wrong_at(Place place, std::string problem, std::string expected, std::string fix);
+    bool any() const { return !diagnostics_.empty(); }
+    void throw_if_any(); ///< @throws InputError, in the order of the file
+
+private:
+    std::string file_;
+    std::map<std::string, Place> places_;
+    std::vector<Diagnostic> diagnostics_;
+};
+
+} // namespace damslip

@@ -1,0 +1,44 @@
+#include "scene/key_table.hpp"
+
+#include "core/number.hpp"
+
+#include <cmath>
+
+namespace damslip {
+
+bool Range::contains(double x) const
+{
+    if (!std::isfinite(x)) return false;
+    return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
+}
+
+std::string Range::text() const
+{
+    const bool bounded_low = std::isfinite(low), bounded_high = std::isfinite(high);
+    if (!bounded_low && !bounded_high) return "any number";
+    if (!bounded_high) return (low_open ? "> " : ">= ") + shortest(low);
+    if (!bounded_low) return (high_open ? "< " : "<= ") + shortest(high);
+    return (low_open ? "above " : "") + shortest(low) + " ... " + (high_open ? "below " : "") + shortest(high);
+}
+
+namespace {
+std::string spelled(const std::string& name, const UnitSuffix& unit)
+{
+    return unit.suffix.empty() ? name : name + "_" + unit.suffix;
+}
+} // namespace
+
+std::string Key::canonical() const
+{
+    return units.empty() ? name : spelled(name, units.front());
+}
+
+std::vector<std::string> Key::spellings() const
+{
+    if (units.empty()) return {name};
+    std::vector<std::string> names;
+    for (const UnitSuffix& unit : units) names.push_back(spelled(name, unit));
+    return names;
+}
+
+} // namespace damslip

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The one table that describes every key of a scene file. Reader, JSON Schema, documentation and the writer of
+/// resolved scenes are all made from it, so they cannot disagree.
+namespace damslip {
+
+/// A way to write a quantity: key suffix and what turns the number into SI.
+struct UnitSuffix {
+    std::string suffix;   ///< "m", "GPa", "deg"; empty: the bare key
+    double factor = 1.0;  ///< SI value = factor * written value ...
+    bool tangent = false; ///< ... or tan(written value in degrees), for friction angles
+};
+
+/// The accepted suffixes of one kind of quantity; the first is the one written to resolved scenes and shown in the
+/// docs.
+using Units = std::vector<UnitSuffix>;
+
+/// Allowed values, in the unit of the first suffix.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool low_open = false, high_open = false;
+
+    static Range any() { return {}; }
+    static Range above(double x) { return {x, std::numeric_limits<double>::infinity(), true, false}; }
+    static Range at_least(double x) { return {x, std::numeric_limits<double>::infinity(), false, false}; }
+    static Range between(double a, double b) { return {a, b, false, false}; }
+    static Range half_open(double a, double b) { return {a, b, true, false}; }
+    static Range inside(double a, double b) { return {a, b, true, true}; }
+
+    bool contains(double x) const; ///< false for NaN and infinities
+    std::string text() const;      ///< "> 0", "0 ... 1", "any number"
+};
+
+/// An enumeration by its words in the file.
+struct Choice {
+    std::vector<std::string> words;
+    std::function<void(int)> set; ///< index into words
+    std::function<int()> get;
+};
+
+/// A number or one word: added_mass.period_s = 0.28 | "dam".
+struct NumberOrWord {
+    std::optional<double>* number;
+    bool* word_given;
+    std::string word;
+};
+
+/// Where the value of a key lives in its struct.
+using Slot = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, std::optional<std::string>*,
+                          std::filesystem::path*, std::optional<std::filesystem::path>*, std::vector<Point>*, Choice,
+                          NumberOrWord>;
+
+struct Key {
+    std::string name;   ///< without unit suffix
+    Units units;        ///< of the number, or of the first entry of a pair; empty suffix only: no unit
+    Units second_units; ///< pairs: of the second entry
+    Range range;        ///< numbers; pairs: of the second entry
+    bool required = false;
+    std::string
+        default_text; ///< shown in the docs; the value itself is the struct's initialiser or is filled in after reading
+    std::string meaning; ///< one sentence
+    std::string example; ///< as written in a file: "0.77"
+    std::function<Slot(void*)> slot;
+    std::function<bool(const void*)> applies = {}; ///< false: left out of resolved scenes, another choice makes it meaningless
+
+    std::string canonical() const;              ///< name with the first suffix: "level_m"
+    std::vector<std::string> spellings() const; ///< all accepted names
+};
+
+enum class Presence { always, optional, list };
+
+/// One [table] or [[list of tables]] of the file, bound to one struct.
+struct KeyGroup {
+    std::string name; ///< "reservoir", "motion.record"; empty: top level
+    Presence presence = Presence::optional;
+    std::string meaning;
+    std::vector<Key> keys;
+    std::function<void*(Scene&)> open; ///< makes the struct (a new item for lists) and returns it
+    std::function<std::vector<const void*>(const Scene&)> items; ///< those present, for writing
+};
+
+/// What [section] may say; turned into the polygon of Scene::section after reading.
+struct SectionInput {
+    std::vector<Point> polygon;
+    std::optional<double> height, base, crest, neck, upstream_slope, upstream_slope_height, base_inclination;
+};
+
+/// The whole table. `section` receives what [section] says; it must outlive the use of the groups.
+std::vector<KeyGroup> key_groups(SectionInput& section);
+
+} // namespace damslip

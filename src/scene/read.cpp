@@ -1,0 +1,407 @@
+#include "scene/read.hpp"
+
+#include "core/file.hpp"
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "scene/check.hpp"
+#include "scene/findings.hpp"
+#include "scene/key_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+#include <toml++/toml.h>
+
+namespace damslip {
+
+namespace {
+
+Findings::Place place_of(const toml::source_region& source)
+{
+    return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+std::string value_text(const toml::node& node)
+{
+    if (const auto* s = node.as_string()) return "\"" + s->get().substr(0, 80) + "\"";
+    if (const auto* f = node.as_floating_point()) return shortest(f->get());
+    if (const auto* i = node.as_integer()) return std::to_string(i->get());
+    if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+    if (node.is_array()) return "[...]";
+    if (node.is_table()) return "{...}";
+    return "a date or time";
+}
+
+std::string full_name(const std::string& group, const std::string& key)
+{
+    return group.empty() ? key : group + "." + key;
+}
+
+double to_si(double value, const UnitSuffix& unit)
+{
+    return unit.tangent ? std::tan(value * units::degree) : value * unit.factor;
+}
+
+std::string allowed_text(const Key& key, const Range& range, const Units& units)
+{
+    std::string text = range.text() == "any number" ? "a number" : "a number " + range.text();
+    if (!units.empty() && !units.front().suffix.empty()) text += " [" + units.front().suffix + "]";
+    return text + ": " + key.meaning;
+}
+
+/// Reads the keys of one [table] into its struct.
+class GroupReader {
+public:
+    GroupReader(const KeyGroup& group, std::string label, Findings& findings, std::set<std::string> subgroups)
+        : group_(group), label_(std::move(label)), findings_(findings), subgroups_(std::move(subgroups))
+    {
+    }
+
+    void read(const toml::table& table, void* object)
+    {
+        std::map<std::string, std::string> used; // key -> spelling
+        for (auto&& [name, node] : table) {
+            const std::string spelling(name.str());
+            if (node.is_table() || node.is_array_of_tables())
+                if (subgroups_.contains(spelling)) continue;
+            const auto [key, unit] = find(spelling);
+            const Findings::Place place = place_of(name.source());
+            if (!key) {
+                unknown(spelling, place);
+                continue;
+            }
+            const std::string full = full_name(label_, key->name);
+            if (const auto twice = used.find(key->name); twice != used.end()) {
+                findings_.wrong_at(place,
+                                   fmt::format("{} is given twice, as {} and {}.", full, twice->second, spelling),
+                                   "one of them", "delete one");
+                continue;
+            }
+            used[key->name] = spelling;
+            findings_.saw(full, place);
+            assign(*key, unit, spelling, node, object);
+        }
+        for (const Key& key : group_.keys)
+            if (key.required && !used.contains(key.name)) missing(key);
+    }
+
+private:
+    std::pair<const Key*, UnitSuffix> find(const std::string& spelling) const
+    {
+        for (const Key& key : group_.keys) {
+            if (key.units.empty() && key.name == spelling) return {&key, {}};
+            for (const UnitSuffix& unit : key.units)
+                if ((unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix) == spelling) return {&key, unit};
+        }
+        return {nullptr, {}};
+    }
+
+    void unknown(const std::string& spelling, Findings::Place place)
+    {
+        const std::string full = full_name(label_, spelling);
+        for (const Key& key : group_.keys) { // the name is right but its unit is missing or not accepted
+            const bool bare = spelling == key.name;
+            const bool other_unit =
+                spelling.starts_with(key.name + "_") && !key.units.empty() && !key.units.front().suffix.empty();
+            if (!bare && !other_unit) continue;
+            findings_.wrong_at(
+                place,
+                fmt::format("{} {}.", full, bare ? "has no unit in its name" : "has an unknown unit in its name"),
+                fmt::format("{}", fmt::join(key.spellings(), ", ")), "write  " + key.canonical() + " = " + key.example);
+            return;
+        }
+        std::vector<std::string> names;
+        for (const Key& key : group_.keys)
+            for (const std::string& s : key.spellings()) names.push_back(s);
+        const std::vector<std::string> canonical = [&] {
+            std::vector<std::string> c;
+            for (const Key& key : group_.keys) c.push_back(key.canonical());
+            return c;
+        }();
+        const std::string_view near = nearest(spelling, names);
+        findings_.wrong_at(
+            place,
+            fmt::format("unknown key {}.{}", full,
+                        near.empty() ? "" : fmt::format(" Did you mean {}?", full_name(label_, std::string(near)))),
+            fmt::format("keys of {}: {}", label_.empty() ? "the top level" : "[" + label_ + "]",
+                        fmt::join(canonical, ", ")),
+            near.empty() ? "correct or delete the line" : "write  " + std::string(near));
+    }
+
+    void missing(const Key& key)
+    {
+        findings_.wrong(label_.empty() ? key.name : label_,
+                        fmt::format("{} is missing.", full_name(label_, key.canonical())),
+                        key.units.empty() ? key.meaning : allowed_text(key, key.range, key.units),
+                        fmt::format("add  {} = {}{}", key.canonical(), key.example,
+                                    label_.empty() ? "" : "  to [" + group_.name + "]"));
+    }
+
+    void not_allowed(const Key& key, const std::string& spelling, const toml::node& node, const std::string& expected)
+    {
+        findings_.wrong_at(place_of(node.source()),
+                           fmt::format("{} = {} is not allowed.", full_name(label_, spelling), value_text(node)),
+                           expected, fmt::format("for example  {} = {}", key.canonical(), key.example));
+    }
+
+    /// The number in `node` as SI if it is finite and in range (the range is in canonical units).
+    std::optional<double> number(const Key& key, const UnitSuffix& unit, const Units& units, const Range& range,
+                                 const std::string& spelling, const toml::node& node,
+                                 const std::string& expected_extra = "")
+    {
+        const std::optional<double> written = node.is_number() ? node.value<double>() : std::nullopt;
+        const bool angle_of_friction = unit.tangent;
+        if (written && std::isfinite(*written) && (!angle_of_friction || (*written >= 0 && *written < 89.9))) {
+            const double si = to_si(*written, unit);
+            const double canonical =
+                units.empty() || unit.suffix == units.front().suffix ? *written : si / units.front().factor;
+            if (range.contains(canonical) && std::isfinite(si)) return si;
+        }
+        not_allowed(key, spelling, node,
+                    (angle_of_friction ? "0 ... below 89.9 [deg]: " + key.meaning : allowed_text(key, range, units)) +
+                        expected_extra);
+        return std::nullopt;
+    }
+
+    void assign(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,
+                void* object)
+    {
+        const Slot slot = key.slot(object);
+        if (auto* const* d = std::get_if<double*>(&slot)) {
+            if (const auto v = number(key, unit, key.units, key.range, spelling, node)) **d = *v;
+        } else if (auto* const* o = std::get_if<std::optional<double>*>(&slot)) {
+            if (const auto v = number(key, unit, key.units, key.range, spelling, node)) **o = *v;
+        } else if (const auto* either = std::get_if<NumberOrWord>(&slot)) {
+            if (node.value<std::string>() == either->word)
+                *either->word_given = true;
+            else if (const auto v =
+                         number(key, unit, key.units, key.range, spelling, node, " or \"" + either->word + "\""))
+                *either->number = *v;
+        } else if (auto* const* i = std::get_if<int*>(&slot)) {
+            const auto v = node.value_exact<int64_t>();
+            if (v && *v >= -1000 && *v <= 1000)
+                **i = static_cast<int>(*v);
+            else
+                not_allowed(key, spelling, node, "a whole number: " + key.meaning);
+        } else if (auto* const* b = std::get_if<bool*>(&slot)) {
+            if (const auto v = node.value_exact<bool>())
+                **b = *v;
+            else
+                not_allowed(key, spelling, node, "true or false: " + key.meaning);
+        } else if (const auto* c = std::get_if<Choice>(&slot)) {
+            read_choice(key, *c, spelling, node);
+        } else if (auto* const* points = std::get_if<std::vector<Point>*>(&slot)) {
+            read_pairs(key, unit, spelling, node, **points);
+        } else {
+            read_text(key, slot, spelling, node);
+        }
+    }
+
+    void read_choice(const Key& key, const Choice& choice, const std::string& spelling, const toml::node& node)
+    {
+        const auto word = node.value_exact<std::string>();
+        for (std::size_t i = 0; word && i < choice.words.size(); ++i)
+            if (choice.words[i] == *word) return choice.set(static_cast<int>(i));
+        const std::string_view near = word ? nearest(*word, choice.words) : std::string_view{};
+        findings_.wrong_at(
+            place_of(node.source()),
+            fmt::format("{} = {} is not allowed.", full_name(label_, spelling), value_text(node)),
+            fmt::format("one of \"{}\": {}", fmt::join(choice.words, "\", \""), key.meaning),
+            fmt::format("write  {} = \"{}\"", key.name, near.empty() ? choice.words.front() : std::string(near)));
+    }
+
+    void read_text(const Key& key, const Slot& slot, const std::string& spelling, const toml::node& node)
+    {
+        const auto text = node.value_exact<std::string>();
+        if (!text || text->empty() || text->size() > 4096 || text->find('\0') != std::string::npos)
+            return not_allowed(key, spelling, node, "a text in quotes: " + key.meaning);
+        if (auto* const* s = std::get_if<std::string*>(&slot))
+            **s = *text;
+        else if (auto* const* os = std::get_if<std::optional<std::string>*>(&slot))
+            **os = *text;
+        else if (auto* const* p = std::get_if<std::filesystem::path*>(&slot))
+            **p = *text;
+        else if (auto* const* op = std::get_if<std::optional<std::filesystem::path>*>(&slot))
+            **op = *text;
+    }
+
+    void read_pairs(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,
+                    std::vector<Point>& out)
+    {
+        const toml::array* list = node.as_array();
+        if (!list || list->empty() || list->size() > 10000)
+            return not_allowed(key, spelling, node, "a list of pairs [[a, b], ...]: " + key.meaning);
+        const bool same =
+            &key.units == &key.second_units || key.second_units.front().suffix == key.units.front().suffix;
+        std::vector<Point> points;
+        for (const toml::node& item : *list) {
+            const toml::array* pair = item.as_array();
+            if (!pair || pair->size() != 2)
+                return not_allowed(key, spelling, item, "a pair [a, b] of numbers: " + key.meaning);
+            const auto x = number(key, unit, key.units, Range::any(), spelling, (*pair)[0]);
+            const auto y =
+                number(key, same ? unit : key.second_units.front(), key.second_units, key.range, spelling, (*pair)[1]);
+            if (!x || !y) return;
+            points.push_back({*x, *y});
+        }
+        out = std::move(points);
+    }
+
+    const KeyGroup& group_;
+    std::string label_;
+    Findings& findings_;
+    std::set<std::string> subgroups_;
+};
+
+/// The nodes of a group: none, one table, or a list of tables.
+void read_group(const KeyGroup& group, const std::vector<KeyGroup>& all, const toml::table& root, Scene& scene,
+                Findings& findings)
+{
+    std::set<std::string> subgroups;
+    for (const KeyGroup& other : all) {
+        const std::string prefix = group.name.empty() ? "" : group.name + ".";
+        if (other.name != group.name && other.name.starts_with(prefix))
+            subgroups.insert(other.name.substr(prefix.size(), other.name.find('.', prefix.size()) - prefix.size()));
+    }
+    if (group.name.empty()) {
+        toml::table own; // the plain keys of the top level; tables are reported by unknown_tables
+        GroupReader reader(group, "", findings, subgroups);
+        for (auto&& [name, node] : root)
+            if (!node.is_table() && !node.is_array_of_tables() && !subgroups.contains(std::string(name.str())))
+                own.insert(name, node);
+        reader.read(own, group.open(scene));
+        return;
+    }
+    const toml::node_view<const toml::node> view = root.at_path(group.name);
+    const auto wrong_shape = [&](const toml::node& node, const std::string& header) {
+        findings.wrong_at(place_of(node.source()), fmt::format("{} = {} is not allowed.", group.name, value_text(node)),
+                          group.meaning, "write  " + header + "  and its keys below it");
+    };
+    if (group.presence == Presence::list) {
+        if (!view) return;
+        const toml::array* list = view.as_array();
+        if (!list || (!list->empty() && !list->is_array_of_tables()))
+            return wrong_shape(*view.node(), "[[" + group.name + "]]");
+        if (list->size() > 1000) {
+            findings.wrong_at(place_of(list->source()), fmt::format("{} has {} entries.", group.name, list->size()),
+                              "at most 1000", "split the scene");
+            return;
+        }
+        int index = 0;
+        for (const toml::node& item : *list) {
+            const std::string label = fmt::format("{}[{}]", group.name, ++index);
+            findings.saw(label, place_of(item.source()));
+            GroupReader(group, label, findings, subgroups).read(*item.as_table(), group.open(scene));
+        }
+        return;
+    }
+    if (!view) {
+        if (group.presence == Presence::always)
+            GroupReader(group, group.name, findings, subgroups).read(toml::table{}, group.open(scene));
+        return;
+    }
+    const toml::table* table = view.as_table();
+    if (!table) return wrong_shape(*view.node(), "[" + group.name + "]");
+    findings.saw(group.name, place_of(table->source()));
+    GroupReader(group, group.name, findings, subgroups).read(*table, group.open(scene));
+}
+
+/// [expect]: quantity = { value = 1.27640, digits = 6, source = "..." }.
+void read_expectations(const toml::table& root, Scene& scene, Findings& findings)
+{
+    const toml::node* node = root.get("expect");
+    if (!node) return;
+    const toml::table* table = node->as_table();
+    const auto wrong = [&](const toml::node& where, const std::string& name) {
+        findings.wrong_at(
+            place_of(where.source()),
+            fmt::format("expect{} = {} is not allowed.", name.empty() ? "" : "." + name, value_text(where)),
+            "{ value = <number>, digits = <1 ... 15>, source = \"<where it comes from>\" }",
+            "for example  yield_acceleration_m_s2 = { value = 1.2764, digits = 5, source = \"(4-3) by hand\" }");
+    };
+    if (!table) return wrong(*node, "");
+    for (auto&& [name, item] : *table) {
+        const toml::table* entry = item.as_table();
+        if (!entry || entry->size() != 3) {
+            wrong(item, std::string(name.str()));
+            continue;
+        }
+        const auto number = (*entry)["value"].value<double>();
+        const auto digits = (*entry)["digits"].value_exact<int64_t>();
+        const auto source = (*entry)["source"].value_exact<std::string>();
+        if (number && std::isfinite(*number) && digits && *digits >= 1 && *digits <= 15 && source && !source->empty())
+            scene.expectations.push_back({std::string(name.str()), *number, static_cast<int>(*digits), *source});
+        else
+            wrong(item, std::string(name.str()));
+    }
+}
+
+void unknown_tables(const std::vector<KeyGroup>& groups, const toml::table& root, Findings& findings)
+{
+    std::vector<std::string> names{"expect"};
+    for (const KeyGroup& g : groups)
+        if (!g.name.empty() && g.name.find('.') == std::string::npos) names.push_back(g.name);
+    for (auto&& [name, node] : root) {
+        const std::string table(name.str());
+        if ((!node.is_table() && !node.is_array_of_tables()) ||
+            std::find(names.begin(), names.end(), table) != names.end())
+            continue;
+        const std::string_view near = nearest(table, names);
+        findings.wrong_at(
+            place_of(name.source()),
+            fmt::format("unknown table [{}].{}", table, near.empty() ? "" : fmt::format(" Did you mean [{}]?", near)),
+            fmt::format("tables: {}", fmt::join(names, ", ")),
+            near.empty() ? "correct or delete it" : fmt::format("write  [{}]", near));
+    }
+}
+
+void resolve_paths(Scene& scene)
+{
+    const std::filesystem::path folder = scene.file.parent_path();
+    for (RecordFiles& record : scene.motion.records) {
+        if (record.name.empty()) record.name = record.horizontal.stem().string();
+        if (!record.horizontal.empty()) record.horizontal = folder / record.horizontal;
+        if (record.vertical) record.vertical = folder / *record.vertical;
+    }
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file, FileCheck check)
+{
+    Findings findings(file.string());
+    toml::table root;
+    try {
+        root = toml::parse(toml_text, file.string());
+    } catch (const toml::parse_error& error) {
+        findings.wrong_at(place_of(error.source()), std::string(error.description()),
+                          "TOML: key = value, texts in quotes, decimal point, [table] headers", "correct this line");
+        findings.throw_if_any();
+    }
+    Scene scene;
+    scene.file = file;
+    SectionInput section;
+    const std::vector<KeyGroup> groups = key_groups(section);
+    unknown_tables(groups, root, findings);
+    for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
+    read_expectations(root, scene, findings);
+
+    scene.section = make_section(section, findings);
+    if (scene.title.empty()) scene.title = file.stem().string();
+    if (!findings.any()) { // a second look at values only when each is right by itself
+        resolve_paths(scene);
+        fill_defaults(scene, findings);
+        check_consistency(scene, findings, check);
+    }
+    findings.throw_if_any();
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file)
+{
+    return parse_scene(read_file(file, 4u << 20), file);
+}
+
+} // namespace damslip

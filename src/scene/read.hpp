@@ -1,0 +1,23 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <string_view>
+
+namespace damslip {
+
+enum class FileCheck {
+    must_exist, ///< record files named by the scene have to be there
+    skip        ///< they are not looked for (fuzzing, parsing from memory)
+};
+
+/// Reads and checks a scene file: TOML, keys of keys.cpp, consistency between keys (check.cpp), defaults filled in, SI.
+/// @throws InputError with everything that is wrong at once, each with file, line, column, value, what is allowed, and
+/// a fix.
+Scene read_scene(const std::filesystem::path& file);
+
+/// The same from memory. @param file  name for messages; record files are relative to its folder.
+Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
+                  FileCheck check = FileCheck::must_exist);
+
+} // namespace damslip

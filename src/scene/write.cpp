@@ -1,0 +1,152 @@
+#include "scene/write.hpp"
+
+#include "core/file.hpp"
+#include "core/number.hpp"
+#include "scene/key_table.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+std::string toml_text(const std::string& text)
+{
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out += '\\', out += c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+        else
+            out += c;
+    }
+    return out + "\"";
+}
+
+/// TOML floats need a point or an exponent to stay floats for strict readers.
+std::string toml_number(double x)
+{
+    const std::string text = shortest(x);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+struct Written {
+    std::string suffix;
+    double value;
+};
+
+/// `si` in the first unit in which the written number reads back as the same double.
+Written in_unit(double si, const Units& units)
+{
+    for (const UnitSuffix& unit : units) {
+        if (unit.tangent) continue;
+        const double near = si / unit.factor;
+        for (const double candidate : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
+            if (candidate * unit.factor == si) return {unit.suffix, candidate};
+    }
+    return {units.front().suffix, si / units.front().factor};
+}
+
+std::string spelled(const Key& key, const std::string& suffix)
+{
+    return suffix.empty() ? key.name : key.name + "_" + suffix;
+}
+
+std::string number_line(const Key& key, double si)
+{
+    const Written w = in_unit(si, key.units);
+    return spelled(key, w.suffix) + " = " + toml_number(w.value) + "\n";
+}
+
+std::string pairs_line(const Key& key, const std::vector<Point>& points)
+{
+    // One suffix has to serve all first entries: the first unit that is exact for every one of them.
+    const bool same = key.second_units.front().suffix == key.units.front().suffix;
+    for (const UnitSuffix& unit : key.units) {
+        bool exact = true;
+        std::string list;
+        for (const Point& p : points) {
+            const Written x = in_unit(p.x, {unit});
+            const Written y = in_unit(p.y, same ? Units{unit} : key.second_units);
+            exact = exact && x.value * unit.factor == p.x;
+            list += (list.empty() ? "[" : ", [") + toml_number(x.value) + ", " + toml_number(y.value) + "]";
+        }
+        if (exact || &unit == &key.units.back()) return spelled(key, unit.suffix) + " = [" + list + "]\n";
+    }
+    return "";
+}
+
+std::string path_text(const std::filesystem::path& path, RecordPaths style)
+{
+    return style == RecordPaths::file_names ? path.filename().string()
+                                            : std::filesystem::absolute(path).lexically_normal().string();
+}
+
+std::string line(const Key& key, const Slot& slot, RecordPaths paths)
+{
+    struct Write {
+        const Key& key;
+        RecordPaths paths;
+        std::string operator()(double* v) const { return number_line(key, *v); }
+        std::string operator()(std::optional<double>* v) const { return *v ? number_line(key, **v) : ""; }
+        std::string operator()(int* v) const { return key.name + " = " + std::to_string(*v) + "\n"; }
+        std::string operator()(bool* v) const { return key.name + (*v ? " = true\n" : " = false\n"); }
+        std::string operator()(std::string* v) const { return v->empty() ? "" : key.name + " = " + toml_text(*v) + "\n"; }
+        std::string operator()(std::optional<std::string>* v) const
+        {
+            return *v ? key.name + " = " + toml_text(**v) + "\n" : "";
+        }
+        std::string operator()(std::filesystem::path* v) const
+        {
+            return v->empty() ? "" : key.name + " = " + toml_text(path_text(*v, paths)) + "\n";
+        }
+        std::string operator()(std::optional<std::filesystem::path>* v) const
+        {
+            return *v ? key.name + " = " + toml_text(path_text(**v, paths)) + "\n" : "";
+        }
+        std::string operator()(std::vector<Point>* v) const { return v->empty() ? "" : pairs_line(key, *v); }
+        std::string operator()(const Choice& c) const
+        {
+            const int i = c.get();
+            return i < 0 ? "" : key.name + " = " + toml_text(c.words[static_cast<std::size_t>(i)]) + "\n";
+        }
+        std::string operator()(const NumberOrWord& v) const
+        {
+            if (*v.word_given) return key.canonical() + " = " + toml_text(v.word) + "\n";
+            return *v.number ? number_line(key, **v.number) : "";
+        }
+    };
+    return std::visit(Write{key, paths}, slot);
+}
+
+} // namespace
+
+std::string resolved_toml(const Scene& scene, RecordPaths paths)
+{
+    SectionInput section;
+    std::string out;
+    for (const KeyGroup& group : key_groups(section))
+        for (const void* item : group.items(scene)) {
+            std::string lines;
+            for (const Key& key : group.keys)
+                if (!key.applies || key.applies(item)) lines += line(key, key.slot(const_cast<void*>(item)), paths);
+            if (lines.empty() && group.presence == Presence::always) continue;
+            if (!group.name.empty())
+                out += group.presence == Presence::list ? "\n[[" + group.name + "]]\n" : "\n[" + group.name + "]\n";
+            out += lines;
+        }
+    if (!scene.expectations.empty()) out += "\n[expect]\n";
+    for (const Expectation& e : scene.expectations)
+        out += fmt::format("{} = {{ value = {}, digits = {}, source = {} }}\n", toml_text(e.quantity),
+                           toml_number(e.value), e.digits, toml_text(e.source));
+    return out;
+}
+
+std::string scene_hash(const Scene& scene)
+{
+    return sha256(resolved_toml(scene, RecordPaths::file_names));
+}
+
+} // namespace damslip

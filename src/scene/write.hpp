@@ -1,0 +1,20 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <string>
+
+namespace damslip {
+
+enum class RecordPaths {
+    absolute,  ///< the file can be read from anywhere on this machine
+    file_names ///< the same text wherever the scene lies: for the scene hash
+};
+
+/// The scene with all defaults as TOML. Reading it back gives the same Scene, bit for bit.
+std::string resolved_toml(const Scene& scene, RecordPaths paths = RecordPaths::absolute);
+
+/// SHA-256 of the resolved scene; the same for the same model wherever its file lies and however it was written.
+std::string scene_hash(const Scene& scene);
+
+} // namespace damslip

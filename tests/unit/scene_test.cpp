@@ -1,0 +1,110 @@
+#include "core/input_error.hpp"
+#include "scene/document.hpp"
+#include "scene/read.hpp"
+#include "scene/section.hpp"
+#include "scene/write.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace damslip;
+
+const char* const minimal = R"([section]
+height_m = 62.5
+base_m = 45
+crest_m = 12
+neck_m = 11
+[dam]
+density_kg_m3 = 2500
+[contact]
+friction = 0.77
+)";
+
+Scene parse(const std::string& text)
+{
+    return parse_scene(text, "folder/dam.toml", FileCheck::skip);
+}
+
+TEST(Scene, SectionByDimensionsIsTheReferencePolygon)
+{
+    const Scene scene = parse(minimal);
+    const Polyline expected{{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
+    EXPECT_EQ(scene.section.polygon, expected);
+    EXPECT_DOUBLE_EQ(area(scene.section), 1599.75); // 12 * 62.5 + (45 - 12) * 51.5 / 2
+    EXPECT_EQ(upstream_face(scene.section), (Polyline{{0, 0}, {0, 62.5}}));
+    EXPECT_EQ(downstream_face(scene.section), (Polyline{{45, 0}, {12, 51.5}, {12, 62.5}}));
+}
+
+TEST(Scene, AbsentTablesStayAbsent)
+{
+    const Scene scene = parse(minimal);
+    EXPECT_FALSE(scene.reservoir || scene.tailwater || scene.silt || scene.ice || scene.uplift || scene.drains ||
+                 scene.curtain || scene.foundation);
+    EXPECT_EQ(scene.title, "dam");
+}
+
+TEST(Scene, OtherUnitsGiveTheSameScene)
+{
+    std::string text = minimal;
+    text.replace(text.find("height_m = 62.5"), 15, "height_mm = 62500");
+    text.replace(text.find("density_kg_m3 = 2500"), 20, "density_t_m3 = 2.5");
+    const Scene scene = parse(text);
+    EXPECT_DOUBLE_EQ(scene.section.polygon[3].y, 62.5);
+    EXPECT_DOUBLE_EQ(scene.dam.density, 2500);
+    text.replace(text.find("friction = 0.77"), 15, "friction_deg = 45");
+    EXPECT_NEAR(parse(text).contact.friction, 1.0, 1e-15);
+}
+
+TEST(Scene, CurtainWithWaterMeansSeepageUplift)
+{
+    const Scene scene = parse(std::string(minimal) + "[curtain]\ndistance_m = 7\n[reservoir]\n");
+    ASSERT_TRUE(scene.uplift);
+    EXPECT_EQ(scene.uplift->model, UpliftModel::seepage);
+    EXPECT_DOUBLE_EQ(scene.reservoir->level, 62.5);
+    EXPECT_DOUBLE_EQ(scene.reservoir->length, 150.0);
+}
+
+TEST(Scene, ResolvedSceneReadsBackBitForBit)
+{
+    const std::string text = std::string(minimal) +
+                             "cohesion_kPa = 0.3\nresidual_friction_deg = 31.7\nresidual_slip_mm = 7.3\n"
+                             "[reservoir]\nlevel_ft = 200\n[uplift]\ncrack = \"static\"\n[silt]\nlevel_m = "
+                             "9.7\nsubmerged_unit_weight_kN_m3 = 9.1\n"
+                             "pressure_coefficient = 0.45\n[ice]\nforce_kN_m = 133.3\n[[force]]\nname = \"gate "
+                             "\\\"A\\\"\"\nx_ft = 3.3\nforce_x_kN_m = 0.1\n"
+                             "[[motion.record]]\nhorizontal = \"a.csv\"\nunit = \"g\"\n[[combination]]\nname = "
+                             "\"flood\"\nkind = \"unusual\"\ncrack = \"static\"\n"
+                             "[added_mass]\nperiod_s = \"dam\"\nzangar_table_deg = [[0, 0.73], [29.9, "
+                             "0.5]]\n[foundation]\nyoung_modulus_GPa = 30\n"
+                             "[expect]\nyield_acceleration_m_s2 = { value = 0.1, digits = 3, source = \"by hand\" }\n";
+    const Scene first = parse(text);
+    const std::string resolved = resolved_toml(first);
+    const Scene second = parse_scene(resolved, "elsewhere/dam.toml", FileCheck::skip);
+    EXPECT_EQ(resolved_toml(second), resolved);
+    EXPECT_EQ(first.contact.cohesion, second.contact.cohesion);
+    EXPECT_EQ(*first.contact.residual_friction, *second.contact.residual_friction);
+    EXPECT_EQ(first.reservoir->level, second.reservoir->level);
+    EXPECT_EQ(first.forces[0].at.x, second.forces[0].at.x);
+    EXPECT_EQ(first.added_mass.zangar_table, second.added_mass.zangar_table);
+    EXPECT_EQ(scene_hash(first), scene_hash(second));
+}
+
+TEST(Scene, HashChangesWithTheModelOnly)
+{
+    const Scene scene = parse(minimal);
+    std::string other = minimal;
+    EXPECT_EQ(scene_hash(scene), scene_hash(parse("# a comment\n" + other)));
+    other.replace(other.find("0.77"), 4, "0.78");
+    EXPECT_NE(scene_hash(scene), scene_hash(parse(other)));
+}
+
+TEST(Scene, KeyDocumentationIsCurrent)
+{
+    std::ifstream in(DAMSLIP_SOURCE_DIR "/docs/scene-keys.md");
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    EXPECT_TRUE(text == scene_keys_markdown()) << "make it again: damslip schema --markdown > docs/scene-keys.md";
+}
+
+} // namespace
