@@ -9,17 +9,20 @@ struct AddedMassTensor {
     double xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
-/// Everything the sliding of one block depends on, per metre of dam length. Static forces are those before the earthquake.
+/// Everything the sliding of one block depends on, per metre of dam length. Static forces are those before the
+/// earthquake.
 struct RigidBlock {
-    double mass = 0.0;              ///< m [kg/m]
-    AddedMassTensor added_mass;     ///< moves with the block [kg/m]
-    double gravity = 9.81;          ///< of the site [m/s^2]; the weight is mass * gravity
-    double vertical_force = 0.0;    ///< static downward force besides the block's weight: water on sloping faces, silt, user forces [N/m]
-    double horizontal_force = 0.0;  ///< static downstream force: hydrostatic thrust W_s minus tailwater, silt, ice, user forces [N/m]
-    double uplift = 0.0;            ///< U, normal to the base, lifts the block [N/m]
-    double cohesion_force = 0.0;    ///< c A' [N/m]
-    double friction = 0.0;          ///< mu [-]
-    double base_inclination = 0.0;  ///< theta [rad], positive: dips downstream
+    double mass = 0.0;          ///< m [kg/m]
+    AddedMassTensor added_mass; ///< moves with the block [kg/m]
+    double gravity = 9.81;      ///< of the site [m/s^2]; the weight is mass * gravity
+    double vertical_force =
+        0.0; ///< static downward force besides the block's weight: water on sloping faces, silt, user forces [N/m]
+    double horizontal_force =
+        0.0; ///< static downstream force: hydrostatic thrust W_s minus tailwater, silt, ice, user forces [N/m]
+    double uplift = 0.0;           ///< U, normal to the base, lifts the block [N/m]
+    double cohesion_force = 0.0;   ///< c A' [N/m]
+    double friction = 0.0;         ///< mu [-]
+    double base_inclination = 0.0; ///< theta [rad], positive: dips downstream
 };
 
 } // namespace damslip::sliding

@@ -1,0 +1,123 @@
+#include "sliding/block/slide.hpp"
+
+#include "core/input_error.hpp"
+#include "core/number.hpp"
+#include "sliding/block/slammer.hpp"
+#include "sliding/block/slip_motion.hpp"
+#include "sliding/block/yield.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::sliding {
+namespace {
+
+void check_motion(const GroundMotion& motion)
+{
+    Diagnostic wrong;
+    wrong.file = motion.name;
+    wrong.expected =
+        "a time step > 0 s and at least 2 finite samples, the vertical component as long as the horizontal one";
+    const auto finite = [](double a) { return std::isfinite(a); };
+    if (!(motion.dt > 0.0) || !std::isfinite(motion.dt))
+        wrong.problem = "ground motion: time step " + shortest(motion.dt) + " s is not allowed.";
+    else if (motion.accel_h.size() < 2)
+        wrong.problem = "ground motion: " + std::to_string(motion.accel_h.size()) + " samples are too few.";
+    else if (!motion.accel_v.empty() && motion.accel_v.size() != motion.accel_h.size())
+        wrong.problem = "ground motion: " + std::to_string(motion.accel_v.size()) + " vertical samples beside " +
+                        std::to_string(motion.accel_h.size()) + " horizontal ones.";
+    else if (!std::ranges::all_of(motion.accel_h, finite) || !std::ranges::all_of(motion.accel_v, finite))
+        wrong.problem = "ground motion: a sample is not a finite number.";
+    else
+        return;
+    throw InputError(wrong);
+}
+
+/// Zero ground acceleration in steps of dt until the block rests.
+void run_out(SlipMotion& block, double start, double dt, double longest, SlideHistory* history)
+{
+    for (double elapsed = 0.0; elapsed < longest && !block.unresolved(); elapsed += dt) {
+        const double step = std::min(dt, longest - elapsed);
+        block.cross(start + elapsed, step, {}, {});
+        if (history) block.add_sample(start + elapsed + step, 0.0, 0.0, *history);
+        if (block.at_rest()) return;
+    }
+}
+
+std::string static_note(const SlipStages& stages, StaticState state)
+{
+    const RigidBlock& block = stages.front().block;
+    if (state == StaticState::lifts_off)
+        return "The uplift carries more than the weight (N' = " + shortest(static_normal_force(block)) +
+               " N/m): the block floats without an earthquake; no friction would hold it.";
+    return std::string("The block slides ") + (state == StaticState::slides_downstream ? "downstream" : "upstream") +
+           " without an earthquake; a friction of " + shortest(critical_friction(block)) +
+           " or more would hold it (here " + shortest(block.friction) +
+           "). The slip is the one up to the record's end.";
+}
+
+void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& options, SlideResult& result)
+{
+    if (result.status == SlideStatus::static_sliding) result.notes.push_back(static_note(stages, state));
+    if (result.status == SlideStatus::sliding_at_end)
+        result.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
+                               " s after the record's end: the slip is a lower bound.");
+    if (result.status == SlideStatus::unresolved)
+        result.notes.push_back("More events in one sample interval than a motion can have; the slip up to " +
+                               shortest(result.end_time) + " s is given.");
+    if (result.accuracy == SlideAccuracy::series)
+        result.notes.push_back("Friction linear in slip under a varying normal force has no closed form: Taylor series "
+                               "to round-off, events "
+                               "located within 1e-10.");
+    if (result.lift_offs > 0)
+        result.notes.push_back("The base opened " + std::to_string(result.lift_offs) +
+                               " times (N' = 0); lift-off is treated as " +
+                               (options.sliding.lift_off == LiftOff::ballistic ? "ballistic flight."
+                                                                               : "loss of resistance without flight."));
+}
+
+SlideResult slide_exact(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
+{
+    const bool vertical = !motion.accel_v.empty();
+    const double polarity = options.polarity;
+    const auto a_h = [&](std::size_t k) { return polarity * motion.accel_h[k]; };
+    const auto a_v = [&](std::size_t k) { return vertical ? motion.accel_v[k] : 0.0; };
+
+    SlideResult result;
+    SlideHistory* history = options.history == HistoryOutput::samples ? &result.history : nullptr;
+    SlipMotion block(stages, options);
+    if (history) block.add_sample(0.0, a_h(0), a_v(0), *history);
+    const std::size_t last = motion.accel_h.size() - 1;
+    for (std::size_t k = 0; k < last && !block.unresolved(); ++k) {
+        block.cross(static_cast<double>(k) * motion.dt, motion.dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
+        if (history) block.add_sample(static_cast<double>(k + 1) * motion.dt, a_h(k + 1), a_v(k + 1), *history);
+    }
+    const StaticState state = static_state(stages.front().block);
+    if (state == StaticState::at_rest)
+        run_out(block, static_cast<double>(last) * motion.dt, motion.dt, options.sliding.run_out_max, history);
+
+    block.write(result);
+    result.status = block.unresolved()              ? SlideStatus::unresolved
+                    : state != StaticState::at_rest ? SlideStatus::static_sliding
+                    : block.at_rest()               ? SlideStatus::at_rest
+                                                    : SlideStatus::sliding_at_end;
+    add_notes(stages, state, options, result);
+    return result;
+}
+
+} // namespace
+
+SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
+{
+    check_motion(motion);
+    check_stages(stages);
+    if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
+    return slide_exact(motion, stages, options);
+}
+
+SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options)
+{
+    return slide(motion, SlipStages{{0.0, block, 0.0}}, options);
+}
+
+} // namespace damslip::sliding

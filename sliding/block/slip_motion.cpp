@@ -1,0 +1,329 @@
+#include "sliding/block/slip_motion.hpp"
+
+#include "sliding/block/roots.hpp"
+#include "sliding/block/sloped_slip.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace damslip::sliding {
+namespace {
+
+/// Sign just after now: positive, or zero and rising.
+bool above_zero(const Line& line)
+{
+    return line.now > 0.0 || (line.now == 0.0 && line.end > 0.0);
+}
+
+GroundLinear combination(double a, const GroundLinear& x, double b, const GroundLinear& y)
+{
+    return {a * x.constant + b * y.constant, a * x.per_a_h + b * y.per_a_h, a * x.per_a_v + b * y.per_a_v};
+}
+
+constexpr int events_per_interval =
+    1000; // friction tables have tens of values; more than this in one interval is no motion
+
+} // namespace
+
+SlipMotion::SlipMotion(const SlipStages& stages, const SlideOptions& options)
+    : stages_(stages), options_(options.sliding)
+{
+    forms_.reserve(stages.size());
+    for (const SlipStage& stage : stages) {
+        const BaseEquations e = base_equations(stage.block);
+        // In flight A (s'', y'') = (drive, -normal): inverse of the 2 x 2 matrix.
+        const double determinant = e.mass_tt * e.mass_nn - e.mass_tn * e.mass_tn;
+        forms_.push_back({e, free_normal_force(e),
+                          combination(e.mass_nn / determinant, e.drive, e.mass_tn / determinant, e.normal),
+                          combination(-e.mass_tt / determinant, e.normal, -e.mass_tn / determinant, e.drive)});
+    }
+}
+
+void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v)
+{
+    time_ = start;
+    span_ = dt;
+    a_h_ = a_h;
+    a_v_ = a_v;
+    settle_contact();
+    for (int events = 0; span_ > 0.0; ++events) {
+        if (events == events_per_interval) {
+            unresolved_ = true;
+            return;
+        }
+        if (!moving_)
+            wait();
+        else if (touching_ && stage().friction_slope != 0.0)
+            move_sloped();
+        else
+            move();
+    }
+}
+
+/// Contact or not, from the sign of N' just after now.
+void SlipMotion::settle_contact()
+{
+    contact_turned_ = false;
+    if (airborne_) return;
+    const Line normal = normal_line();
+    const bool was_touching = touching_;
+    touching_ = above_zero(normal);
+    if (was_touching && !touching_) ++lift_offs_;
+    if (options_.lift_off == LiftOff::ballistic && above_zero(-normal)) airborne_ = true;
+}
+
+double SlipMotion::time_of_contact_change() const
+{
+    if (airborne_) {
+        Line accel = line(forms().gap_accel);
+        if (gap_ == 0.0 && gap_rate_ == 0.0) accel.now = std::max(accel.now, 0.0); // take-off just located
+        const std::array<double, 4> gap{gap_, gap_rate_, accel.now / 2.0, (accel.end - accel.now) / (6.0 * span_)};
+        return first_fall_to_zero(gap, span_);
+    }
+    if (contact_turned_) return never;
+    const Line normal = normal_line();
+    return time_above_zero(touching_ ? -normal : normal, span_);
+}
+
+void SlipMotion::turn_contact()
+{
+    if (airborne_) {
+        land();
+        return;
+    }
+    contact_turned_ = true;
+    touching_ = !touching_;
+    if (touching_) return;
+    ++lift_offs_;
+    airborne_ = options_.lift_off == LiftOff::ballistic;
+}
+
+/// Plastic landing: the gap rate vanishes; A (ds, |y'|) = (-I, J) with Coulomb's |I| <= mu J against the slip.
+void SlipMotion::land()
+{
+    const BaseEquations& e = forms().equations;
+    const double d = sign(direction_);
+    const double impact = -gap_rate_;
+    gap_ = gap_rate_ = 0.0;
+    airborne_ = false;
+    if (moving_) {
+        rate_ -= impact * (d * e.mass_tn + friction() * e.mass_nn) / sliding_mass(e, friction(), direction_);
+        if (rate_ <= 0.0) stop();
+    }
+    settle_contact();
+}
+
+/// The block rests: follow the drive until it exceeds the resistance in one of the directions, or the contact changes.
+void SlipMotion::wait()
+{
+    const StageForms& f = forms();
+    const Line drive = line(airborne_ ? f.flight_accel : f.equations.drive);
+    const Line normal = line(f.equations.normal);
+    Line resistance;
+    if (touching_) {
+        resistance = combine(friction(), normal, 0.0, normal);
+        resistance.now += stage().block.cohesion_force;
+        resistance.end += stage().block.cohesion_force;
+    }
+    const double h_down = time_above_zero(combine(1.0, drive, -1.0, resistance), span_);
+    const double h_up = options_.two_way ? time_above_zero(combine(-1.0, drive, -1.0, resistance), span_) : never;
+    const double h_contact = time_of_contact_change();
+    const double h = std::min({h_down, h_up, h_contact});
+    elapse(std::min(h, span_));
+    if (h == never) return;
+    if (h == h_down)
+        start(SlipDirection::downstream);
+    else if (h == h_up)
+        start(SlipDirection::upstream);
+    else
+        turn_contact();
+}
+
+void SlipMotion::start(SlipDirection direction)
+{
+    moving_ = true;
+    from_rest_ = true;
+    direction_ = direction;
+    rate_ = 0.0;
+    phase_start_path_ = path_;
+    if (++phases_ == 1) first_time_ = time_;
+    const bool changed = enter_stages();
+    if (changed) from_rest_ = false;
+    // Off the horizontal N' of the moving block is another one than that of the block at rest.
+    if (changed || forms().equations.mass_tn != 0.0) settle_contact();
+}
+
+void SlipMotion::stop()
+{
+    moving_ = false;
+    from_rest_ = false;
+    rate_ = 0.0;
+    if (path_ == phase_start_path_)
+        --phases_; // nothing moved: a start taken back
+    else
+        last_time_ = time_;
+    if (forms().equations.mass_tn != 0.0) settle_contact();
+}
+
+bool SlipMotion::enter_stages()
+{
+    const std::size_t before = stage_;
+    while (stage_ + 1 < stages_.size() && stages_[stage_ + 1].from_slip <= path_) ++stage_;
+    return stage_ != before;
+}
+
+double SlipMotion::next_stage_path() const
+{
+    return stage_ + 1 < stages_.size() ? stages_[stage_ + 1].from_slip : never;
+}
+
+/// s'' in the direction of slip.
+Line SlipMotion::slip_accel() const
+{
+    const StageForms& f = forms();
+    const double d = sign(direction_);
+    if (airborne_) return combine(d, line(f.flight_accel), 0.0, {});
+    const Line drive = line(f.equations.drive);
+    if (!touching_) return combine(d / f.equations.mass_tt, drive, 0.0, {});
+    const double mass = sliding_mass(f.equations, stage().block.friction, direction_);
+    GroundLinear excess = excess_drive(f.equations, stage().block, direction_);
+    Line accel = line(excess);
+    return {accel.now / mass, accel.end / mass};
+}
+
+/// Time within h at which the path of the next stage is reached; `never`.
+double SlipMotion::time_of_stage(double h, const Line& accel) const
+{
+    const double target = next_stage_path() - path_;
+    const auto missing = [&](double x) {
+        return x * (rate_ + x * (2.0 * accel.now + accel.at(x / span_)) / 6.0) - target;
+    };
+    if (missing(h) < 0.0) return never;
+    return bracketed_root(missing, 0.0, h);
+}
+
+/// Constant friction or no contact: the rate is quadratic and the path cubic up to the next event.
+void SlipMotion::move()
+{
+    Line accel = slip_accel();
+    if (from_rest_) accel.now = std::max(accel.now, 0.0);
+    const double jerk = (accel.end - accel.now) / span_;
+    const double h_stop = time_of_stop(rate_, accel.now, jerk);
+    const double h_contact = time_of_contact_change();
+    double h = std::min({h_stop, h_contact, span_});
+    const double h_stage = next_stage_path() == never ? never : time_of_stage(h, accel);
+    h = std::min(h, h_stage);
+
+    const double accel_then = h == span_ ? accel.end : accel.at(h / span_);
+    if (accel.now > 0.0 && accel_then < 0.0)
+        peak_rate_ = std::max(peak_rate_, rate_ - accel.now * accel.now / (2.0 * jerk));
+    add_slip(h * (rate_ + h * (2.0 * accel.now + accel_then) / 6.0));
+    rate_ = std::max(0.0, rate_ + 0.5 * h * (accel.now + accel_then));
+    peak_rate_ = std::max(peak_rate_, rate_);
+    from_rest_ = from_rest_ && h == 0.0;
+    elapse(h);
+    meet(h, h_stage, h_stop, h_contact);
+}
+
+/// Friction linear in the path slipped.
+void SlipMotion::move_sloped()
+{
+    const BaseEquations& e = forms().equations;
+    const double d = sign(direction_);
+    const SlopedStep step(SlopedSlip{e.mass_tt, d * e.mass_tn, stage().block.cohesion_force, friction(),
+                                     stage().friction_slope, rate_, combine(d, line(e.drive), 0.0, {}), line(e.normal),
+                                     span_, from_rest_});
+    used_series_ = used_series_ || !step.closed_form();
+    const double h_stop = step.time_of_stop();
+    const double h_contact = time_of_contact_change();
+    double h = std::min({h_stop, h_contact, step.length()});
+    const double target = next_stage_path() - path_;
+    const double h_stage = step.path(h) >= target ? step.time_of_path(target, h) : never;
+    h = std::min(h, h_stage);
+
+    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
+        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    add_slip(step.path(h));
+    rate_ = std::max(0.0, step.rate(h));
+    peak_rate_ = std::max(peak_rate_, rate_);
+    from_rest_ = from_rest_ && h == 0.0;
+    elapse(h);
+    meet(h, h_stage, h_stop, h_contact);
+}
+
+/// The event reached at time h, if any.
+void SlipMotion::meet(double h, double h_stage, double h_stop, double h_contact)
+{
+    if (h == h_stage) {
+        path_ = next_stage_path();
+        enter_stages();
+        settle_contact();
+    } else if (h == h_stop) {
+        stop();
+    } else if (h == h_contact) {
+        turn_contact();
+    }
+}
+
+void SlipMotion::add_slip(double path)
+{
+    path = std::max(path, 0.0);
+    path_ += path;
+    (direction_ == SlipDirection::downstream ? downstream_ : upstream_) += path;
+    max_slip_ = std::max(max_slip_, std::abs(downstream_ - upstream_));
+}
+
+/// Time passes; the gap moves on, the ground lines are cut to the rest of the interval.
+void SlipMotion::elapse(double h)
+{
+    if (airborne_) {
+        Line accel = line(forms().gap_accel);
+        if (gap_ == 0.0 && gap_rate_ == 0.0) accel.now = std::max(accel.now, 0.0);
+        const double then = accel.at(h / span_);
+        const double rate_then = gap_rate_ + 0.5 * h * (accel.now + then);
+        if (gap_rate_ > 0.0 && rate_then < 0.0) {
+            const double jerk = (accel.end - accel.now) / span_;
+            const double top = time_of_stop(gap_rate_, accel.now, jerk);
+            max_gap_ = std::max(max_gap_, gap_ + top * (gap_rate_ + top * (accel.now / 2.0 + top * jerk / 6.0)));
+        }
+        gap_ = std::max(0.0, gap_ + h * (gap_rate_ + h * (2.0 * accel.now + then) / 6.0));
+        gap_rate_ = rate_then;
+        max_gap_ = std::max(max_gap_, gap_);
+    }
+    time_ += h;
+    if (h >= span_) {
+        span_ = 0.0;
+        a_h_.now = a_h_.end;
+        a_v_.now = a_v_.end;
+        return;
+    }
+    a_h_.now = a_h_.at(h / span_);
+    a_v_.now = a_v_.at(h / span_);
+    span_ -= h;
+}
+
+bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
+{
+    if (!at_rest() || moving_ || !touching_) return false;
+    const BaseEquations& e = forms().equations;
+    const RigidBlock& block = stage().block;
+    const double mu = friction();
+    // Upper bound of a linear form over the box, with a margin for round-off so that a skipped sample is one that
+    // plainly does not slide.
+    const auto upper = [&](double constant, double per_a_h, double per_a_v) {
+        const double h = std::max(per_a_h * a_h_min, per_a_h * a_h_max);
+        const double v = std::max(per_a_v * a_v_min, per_a_v * a_v_max);
+        return constant + h + v + 1e-13 * (std::abs(constant) + std::abs(h) + std::abs(v));
+    };
+    const double c = block.cohesion_force;
+    if (upper(-e.normal.constant, -e.normal.per_a_h, -e.normal.per_a_v) >= 0.0) return false;
+    if (upper(e.drive.constant - c - mu * e.normal.constant, e.drive.per_a_h - mu * e.normal.per_a_h,
+              e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0)
+        return false;
+    return !options_.two_way ||
+           upper(-e.drive.constant - c - mu * e.normal.constant, -e.drive.per_a_h - mu * e.normal.per_a_h,
+                 -e.drive.per_a_v - mu * e.normal.per_a_v) < 0.0;
+}
+
+} // namespace damslip::sliding

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "sliding/block/base_equations.hpp"
+#include "sliding/block/line.hpp"
+#include "sliding/block/slide.hpp"
+
+#include <vector>
+
+namespace damslip::sliding {
+
+/// The state of a sliding block and its exact advance over one sample interval, event by event. Used by slide().
+class SlipMotion {
+public:
+    SlipMotion(const SlipStages& stages, const SlideOptions& options);
+
+    /// Ground acceleration linear from (a_h.now, a_v.now) at time `start` to the ends at start + dt.
+    void cross(double start, double dt, const Line& a_h, const Line& a_v);
+
+    bool moving() const { return moving_ && rate_ > 0.0; }
+    bool at_rest() const { return !moving() && !airborne_; }
+    bool unresolved() const { return unresolved_; }
+    bool used_series() const { return used_series_; }
+    void add_sample(double time, double a_h, double a_v, SlideHistory& history) const;
+    void write(SlideResult& result) const;
+
+    /// True when a block at rest on its base surely stays there while a_h and a_v stay within the given ranges.
+    bool stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
+
+private:
+    /// What does not change within a stage.
+    struct StageForms {
+        BaseEquations equations;
+        GroundLinear free_normal;  ///< N' of the block sliding without resistance
+        GroundLinear flight_accel; ///< s'' in flight
+        GroundLinear gap_accel;    ///< y'' in flight
+    };
+
+    void wait();
+    void move();
+    void move_sloped();
+    void start(SlipDirection direction);
+    void stop();
+    void turn_contact();
+    void land();
+    void settle_contact();
+    bool enter_stages();
+    void elapse(double h);
+    void meet(double h, double h_stage, double h_stop, double h_contact);
+    void add_slip(double path);
+    double time_of_contact_change() const;
+    double time_of_stage(double h, const Line& accel) const;
+
+    const SlipStage& stage() const { return stages_[stage_]; }
+    const StageForms& forms() const { return forms_[stage_]; }
+    double friction() const { return friction_at(stage(), path_); }
+    Line line(const GroundLinear& form) const { return {form.at(a_h_.now, a_v_.now), form.at(a_h_.end, a_v_.end)}; }
+    Line normal_line() const { return line(moving_ ? forms().free_normal : forms().equations.normal); }
+    Line slip_accel() const;
+    double next_stage_path() const;
+
+    const SlipStages& stages_;
+    SlidingOptions options_;
+    std::vector<StageForms> forms_;
+
+    // The interval: what is left of it.
+    double time_ = 0.0; ///< now [s]
+    double span_ = 0.0; ///< rest of the interval [s]
+    Line a_h_, a_v_;
+
+    // The block. Its direction is only meaningful while it moves; rate and path are counted along it.
+    std::size_t stage_ = 0;
+    bool moving_ = false;
+    bool from_rest_ = false;      ///< the start was located just now: s'' >= 0 whatever round-off says
+    bool touching_ = true;        ///< N' > 0: there is resistance
+    bool airborne_ = false;       ///< in ballistic flight
+    bool contact_turned_ = false; ///< touching_ changed in this interval; N' is linear and does not change sign twice
+    SlipDirection direction_ = SlipDirection::downstream;
+    double rate_ = 0.0;                 ///< |slip rate| [m/s]
+    double path_ = 0.0;                 ///< sum of |slip| [m]
+    double gap_ = 0.0, gap_rate_ = 0.0; ///< [m], [m/s]
+
+    // Results.
+    double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, max_gap_ = 0.0;
+    double first_time_ = 0.0, last_time_ = 0.0, phase_start_path_ = 0.0;
+    int phases_ = 0, lift_offs_ = 0;
+    bool unresolved_ = false, used_series_ = false;
+};
+
+} // namespace damslip::sliding
