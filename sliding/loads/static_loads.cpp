@@ -1,0 +1,87 @@
+#include "sliding/loads/static_loads.hpp"
+
+#include "scene/section.hpp"
+
+#include <algorithm>
+
+namespace damslip::sliding {
+
+namespace {
+
+FaceLoad scaled(double factor, const FaceLoad& load) { return {factor * load.horizontal, factor * load.vertical}; }
+
+FaceLoad at_point(Point at, double x, double y) { return {force_at(at, x, 0.0), force_at(at, 0.0, y)}; }
+
+/// Water standing on the flat crest, from the downstream to the upstream end of the crest.
+FaceLoad crest_water(const Scene& scene, const LoadCase& load_case, double unit_weight)
+{
+    const Polyline crest{downstream_face(scene.section).back(), upstream_face(scene.section).back()};
+    const double dry = crest.front().y;
+    const double level = std::max(load_case.reservoir_level.value_or(dry), load_case.tailwater_level.value_or(dry));
+    return hydrostatic_load(crest, DamSide::left, level, unit_weight);
+}
+
+double ice_level(const Scene& scene, const LoadCase& load_case)
+{
+    const bool at_surface = scene.reservoir && scene.ice->level == scene.reservoir->level;
+    return at_surface ? load_case.reservoir_level.value_or(scene.ice->level) : scene.ice->level;
+}
+
+} // namespace
+
+LoadCase scene_load_case(const Scene& scene)
+{
+    LoadCase load_case;
+    if (scene.reservoir) load_case.reservoir_level = scene.reservoir->level;
+    if (scene.tailwater) load_case.tailwater_level = scene.tailwater->level;
+    return load_case;
+}
+
+double water_unit_weight(const Scene& scene)
+{
+    return (scene.reservoir ? scene.reservoir->density : Reservoir{}.density) * scene.gravity;
+}
+
+double dam_mass(const Scene& scene) { return area(scene.section) * scene.dam.density; }
+
+std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
+{
+    const double unit_weight = water_unit_weight(scene);
+    const Polyline upstream = upstream_face(scene.section), downstream = downstream_face(scene.section);
+    const double weight = dam_mass(scene) * scene.gravity;
+
+    std::vector<Load> loads;
+    loads.push_back({LoadKind::weight, "dam weight",
+                     scaled(load_case.weight_factor, at_point(centroid(scene.section), 0.0, -weight))});
+    const auto add_water = [&](LoadKind kind, const char* name, const FaceLoad& load) {
+        if (load.total() != Force{}) loads.push_back({kind, name, scaled(load_case.water_factor, load)});
+    };
+    if (const auto level = load_case.reservoir_level)
+        add_water(LoadKind::reservoir, "reservoir", hydrostatic_load(upstream, DamSide::right, *level, unit_weight));
+    if (const auto level = load_case.tailwater_level)
+        add_water(LoadKind::tailwater, "tailwater", hydrostatic_load(downstream, DamSide::left, *level, unit_weight));
+    add_water(LoadKind::crest_water, "water on the crest", crest_water(scene, load_case, unit_weight));
+    if (scene.silt) {
+        const Silt& silt = *scene.silt;
+        loads.push_back({LoadKind::silt, "silt",
+                         scaled(load_case.silt_factor, {silt_thrust(upstream, silt.level, silt.submerged_unit_weight,
+                                                                    silt.pressure_coefficient),
+                                                        {}})});
+    }
+    if (scene.ice && load_case.ice == IceLoad::on) {
+        const Point at{0.0, ice_level(scene, load_case)}; // a horizontal force: its x does not enter
+        loads.push_back({LoadKind::ice, "ice", scaled(load_case.ice_factor, at_point(at, scene.ice->force, 0.0))});
+    }
+    for (const PointForce& force : scene.forces)
+        loads.push_back({LoadKind::point_force, force.name, at_point(force.at, force.force_x, force.force_y)});
+    return loads;
+}
+
+Force resultant(const std::vector<Load>& loads)
+{
+    Force sum;
+    for (const Load& load : loads) sum += load.force.total();
+    return sum;
+}
+
+} // namespace damslip::sliding

@@ -1,0 +1,192 @@
+#include "sliding/uplift/uplift_profile.hpp"
+
+#include "core/input_error.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::sliding {
+
+namespace {
+
+/// The base with its water, seen from the end where the crack starts: s = 0 there.
+struct Base {
+    double length = 0.0;
+    double unit_weight = 0.0;
+    double first_y = 0.0, second_y = 0.0;       ///< elevations of the ends [m]
+    double first_head = 0.0, second_head = 0.0; ///< above the heel [m]
+
+    double elevation(double s) const { return first_y + (second_y - first_y) * s / length; }
+    double pressure(double head, double s) const { return std::max(0.0, unit_weight * (head - elevation(s))); }
+    double first_pressure() const { return pressure(first_head, 0.0); }
+    double second_pressure() const { return pressure(second_head, length); }
+};
+
+Base base_of(const Scene& scene, const UpliftState& state, Side first)
+{
+    const double heel_y = heel(scene.section).y, toe_y = toe(scene.section).y;
+    // A dry end has its own elevation as head, but never more than the wet end can supply.
+    const double h1 = std::max(state.reservoir_level.value_or(heel_y), heel_y);
+    const double h2 = std::max(state.tailwater_level.value_or(toe_y), toe_y);
+    const double heel_head = h1 > heel_y ? h1 : std::min(heel_y, h2);
+    const double toe_head = h2 > toe_y ? h2 : std::min(toe_y, h1);
+    const double density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
+    Base base{base_length(scene.section), density * scene.gravity, heel_y, toe_y, heel_head, toe_head};
+    if (first == Side::toe) {
+        std::swap(base.first_y, base.second_y);
+        std::swap(base.first_head, base.second_head);
+    }
+    return base;
+}
+
+/// From the crack tip straight to the far end.
+std::vector<ProfilePoint> linear(const Base& base, double tip)
+{
+    return {{tip, base.pressure(base.first_head, tip)}, {base.length, base.second_pressure()}};
+}
+
+std::vector<ProfilePoint> through(const Base& base, double tip, double at, double pressure)
+{
+    std::vector<ProfilePoint> points = linear(base, tip);
+    points.insert(points.begin() + 1, {at, pressure});
+    return points;
+}
+
+double linear_pressure(const Base& base, double tip, double at)
+{
+    const double p0 = base.pressure(base.first_head, tip), p1 = base.second_pressure();
+    return p0 + (p1 - p0) * (at - tip) / (base.length - tip);
+}
+
+/// @param at  distance of the curtain from the first end
+std::vector<ProfilePoint> with_curtain(const Base& base, double tip, double at, double ratio)
+{
+    if (tip >= at) return linear(base, tip);
+    const auto [low, high] = std::minmax({base.first_pressure(), base.second_pressure()});
+    return through(base, tip, at, low + ratio * (high - low));
+}
+
+/// @param at  distance of the drains from the first end
+std::vector<ProfilePoint> with_drains(const Base& base, double tip, double at, double efficiency,
+                                      const std::optional<double>& gallery)
+{
+    if (tip >= at || efficiency <= 0.0) return linear(base, tip);
+    const bool from_first = base.first_head >= base.second_head; // which way the water flows
+    const double high = std::max(base.first_head, base.second_head);
+    double low = std::min(base.first_head, base.second_head);
+    if (gallery && *gallery > low) low = std::min(*gallery, high);
+    const double way = base.length - tip; // from the crack tip to the other end
+    const double share = from_first ? (base.length - at) / way : (at - tip) / way;
+    const double head = low + (1.0 - efficiency) * (high - low) * share;
+    return through(base, tip, at, std::min(base.pressure(head, at), linear_pressure(base, tip, at)));
+}
+
+void mirror(std::vector<ProfilePoint>& points, double length)
+{
+    std::reverse(points.begin(), points.end());
+    for (ProfilePoint& p : points) p.distance = length - p.distance;
+}
+
+[[noreturn]] void refuse(const Scene& scene, std::string problem, std::string fix)
+{
+    throw InputError(Diagnostic{scene.file.string(), 0, 0, std::move(problem), "", std::move(fix)});
+}
+
+PressureProfile checked(const Scene& scene, PressureProfile profile, const char* what)
+{
+    const double length = base_length(scene.section), slack = 1e-9 * length;
+    auto& p = profile.points;
+    const bool sorted = std::is_sorted(p.begin(), p.end(), [](auto& a, auto& b) { return a.distance < b.distance; });
+    if (p.size() < 2 || !sorted || std::abs(p.front().distance) > slack || std::abs(p.back().distance - length) > slack)
+        refuse(scene, fmt::format("the {} uplift profile does not go from the heel to the toe.", what),
+               fmt::format("give distances along the base in ascending order from 0 to {:g} m", length));
+    p.front().distance = 0.0;
+    p.back().distance = length;
+    return profile;
+}
+
+PressureProfile point_profile(const Scene& scene, double heel_pressure)
+{
+    PressureProfile profile;
+    for (const Point& p : scene.uplift->points) profile.points.push_back({p.x, p.y * heel_pressure});
+    return checked(scene, std::move(profile), "uplift.points");
+}
+
+PressureProfile seepage_profile(const Scene& scene, const UpliftState& state, const SeepageProfile& seepage)
+{
+    if (!seepage)
+        refuse(scene, "uplift.model = \"seepage\" without a seepage solution.",
+               "use a command that solves the seepage, or another uplift.model");
+    return checked(scene, seepage(state), "seepage");
+}
+
+/// Full head in the crack, the given profile beyond it.
+std::vector<ProfilePoint> beyond_tip(const Base& base, PressureProfile profile, const Crack& crack)
+{
+    if (crack.side == Side::toe) mirror(profile.points, base.length);
+    return crack.length > 0.0 ? part(profile, crack.length, base.length) : profile.points;
+}
+
+/// The profile beyond the crack tip, seen from the cracked end.
+std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& state, const Base& base, const Crack& crack,
+                                         const SeepageProfile& seepage)
+{
+    const auto from_first = [&](double distance) { return crack.side == Side::heel ? distance : base.length - distance; };
+    const double heel_pressure = crack.side == Side::heel ? base.first_pressure() : base.second_pressure();
+    switch (scene.uplift->model) {
+    case UpliftModel::none:
+    case UpliftModel::linear: break;
+    case UpliftModel::curtain:
+        if (!scene.curtain) refuse(scene, "uplift.model = \"curtain\" without a curtain.", "add a [curtain] with its distance_m");
+        if (!scene.curtain->intact || state.curtain == CurtainState::damaged) break;
+        return with_curtain(base, crack.length, from_first(scene.curtain->distance), scene.uplift->curtain_ratio);
+    case UpliftModel::drains:
+        if (!scene.drains) refuse(scene, "uplift.model = \"drains\" without drains.", "add [drains] with distance_m");
+        if (state.drains == DrainState::ineffective) break;
+        return with_drains(base, crack.length, from_first(scene.drains->distance), scene.drains->efficiency,
+                           scene.drains->gallery_level);
+    case UpliftModel::points: return beyond_tip(base, point_profile(scene, heel_pressure), crack);
+    case UpliftModel::seepage: return beyond_tip(base, seepage_profile(scene, state, seepage), crack);
+    }
+    return linear(base, crack.length);
+}
+
+} // namespace
+
+UpliftState scene_uplift_state(const Scene& scene)
+{
+    UpliftState state;
+    if (scene.reservoir) state.reservoir_level = scene.reservoir->level;
+    if (scene.tailwater) state.tailwater_level = scene.tailwater->level;
+    return state;
+}
+
+PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, const Crack& crack, const SeepageProfile& seepage)
+{
+    const double length = base_length(scene.section);
+    if (!scene.uplift || scene.uplift->model == UpliftModel::none) return {{{0.0, 0.0}, {length, 0.0}}};
+    const Base base = base_of(scene, state, crack.side);
+    PressureProfile profile;
+    if (crack.length > 0.0) {
+        const double tip = std::min(crack.length, length);
+        profile.points = {{0.0, base.first_pressure()}, {tip, base.pressure(base.first_head, tip)}};
+    }
+    if (crack.length < length)
+        for (const ProfilePoint& p : uncracked_part(scene, state, base, crack, seepage))
+            if (profile.points.empty() || profile.points.back() != p) profile.points.push_back(p);
+    if (crack.side == Side::toe) mirror(profile.points, length);
+    return profile;
+}
+
+std::vector<double> crack_events(const Scene& scene)
+{
+    std::vector<double> distances;
+    if (!scene.uplift) return distances;
+    if (scene.uplift->model == UpliftModel::curtain && scene.curtain) distances.push_back(scene.curtain->distance);
+    if (scene.uplift->model == UpliftModel::drains && scene.drains) distances.push_back(scene.drains->distance);
+    return distances;
+}
+
+} // namespace damslip::sliding

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+/// The gravity dam of Goldgruber (2015), chapter 4, and plain shapes for hand calculations.
+namespace damslip::exact {
+
+/// Which uplift the reference dam gets.
+enum class ReferenceUplift {
+    none,
+    linear,        ///< ruptured curtain
+    printed_curtain, ///< 2/3 of the head at the curtain, 7 m from the heel
+    points         ///< free profile from a separate flow solution
+};
+
+/// 62.5 m high, 45 m base, 12 m crest, vertical upstream face, area 1599.75 m^2, 2500 kg/m^3, water to the crest, Westergaard's
+/// simplified added mass, g = 9.81 m/s^2. All lengths times `scale`.
+Scene reference_scene(ReferenceUplift uplift, double friction, double scale = 1.0);
+
+/// A scene with nothing but a section (counter-clockwise, heel first) of the given density [kg/m^3], g = 9.81 m/s^2.
+Scene bare_scene(Polyline polygon, double density = 2400.0);
+
+/// Right-angled triangle, vertical upstream face: (0,0) (base,0) (0,height).
+Polyline triangle(double base, double height);
+
+/// Mirrored about a vertical line so that the toe becomes the heel at the origin; water and foundation are not touched.
+Polyline mirrored(const Polyline& polygon);
+
+} // namespace damslip::exact
