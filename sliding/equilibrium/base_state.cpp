@@ -26,7 +26,10 @@ BaseLoad base_load(const BaseFrame& frame, const Force& force)
     return {-(force.x * frame.n.x + force.y * frame.n.y), force.moment};
 }
 
-double shear(const BaseFrame& frame, const Force& force) { return force.x * frame.t.x + force.y * frame.t.y; }
+double shear(const BaseFrame& frame, const Force& force)
+{
+    return force.x * frame.t.x + force.y * frame.t.y;
+}
 
 StaticCase scene_static_case(const Scene& scene)
 {
@@ -68,7 +71,8 @@ RigidBlock make_rigid_block(const Scene& scene, const BlockOptions& options)
 {
     StaticCase static_case = scene_static_case(scene);
     if (options.crack) static_case.crack = *options.crack;
-    return make_rigid_block(scene, base_state(scene, static_case, options.seepage), static_case.loads.reservoir_level, options);
+    return make_rigid_block(scene, base_state(scene, static_case, options.seepage), static_case.loads.reservoir_level,
+                            options);
 }
 
 RigidBlock make_rigid_block(const Scene& scene, const BaseState& state, std::optional<double> reservoir_level,

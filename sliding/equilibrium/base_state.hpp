@@ -29,9 +29,10 @@ double shear(const BaseFrame& frame, const Force& force);
 struct StaticCase {
     LoadCase loads;
     UpliftState uplift;
-    double uplift_factor = 1.0;         ///< on all uplift pressures [-]
-    CrackRule crack = CrackRule::none;  ///< none: whole base, tension allowed; any other: no-tension joint under the static loads
-    Crack opened;                       ///< joint that holds water already [m]
+    double uplift_factor = 1.0; ///< on all uplift pressures [-]
+    CrackRule crack =
+        CrackRule::none; ///< none: whole base, tension allowed; any other: no-tension joint under the static loads
+    Crack opened;        ///< joint that holds water already [m]
 };
 
 /// The scene as it stands, its own crack rule.
@@ -40,10 +41,10 @@ StaticCase scene_static_case(const Scene& scene);
 /// The block on its base under static loads.
 struct BaseState {
     BaseFrame frame;
-    std::vector<Load> loads; ///< uplift excepted
-    Force load;              ///< their sum
-    CrackedBase base;        ///< uplift, crack, N' and its position
-    Crack opened;            ///< as given
+    std::vector<Load> loads;                                                    ///< uplift excepted
+    Force load;                                                                 ///< their sum
+    CrackedBase base;                                                           ///< uplift, crack, N' and its position
+    Crack opened;                                                               ///< as given
     double cohesive_length() const { return frame.length - base.crack.length; } ///< A' [m]
 };
 
@@ -55,14 +56,15 @@ BaseState base_state(const Scene& scene, const StaticCase& static_case, const Se
 
 /// What the sweeps vary.
 struct BlockOptions {
-    std::optional<double> friction;   ///< mu [-]; default: contact.friction, or the first value of contact.friction_table
-    std::optional<double> cohesion;   ///< c [Pa]; default: contact.cohesion
-    std::optional<CrackRule> crack;   ///< default: uplift.crack
-    SeepageProfile seepage;           ///< for uplift.model = "seepage"
+    std::optional<double> friction; ///< mu [-]; default: contact.friction, or the first value of contact.friction_table
+    std::optional<double> cohesion; ///< c [Pa]; default: contact.cohesion
+    std::optional<CrackRule> crack; ///< default: uplift.crack
+    SeepageProfile seepage;         ///< for uplift.model = "seepage"
 };
 
-/// The rigid block of the scene: weight, static forces, uplift, cohesion on the uncracked length, added mass of the reservoir.
-/// Sums: horizontal_force = sum of Fx of all loads, vertical_force = -(sum of Fy) - weight; they are exact for an inclined base too.
+/// The rigid block of the scene: weight, static forces, uplift, cohesion on the uncracked length, added mass of the
+/// reservoir. Sums: horizontal_force = sum of Fx of all loads, vertical_force = -(sum of Fy) - weight; they are exact
+/// for an inclined base too.
 RigidBlock make_rigid_block(const Scene& scene, const BlockOptions& options = {});
 
 /// The same from a state that is known already; `reservoir_level` gives the depth of the added mass.

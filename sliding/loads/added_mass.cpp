@@ -21,12 +21,13 @@ double period_ratio_squared(const AddedMass& method, const WaterColumn& water)
     if (!method.period) return 0.0;
     const double own = reservoir_period(water);
     if (*method.period <= own)
-        throw InputError(Diagnostic{"", 0, 0, fmt::format("added_mass.period_s = {:g} is not allowed.", *method.period),
-                          fmt::format("a period T of the excitation or of the dam above T_r = 4h/c = {:.6g} s, the "
-                                                  "water's own first period (h = {:g} m): at T_r the water resonates, the first "
-                                                  "term of Westergaard's series has c_1 = 0, and below it no mass can stand for it",
-                                                  own, water.depth),
-                          "leave the period out (infinite, incompressible water), or use the acoustic reservoir"});
+        throw InputError(
+            Diagnostic{"", 0, 0, fmt::format("added_mass.period_s = {:g} is not allowed.", *method.period),
+                       fmt::format("a period T of the excitation or of the dam above T_r = 4h/c = {:.6g} s, the "
+                                   "water's own first period (h = {:g} m): at T_r the water resonates, the first "
+                                   "term of Westergaard's series has c_1 = 0, and below it no mass can stand for it",
+                                   own, water.depth),
+                       "leave the period out (infinite, incompressible water), or use the acoustic reservoir"});
     return std::pow(own / *method.period, 2);
 }
 
@@ -41,8 +42,8 @@ double table_value(const std::vector<Point>& table, double x)
     return table.back().y;
 }
 
-/// C_m of Zangar, over cos(phi) where the normal component is asked for. Its own line 0.73 (1 - phi/90 deg) goes to zero with
-/// cos(phi), so the quotient stays finite: 0.73 2/pi at phi = 90 deg.
+/// C_m of Zangar, over cos(phi) where the normal component is asked for. Its own line 0.73 (1 - phi/90 deg) goes to
+/// zero with cos(phi), so the quotient stays finite: 0.73 2/pi at phi = 90 deg.
 double zangar_coefficient(const AddedMass& method, double phi)
 {
     const bool normal = method.inclined_face == InclinedFaceRule::normal_component;
@@ -68,9 +69,11 @@ double goldgruber(const AddedMass& method, double zeta, double phi)
 {
     const double degrees = std::max(phi, 0.0) / units::degree;
     if (degrees > 30.0 * (1.0 + 1e-12))
-        throw InputError(Diagnostic{"", 0, 0, fmt::format("added_mass.formula = \"goldgruber\" with a face {:.4g} degrees from the vertical.", degrees),
-                          "a wet upstream face within 0 to 30 degrees of the vertical, the range of (3-10)",
-                          "use added_mass.formula = \"zangar\" or \"westergaard\""});
+        throw InputError(Diagnostic{
+            "", 0, 0,
+            fmt::format("added_mass.formula = \"goldgruber\" with a face {:.4g} degrees from the vertical.", degrees),
+            "a wet upstream face within 0 to 30 degrees of the vertical, the range of (3-10)",
+            "use added_mass.formula = \"zangar\" or \"westergaard\""});
     const double peak = std::sqrt(degrees / 1000.0); // h_m / h
     // With y/h = 1 - zeta the cosine is sin((pi/2) zeta/(1 - peak)): exact near the surface.
     const double shape = std::sin(right_angle * zeta / (1.0 - peak));
@@ -80,9 +83,15 @@ double goldgruber(const AddedMass& method, double zeta, double phi)
 
 } // namespace
 
-double sound_speed(const WaterColumn& water) { return std::sqrt(water.bulk_modulus / water.density); }
+double sound_speed(const WaterColumn& water)
+{
+    return std::sqrt(water.bulk_modulus / water.density);
+}
 
-double reservoir_period(const WaterColumn& water) { return 4.0 * water.depth / sound_speed(water); }
+double reservoir_period(const WaterColumn& water)
+{
+    return 4.0 * water.depth / sound_speed(water);
+}
 
 double added_mass_per_area(const AddedMass& method, const WaterColumn& water, double depth, double face_angle)
 {
@@ -91,10 +100,14 @@ double added_mass_per_area(const AddedMass& method, const WaterColumn& water, do
     const double tau = method.formula == AddedMassFormula::westergaard ? period_ratio_squared(method, water) : 0.0;
     if (!(zeta > 0.0)) return 0.0;
     switch (method.formula) {
-    case AddedMassFormula::westergaard_simplified: return 0.875 * unit * std::sqrt(zeta);
-    case AddedMassFormula::westergaard: return 8.0 / (pi * pi) * unit * westergaard_series(zeta, tau);
-    case AddedMassFormula::zangar: return unit * zangar(method, zeta, face_angle);
-    case AddedMassFormula::goldgruber: return unit * goldgruber(method, zeta, face_angle);
+    case AddedMassFormula::westergaard_simplified:
+        return 0.875 * unit * std::sqrt(zeta);
+    case AddedMassFormula::westergaard:
+        return 8.0 / (pi * pi) * unit * westergaard_series(zeta, tau);
+    case AddedMassFormula::zangar:
+        return unit * zangar(method, zeta, face_angle);
+    case AddedMassFormula::goldgruber:
+        return unit * goldgruber(method, zeta, face_angle);
     }
     return 0.0;
 }

@@ -6,42 +6,48 @@ namespace damslip::sliding {
 
 /// The water in front of the dam, seen by the added-mass formulas.
 struct WaterColumn {
-    double depth = 0.0;            ///< h, surface above the heel [m], > 0
-    double density = 1000.0;       ///< rho [kg/m^3]
-    double bulk_modulus = 2200e6;  ///< K [Pa]; used by the rigorous series with a finite period only
+    double depth = 0.0;           ///< h, surface above the heel [m], > 0
+    double density = 1000.0;      ///< rho [kg/m^3]
+    double bulk_modulus = 2200e6; ///< K [Pa]; used by the rigorous series with a finite period only
 };
 
 double sound_speed(const WaterColumn& water);      ///< c = sqrt(K/rho) [m/s]
 double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water alone [s]
 
-/// Added mass m_n per area of wet face, for the pressure p = m_n (n . acceleration of the face): only the acceleration normal to
-/// the face moves water, Goldgruber (2015) eq. (3-24), (3-29).
+/// Added mass m_n per area of wet face, for the pressure p = m_n (n . acceleration of the face): only the acceleration
+/// normal to the face moves water, Goldgruber (2015) eq. (3-24), (3-29).
 ///
 /// - Westergaard (1933), simplified (3-4): 7/8 rho sqrt(h z); any face, m_n = m.
-/// - Westergaard (1933), series (3-1): (8 rho h/pi^2) sum over odd n of sin(n pi z/2h)/(n^2 c_n), c_n = sqrt(1 - 16 rho h^2/(n^2 K T^2)),
-///   T the period of the excitation, none: infinite (incompressible water); m_n = m. Summed to round-off (1e-14 relative).
-/// - Zangar (1952), (3-8, 3-9): C rho h, C = (C_m/2)[zeta(2 - zeta) + sqrt(zeta(2 - zeta))], C_m = 0.73 (1 - phi/90 deg) or a table
+/// - Westergaard (1933), series (3-1): (8 rho h/pi^2) sum over odd n of sin(n pi z/2h)/(n^2 c_n), c_n = sqrt(1 - 16 rho
+/// h^2/(n^2 K T^2)),
+///   T the period of the excitation, none: infinite (incompressible water); m_n = m. Summed to round-off (1e-14
+///   relative).
+/// - Zangar (1952), (3-8, 3-9): C rho h, C = (C_m/2)[zeta(2 - zeta) + sqrt(zeta(2 - zeta))], C_m = 0.73 (1 - phi/90
+/// deg) or a table
 ///   (linear between its rows, constant beyond them).
-/// - Goldgruber & Feldbacher (2013), (3-10...3-14): 0.707 rho h (1 - 0.011 phi) cos((pi/2)(y - h_m)/(h - h_m))^(0.6 + 0.005 phi),
+/// - Goldgruber & Feldbacher (2013), (3-10...3-14): 0.707 rho h (1 - 0.011 phi) cos((pi/2)(y - h_m)/(h - h_m))^(0.6 +
+/// 0.005 phi),
 ///   y = h - z above the reservoir bottom, h_m = h sqrt(phi/1000), phi in degrees, 0...30.
-/// The last two are pressures per *horizontal* acceleration: m_n = m/cos(phi) reproduces them (InclinedFaceRule::normal_component);
-/// InclinedFaceRule::printed takes m_n = m.
+/// The last two are pressures per *horizontal* acceleration: m_n = m/cos(phi) reproduces them
+/// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m.
 ///
 /// @param depth       z below the water surface [m]; 0 at and above it, taken as h below the bottom
-/// @param face_angle  phi of this piece of the face from the vertical [rad], positive: the face leans away from the water. Kinked
-///                    faces use the angle of the piece the point lies on. An overhanging piece (phi < 0) takes the coefficients of a
-///                    vertical one, a horizontal one (phi = 90 deg) carries none with a Zangar table.
+/// @param face_angle  phi of this piece of the face from the vertical [rad], positive: the face leans away from the
+/// water. Kinked
+///                    faces use the angle of the piece the point lies on. An overhanging piece (phi < 0) takes the
+///                    coefficients of a vertical one, a horizontal one (phi = 90 deg) carries none with a Zangar table.
 /// @returns m_n [kg/m^2]
-/// Errors: InputError for T <= T_r (the first term of the series has no real value: the water resonates at T_r, below it the
-/// incompressible picture of a mass is wrong) and for Goldgruber & Feldbacher beyond 30 degrees.
+/// Errors: InputError for T <= T_r (the first term of the series has no real value: the water resonates at T_r, below
+/// it the incompressible picture of a mass is wrong) and for Goldgruber & Feldbacher beyond 30 degrees.
 double added_mass_per_area(const AddedMass& method, const WaterColumn& water, double depth, double face_angle);
 
 /// sum over odd n of sin(n pi zeta/2)/(n^2 sqrt(1 - tau/n^2)) with tau = (T_r/T)^2, 0 <= tau < 1, 0 <= zeta <= 1 [-].
 double westergaard_series(double zeta, double tau);
 
-/// Does compressible water matter? Omega_r = (c/4h)/f_dam, Goldgruber (2015) eq. (3-36), (3-37): below 2 it does (Hall & Chopra).
+/// Does compressible water matter? Omega_r = (c/4h)/f_dam, Goldgruber (2015) eq. (3-36), (3-37): below 2 it does (Hall
+/// & Chopra).
 struct CompressibilityCriterion {
-    double frequency_ratio = 0.0; ///< Omega_r [-]
+    double frequency_ratio = 0.0;      ///< Omega_r [-]
     bool compressible_matters = false; ///< Omega_r < 2: use an acoustic reservoir
 };
 CompressibilityCriterion compressibility_criterion(const WaterColumn& water, double dam_frequency_hz);

@@ -9,8 +9,8 @@ namespace damslip::sliding {
 
 namespace {
 
-/// Integrals over 0...1 of f(w) and w f(w) by the tanh-sinh rule: w = 1/(1 + exp(-pi sinh t)), step 1/16. Roots and logarithms at
-/// the ends cost no accuracy; w is exact near 0, where the free surface is.
+/// Integrals over 0...1 of f(w) and w f(w) by the tanh-sinh rule: w = 1/(1 + exp(-pi sinh t)), step 1/16. Roots and
+/// logarithms at the ends cost no accuracy; w is exact near 0, where the free surface is.
 struct Moments {
     double zeroth = 0.0, first = 0.0;
 };
@@ -76,7 +76,8 @@ AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColum
 
 AddedMassIntegral scene_added_mass(const Scene& scene, std::optional<double> level)
 {
-    if (!scene.reservoir || !level || !(*level > 0.0) || scene.reservoir->model == ReservoirModel::hydrostatic) return {};
+    if (!scene.reservoir || !level || !(*level > 0.0) || scene.reservoir->model == ReservoirModel::hydrostatic)
+        return {};
     const WaterColumn water{*level, scene.reservoir->density, scene.reservoir->bulk_modulus};
     return integrate_added_mass(scene.added_mass, water, upstream_face(scene.section));
 }

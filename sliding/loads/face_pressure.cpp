@@ -17,13 +17,17 @@ std::pair<Point, Point> below(Point a, Point b, double level)
 }
 
 /// Integral of f g over s in 0...1 for f, g linear with the given end values.
-double product(double f0, double f1, double g0, double g1) { return (2.0 * (f0 * g0 + f1 * g1) + f0 * g1 + f1 * g0) / 6.0; }
+double product(double f0, double f1, double g0, double g1)
+{
+    return (2.0 * (f0 * g0 + f1 * g1) + f0 * g1 + f1 * g0) / 6.0;
+}
 
 } // namespace
 
 FaceLoad hydrostatic_load(const Polyline& face, DamSide side, double level, double unit_weight)
 {
-    const double into_dam = side == DamSide::right ? 1.0 : -1.0; // normal into the dam: (dy, -dx) for a dam on the right
+    const double into_dam =
+        side == DamSide::right ? 1.0 : -1.0; // normal into the dam: (dy, -dx) for a dam on the right
     FaceLoad load;
     for (std::size_t i = 0; i + 1 < face.size(); ++i) {
         const auto [a, b] = below(face[i], face[i + 1], level);
@@ -35,9 +39,11 @@ FaceLoad hydrostatic_load(const Polyline& face, DamSide side, double level, doub
     return load;
 }
 
-Force silt_thrust(const Polyline& upstream_face, double level, double submerged_unit_weight, double pressure_coefficient)
+Force silt_thrust(const Polyline& upstream_face, double level, double submerged_unit_weight,
+                  double pressure_coefficient)
 {
-    return hydrostatic_load(upstream_face, DamSide::right, level, pressure_coefficient * submerged_unit_weight).horizontal;
+    return hydrostatic_load(upstream_face, DamSide::right, level, pressure_coefficient * submerged_unit_weight)
+        .horizontal;
 }
 
 } // namespace damslip::sliding

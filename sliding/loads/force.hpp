@@ -5,7 +5,8 @@
 namespace damslip::sliding {
 
 /// A force per metre of dam length and its moment about the origin (the heel).
-/// Signs: x downstream, y up, moment counter-clockwise: M = X Fy - Y Fx, so a downstream thrust above the heel has M < 0.
+/// Signs: x downstream, y up, moment counter-clockwise: M = X Fy - Y Fx, so a downstream thrust above the heel has M <
+/// 0.
 struct Force {
     double x = 0.0;      ///< [N/m]
     double y = 0.0;      ///< [N/m]
@@ -24,9 +25,15 @@ struct Force {
 };
 
 /// The force (x, y) [N/m] acting at a point [m].
-inline Force force_at(Point at, double x, double y) { return {x, y, at.x * y - at.y * x}; }
+inline Force force_at(Point at, double x, double y)
+{
+    return {x, y, at.x * y - at.y * x};
+}
 
 /// Moment of the force about another point [N m/m].
-inline double moment_about(const Force& f, Point p) { return f.moment - (p.x * f.y - p.y * f.x); }
+inline double moment_about(const Force& f, Point p)
+{
+    return f.moment - (p.x * f.y - p.y * f.x);
+}
 
 } // namespace damslip::sliding

@@ -8,9 +8,15 @@ namespace damslip::sliding {
 
 namespace {
 
-FaceLoad scaled(double factor, const FaceLoad& load) { return {factor * load.horizontal, factor * load.vertical}; }
+FaceLoad scaled(double factor, const FaceLoad& load)
+{
+    return {factor * load.horizontal, factor * load.vertical};
+}
 
-FaceLoad at_point(Point at, double x, double y) { return {force_at(at, x, 0.0), force_at(at, 0.0, y)}; }
+FaceLoad at_point(Point at, double x, double y)
+{
+    return {force_at(at, x, 0.0), force_at(at, 0.0, y)};
+}
 
 /// Water standing on the flat crest, from the downstream to the upstream end of the crest.
 FaceLoad crest_water(const Scene& scene, const LoadCase& load_case, double unit_weight)
@@ -42,7 +48,10 @@ double water_unit_weight(const Scene& scene)
     return (scene.reservoir ? scene.reservoir->density : Reservoir{}.density) * scene.gravity;
 }
 
-double dam_mass(const Scene& scene) { return area(scene.section) * scene.dam.density; }
+double dam_mass(const Scene& scene)
+{
+    return area(scene.section) * scene.dam.density;
+}
 
 std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
 {
@@ -63,10 +72,10 @@ std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
     add_water(LoadKind::crest_water, "water on the crest", crest_water(scene, load_case, unit_weight));
     if (scene.silt) {
         const Silt& silt = *scene.silt;
-        loads.push_back({LoadKind::silt, "silt",
-                         scaled(load_case.silt_factor, {silt_thrust(upstream, silt.level, silt.submerged_unit_weight,
-                                                                    silt.pressure_coefficient),
-                                                        {}})});
+        loads.push_back(
+            {LoadKind::silt, "silt",
+             scaled(load_case.silt_factor,
+                    {silt_thrust(upstream, silt.level, silt.submerged_unit_weight, silt.pressure_coefficient), {}})});
     }
     if (scene.ice && load_case.ice == IceLoad::on) {
         const Point at{0.0, ice_level(scene, load_case)}; // a horizontal force: its x does not enter

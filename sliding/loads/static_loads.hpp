@@ -25,10 +25,10 @@ struct LoadCase {
     std::optional<double> reservoir_level; ///< above the heel [m]; none: no water upstream
     std::optional<double> tailwater_level; ///< above the heel [m], may be negative with a toe below the heel; none: dry
     IceLoad ice = IceLoad::on;
-    double weight_factor = 1.0;   ///< on the dam's weight [-]
-    double water_factor = 1.0;    ///< on reservoir, tailwater and water on the crest [-]
-    double silt_factor = 1.0;     ///< [-]
-    double ice_factor = 1.0;      ///< [-]
+    double weight_factor = 1.0; ///< on the dam's weight [-]
+    double water_factor = 1.0;  ///< on reservoir, tailwater and water on the crest [-]
+    double silt_factor = 1.0;   ///< [-]
+    double ice_factor = 1.0;    ///< [-]
 };
 
 /// The scene as it stands: its levels, its ice, factors 1.
@@ -40,11 +40,11 @@ double water_unit_weight(const Scene& scene);
 /// Mass of the dam [kg/m].
 double dam_mass(const Scene& scene);
 
-/// All static loads of a case: weight at the centroid; water pressure on the wet part of the actual faces; sediment; ice; point
-/// forces. Overtopping (level above the crest): the faces carry the trapezoid below the crest, and the flat crest between the two
-/// faces carries the still water standing on it, weight rho g (level - crest) b; flow, nappe and suction are not covered. With both
-/// sides above the crest the higher level loads it.
-/// Ice acts at its own level; where that is the scene's water surface it follows the surface of the load case.
+/// All static loads of a case: weight at the centroid; water pressure on the wet part of the actual faces; sediment;
+/// ice; point forces. Overtopping (level above the crest): the faces carry the trapezoid below the crest, and the flat
+/// crest between the two faces carries the still water standing on it, weight rho g (level - crest) b; flow, nappe and
+/// suction are not covered. With both sides above the crest the higher level loads it. Ice acts at its own level; where
+/// that is the scene's water surface it follows the surface of the load case.
 std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case);
 
 /// Sum of all loads.

@@ -33,8 +33,8 @@ double tangent_log_coefficient(int k)
     return (std::pow(4.0, k) - 2.0) * zeta / (k * std::pow(std::numbers::pi, 2 * k));
 }
 
-/// With d/dx sum sin(nx)/n^2 = -1/2 ln tan(x/2) and d2/dx2 sum sin(nx)/n^4 = - sum sin(nx)/n^2, both sums follow from integrating
-/// the power series of ln(tan u / u), u = x/2 <= pi/4, term by term; terms shrink like 4^-k.
+/// With d/dx sum sin(nx)/n^2 = -1/2 ln tan(x/2) and d2/dx2 sum sin(nx)/n^4 = - sum sin(nx)/n^2, both sums follow from
+/// integrating the power series of ln(tan u / u), u = x/2 <= pi/4, term by term; terms shrink like 4^-k.
 SineSums sine_sums(double x)
 {
     if (x <= 0.0) return {};
@@ -63,7 +63,8 @@ double westergaard_series(double zeta, double tau)
     const SineSums sums = sine_sums(x);
     double total = sums.second;
     if (tau > 0.0) {
-        // 1/(n sqrt(n^2 - tau)) = 1/n^2 + tau/(2 n^4) + rest; the rest falls like 3 tau^2/(8 n^6): beyond n = 401 less than 4e-15.
+        // 1/(n sqrt(n^2 - tau)) = 1/n^2 + tau/(2 n^4) + rest; the rest falls like 3 tau^2/(8 n^6): beyond n = 401 less
+        // than 4e-15.
         total += 0.5 * tau * sums.fourth;
         for (int n = 401; n >= 1; n -= 2) {
             const double n2 = static_cast<double>(n) * n;

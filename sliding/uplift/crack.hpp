@@ -16,14 +16,15 @@ struct BaseLoad {
 enum class CrackStatus {
     closed,  ///< compressed over the whole base
     partial, ///< open from one end, the rest compressed
-    open     ///< no equilibrium without tension: effective resultant outside the base, or no effective normal force left
+    open ///< no equilibrium without tension: effective resultant outside the base, or no effective normal force left
 };
 
 /// A joint in equilibrium with its uplift.
 struct CrackedBase {
     CrackStatus status = CrackStatus::closed;
-    Crack crack;                     ///< part that holds the full head [m]
-    double compressed_length = 0.0;  ///< carries effective pressure [m]; can exceed what is left of the crack where it has closed again
+    Crack crack; ///< part that holds the full head [m]
+    double compressed_length =
+        0.0; ///< carries effective pressure [m]; can exceed what is left of the crack where it has closed again
     PressureProfile profile;
     UpliftResultant uplift;
     double effective_normal = 0.0;   ///< N' = N - U [N/m]
@@ -40,7 +41,8 @@ using CrackUplift = std::function<PressureProfile(const Crack&)>;
 ///     L - T = 3 x (distance of N' from the compressed end),   N' = N - U(T),
 /// by scanning between the events and bisecting the first bracket, so it always ends; the result is exact to round-off.
 /// The end that would be in tension opens. No such T: status open, crack over the whole base.
-/// @param opened  a crack that holds water already (after an earthquake); it does not heal, though it may carry pressure again
+/// @param opened  a crack that holds water already (after an earthquake); it does not heal, though it may carry
+/// pressure again
 /// @param events  distances from the heel where U jumps when the tip passes (curtain, drains) [m]
 CrackedBase cracked_base(const BaseLoad& load, double length, const CrackUplift& uplift, const Crack& opened = {},
                          const std::vector<double>& events = {});

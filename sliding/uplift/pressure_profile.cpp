@@ -18,7 +18,9 @@ UpliftResultant resultant(const PressureProfile& profile)
         const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
         const double length = b.distance - a.distance;
         sum.force += 0.5 * length * (a.pressure + b.pressure);
-        sum.moment_about_heel += length / 6.0 * (a.pressure * (2.0 * a.distance + b.distance) + b.pressure * (a.distance + 2.0 * b.distance));
+        sum.moment_about_heel +=
+            length / 6.0 *
+            (a.pressure * (2.0 * a.distance + b.distance) + b.pressure * (a.distance + 2.0 * b.distance));
     }
     return sum;
 }

@@ -15,7 +15,8 @@ struct ProfilePoint {
 
 /// Water pressure under the base, piecewise linear from heel to toe; a repeated distance is a jump.
 struct PressureProfile {
-    std::vector<ProfilePoint> points; ///< distances ascending, first 0, last the base length; empty: no pressure anywhere
+    std::vector<ProfilePoint>
+        points; ///< distances ascending, first 0, last the base length; empty: no pressure anywhere
 };
 
 /// Resultant of a profile: normal to the base, lifts the dam.
@@ -30,7 +31,8 @@ UpliftResultant resultant(const PressureProfile& profile);
 /// Pressure at a distance from the heel [Pa]; at a jump the value on the heel's side; 0 outside the profile.
 double pressure_at(const PressureProfile& profile, double distance);
 
-/// The part of the profile beyond `from` and up to `to`, both ends included as points; a jump at `from` is left out, one at `to` too.
+/// The part of the profile beyond `from` and up to `to`, both ends included as points; a jump at `from` is left out,
+/// one at `to` too.
 std::vector<ProfilePoint> part(const PressureProfile& profile, double from, double to);
 
 } // namespace damslip::sliding

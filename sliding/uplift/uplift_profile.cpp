@@ -130,16 +130,20 @@ std::vector<ProfilePoint> beyond_tip(const Base& base, PressureProfile profile, 
 }
 
 /// The profile beyond the crack tip, seen from the cracked end.
-std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& state, const Base& base, const Crack& crack,
-                                         const SeepageProfile& seepage)
+std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& state, const Base& base,
+                                         const Crack& crack, const SeepageProfile& seepage)
 {
-    const auto from_first = [&](double distance) { return crack.side == Side::heel ? distance : base.length - distance; };
+    const auto from_first = [&](double distance) {
+        return crack.side == Side::heel ? distance : base.length - distance;
+    };
     const double heel_pressure = crack.side == Side::heel ? base.first_pressure() : base.second_pressure();
     switch (scene.uplift->model) {
     case UpliftModel::none:
-    case UpliftModel::linear: break;
+    case UpliftModel::linear:
+        break;
     case UpliftModel::curtain:
-        if (!scene.curtain) refuse(scene, "uplift.model = \"curtain\" without a curtain.", "add a [curtain] with its distance_m");
+        if (!scene.curtain)
+            refuse(scene, "uplift.model = \"curtain\" without a curtain.", "add a [curtain] with its distance_m");
         if (!scene.curtain->intact || state.curtain == CurtainState::damaged) break;
         return with_curtain(base, crack.length, from_first(scene.curtain->distance), scene.uplift->curtain_ratio);
     case UpliftModel::drains:
@@ -147,8 +151,10 @@ std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& 
         if (state.drains == DrainState::ineffective) break;
         return with_drains(base, crack.length, from_first(scene.drains->distance), scene.drains->efficiency,
                            scene.drains->gallery_level);
-    case UpliftModel::points: return beyond_tip(base, point_profile(scene, heel_pressure), crack);
-    case UpliftModel::seepage: return beyond_tip(base, seepage_profile(scene, state, seepage), crack);
+    case UpliftModel::points:
+        return beyond_tip(base, point_profile(scene, heel_pressure), crack);
+    case UpliftModel::seepage:
+        return beyond_tip(base, seepage_profile(scene, state, seepage), crack);
     }
     return linear(base, crack.length);
 }
@@ -163,7 +169,8 @@ UpliftState scene_uplift_state(const Scene& scene)
     return state;
 }
 
-PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, const Crack& crack, const SeepageProfile& seepage)
+PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, const Crack& crack,
+                               const SeepageProfile& seepage)
 {
     const double length = base_length(scene.section);
     if (!scene.uplift || scene.uplift->model == UpliftModel::none) return {{{0.0, 0.0}, {length, 0.0}}};

@@ -13,8 +13,8 @@ enum class CurtainState { intact, damaged };
 
 /// The state of water and foundation that an uplift profile belongs to.
 struct UpliftState {
-    std::optional<double> reservoir_level; ///< above the heel [m]; none: dry
-    std::optional<double> tailwater_level; ///< above the heel [m]; none: dry
+    std::optional<double> reservoir_level;       ///< above the heel [m]; none: dry
+    std::optional<double> tailwater_level;       ///< above the heel [m]; none: dry
     DrainState drains = DrainState::effective;   ///< effective: as the scene says; ineffective: E = 0
     CurtainState curtain = CurtainState::intact; ///< intact: as the scene says; damaged: as without a curtain
 };
@@ -33,27 +33,31 @@ struct Crack {
 /// Gives the uncracked profile of uplift.model = "seepage" (the seepage solver lives elsewhere).
 using SeepageProfile = std::function<PressureProfile(const UpliftState&)>;
 
-/// The uplift of the scene's model. Pressures at the ends: gamma_w h at the heel, gamma_w (h_t - y_toe) at the toe, 0 where dry.
+/// The uplift of the scene's model. Pressures at the ends: gamma_w h at the heel, gamma_w (h_t - y_toe) at the toe, 0
+/// where dry.
 ///
 /// - none, or no [uplift]: no pressure at all, in a crack neither.
 /// - linear: heel to toe; also curtain or drains that do not work.
-/// - curtain: linear from the heel to p_low + r (p_high - p_low) at the curtain's distance, then linear to the toe; Goldgruber
+/// - curtain: linear from the heel to p_low + r (p_high - p_low) at the curtain's distance, then linear to the toe;
+/// Goldgruber
 ///   (2015) sec. 4.2 with r = 2/3 ("printed rule"); p_low, p_high: the lower and higher of the end pressures.
-/// - drains: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L at the drains, USACE EM 1110-2-2200; a gallery above H2 puts its level H4 in the
-///   place of H2; linear to both ends. H are heads above the heel, so p3 = gamma_w (H3 - y(X)), at least 0 and at most the pressure
-///   without drains. A dry end has the head of its own elevation.
+/// - drains: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L at the drains, USACE EM 1110-2-2200; a gallery above H2 puts its level
+/// H4 in the
+///   place of H2; linear to both ends. H are heads above the heel, so p3 = gamma_w (H3 - y(X)), at least 0 and at most
+///   the pressure without drains. A dry end has the head of its own elevation.
 /// - points: p/p_heel over the distance [m], p_heel = gamma_w h.
 /// - seepage: as the solver says.
-/// With water flowing upstream (tailwater higher) curtain and drains are read from the other end: the mirrored dam gives the
-/// mirrored profile.
+/// With water flowing upstream (tailwater higher) curtain and drains are read from the other end: the mirrored dam
+/// gives the mirrored profile.
 ///
 /// A crack holds the head of its own end over its whole length; beyond its tip
-/// linear: straight to the other end; curtain: as uncracked unless the crack has reached the curtain, then linear; drains:
-/// (L - X)/(L - T) with crack length T in place of (L - X)/L, from the tip on, E = 0 once the crack has reached the drains
-/// (EM 1110-2-2200); points and seepage: unchanged, with a jump at the tip.
+/// linear: straight to the other end; curtain: as uncracked unless the crack has reached the curtain, then linear;
+/// drains: (L - X)/(L - T) with crack length T in place of (L - X)/L, from the tip on, E = 0 once the crack has reached
+/// the drains (EM 1110-2-2200); points and seepage: unchanged, with a jump at the tip.
 ///
 /// @param seepage  used by uplift.model = "seepage" only
-/// Errors: InputError if the model lacks what it needs ([curtain], [drains], a seepage profile, points from 0 to the base length).
+/// Errors: InputError if the model lacks what it needs ([curtain], [drains], a seepage profile, points from 0 to the
+/// base length).
 PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, const Crack& crack = {},
                                const SeepageProfile& seepage = {});
 

@@ -10,9 +10,15 @@ Uplift uplift_model(ReferenceUplift kind, double scale)
 {
     Uplift uplift;
     switch (kind) {
-    case ReferenceUplift::none: uplift.model = UpliftModel::none; break;
-    case ReferenceUplift::linear: uplift.model = UpliftModel::linear; break;
-    case ReferenceUplift::printed_curtain: uplift.model = UpliftModel::curtain; break;
+    case ReferenceUplift::none:
+        uplift.model = UpliftModel::none;
+        break;
+    case ReferenceUplift::linear:
+        uplift.model = UpliftModel::linear;
+        break;
+    case ReferenceUplift::printed_curtain:
+        uplift.model = UpliftModel::curtain;
+        break;
     case ReferenceUplift::points:
         uplift.model = UpliftModel::points;
         uplift.points = {{0, 1},     {2, .957},  {4, .944},  {6, .938},  {7, .938}, {7, .315},
@@ -31,9 +37,16 @@ Scene reference_scene(ReferenceUplift uplift, double friction, double scale)
     for (Point& p : scene.section.polygon) p = {scale * p.x, scale * p.y};
     scene.title = "reference dam";
     scene.contact.friction = friction;
-    scene.reservoir = Reservoir{.level = scale * 62.5, .length = scale * 150.0};
+    Reservoir reservoir;
+    reservoir.level = scale * 62.5;
+    reservoir.length = scale * 150.0;
+    scene.reservoir = reservoir;
     scene.added_mass.formula = AddedMassFormula::westergaard_simplified;
-    scene.curtain = Curtain{.distance = scale * 7.0, .depth = scale * 30.0, .thickness = scale};
+    Curtain curtain;
+    curtain.distance = scale * 7.0;
+    curtain.depth = scale * 30.0;
+    curtain.thickness = scale;
+    scene.curtain = curtain;
     scene.uplift = uplift_model(uplift, scale);
     return scene;
 }
@@ -47,7 +60,10 @@ Scene bare_scene(Polyline polygon, double density)
     return scene;
 }
 
-Polyline triangle(double base, double height) { return {{0.0, 0.0}, {base, 0.0}, {0.0, height}}; }
+Polyline triangle(double base, double height)
+{
+    return {{0.0, 0.0}, {base, 0.0}, {0.0, height}};
+}
 
 Polyline mirrored(const Polyline& polygon)
 {

@@ -8,13 +8,13 @@ namespace damslip::exact {
 /// Which uplift the reference dam gets.
 enum class ReferenceUplift {
     none,
-    linear,        ///< ruptured curtain
+    linear,          ///< ruptured curtain
     printed_curtain, ///< 2/3 of the head at the curtain, 7 m from the heel
-    points         ///< free profile from a separate flow solution
+    points           ///< free profile from a separate flow solution
 };
 
-/// 62.5 m high, 45 m base, 12 m crest, vertical upstream face, area 1599.75 m^2, 2500 kg/m^3, water to the crest, Westergaard's
-/// simplified added mass, g = 9.81 m/s^2. All lengths times `scale`.
+/// 62.5 m high, 45 m base, 12 m crest, vertical upstream face, area 1599.75 m^2, 2500 kg/m^3, water to the crest,
+/// Westergaard's simplified added mass, g = 9.81 m/s^2. All lengths times `scale`.
 Scene reference_scene(ReferenceUplift uplift, double friction, double scale = 1.0);
 
 /// A scene with nothing but a section (counter-clockwise, heel first) of the given density [kg/m^3], g = 9.81 m/s^2.
