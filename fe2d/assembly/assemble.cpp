@@ -1,0 +1,126 @@
+#include "fe2d/assembly/assemble.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace damslip::fe2d {
+
+namespace {
+
+/// Unknowns of an element in the order of its matrix.
+struct ElementDofs {
+    std::array<int, 8> index{};
+    int count = 0;
+};
+
+ElementDofs dofs_of(const Element& element, const DofMap& map)
+{
+    ElementDofs dofs;
+    for (int i = 0; i < element.size(); ++i)
+        for (int c = 0; c < map.components; ++c) dofs.index[dofs.count++] = map(element.nodes[i], c);
+    return dofs;
+}
+
+} // namespace
+
+SparseMatrix assemble(const Mesh& mesh, const DofMap& dofs, const ElementMatrixFunction& element_matrix)
+{
+    return assemble(mesh, dofs, dofs, element_matrix);
+}
+
+SparseMatrix assemble(const Mesh& mesh, const DofMap& rows, const DofMap& columns,
+                      const ElementMatrixFunction& element_matrix)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(mesh.elements.size() * 16 * static_cast<std::size_t>(rows.components * columns.components));
+    for (const Element& element : mesh.elements) {
+        const ElementMatrix m = element_matrix(element, corners(mesh, element));
+        if (m.size() == 0) continue;
+        const ElementDofs r = dofs_of(element, rows), c = dofs_of(element, columns);
+        assert(m.rows() == r.count && m.cols() == c.count);
+        for (int j = 0; j < c.count; ++j)
+            for (int i = 0; i < r.count; ++i)
+                if (r.index[i] != no_dof && c.index[j] != no_dof) entries.emplace_back(r.index[i], c.index[j], m(i, j));
+    }
+    SparseMatrix matrix(rows.count, columns.count);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+Eigen::VectorXd assemble_vector(const Mesh& mesh, const DofMap& dofs, const ElementVectorFunction& element_vector)
+{
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
+    for (const Element& element : mesh.elements) {
+        const ElementVector f = element_vector(element, corners(mesh, element));
+        if (f.size() == 0) continue;
+        const ElementDofs d = dofs_of(element, dofs);
+        assert(f.size() == d.count);
+        for (int i = 0; i < d.count; ++i)
+            if (d.index[i] != no_dof) sum[d.index[i]] += f[i];
+    }
+    return sum;
+}
+
+const ElasticMaterial& Materials::of(Region region) const
+{
+    assert(region != Region::reservoir);
+    return region == Region::dam ? dam : region == Region::rock ? rock : curtain;
+}
+
+Materials materials_of(const Scene& scene)
+{
+    Materials materials;
+    materials.kind = q4_kind(scene.mesh.element);
+    materials.dam = elastic_material(scene.dam, scene, "dam");
+    if (!scene.foundation) return materials;
+    materials.rock = elastic_material(scene.foundation->material, scene, "foundation");
+    materials.curtain = materials.rock;
+    if (scene.curtain && scene.curtain->young_modulus) {
+        materials.curtain.young_modulus = *scene.curtain->young_modulus;
+        materials.curtain.poisson_ratio = scene.curtain->poisson_ratio;
+    }
+    return materials;
+}
+
+SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials)
+{
+    std::array<Eigen::Matrix3d, region_count> d;
+    for (const Region region : {Region::dam, Region::rock, Region::curtain})
+        d[static_cast<int>(region)] = plane_strain_matrix(materials.of(region));
+    return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) {
+        return elastic_stiffness(corners, element.size(), d[static_cast<int>(element.region)], materials.kind);
+    });
+}
+
+SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind)
+{
+    return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {
+        const double density = materials.of(element.region).density;
+        if (density == 0.0) return {};
+        return elastic_mass(corners, element.size(), density, kind);
+    });
+}
+
+Eigen::VectorXd inertia_vector(const Mesh& mesh, const DofMap& dofs, const Materials& materials,
+                               const Eigen::Vector2d& direction)
+{
+    // The shape functions sum to one, so M r = integral of rho N^T r: the same for the consistent and the lumped
+    // matrix.
+    return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
+        const double density = materials.of(element.region).density;
+        if (density == 0.0) return {};
+        return body_force(corners, element.size(), density * direction);
+    });
+}
+
+Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materials& materials, double gravity,
+                             std::span<const Region> regions)
+{
+    return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
+        const double density = materials.of(element.region).density;
+        if (density == 0.0 || std::find(regions.begin(), regions.end(), element.region) == regions.end()) return {};
+        return body_force(corners, element.size(), {0.0, -density * gravity});
+    });
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,183 @@
+#include "fe2d/element/elastic.hpp"
+
+#include <Eigen/LU>
+
+#include <numbers>
+#include <span>
+
+namespace damslip::fe2d {
+
+namespace {
+
+using StrainMatrix = Eigen::Matrix<double, 3, 8>; ///< strain (xx, yy, 2xy) = B u
+using ModeMatrix = Eigen::Matrix<double, 3, 4>;   ///< strain of the two incompatible modes, each with x and y amplitude
+
+StrainMatrix strain_matrix(const Eigen::Matrix<double, 2, 4>& gradient)
+{
+    StrainMatrix b = StrainMatrix::Zero();
+    for (int i = 0; i < 4; ++i) {
+        b(0, 2 * i) = b(2, 2 * i + 1) = gradient(0, i);
+        b(1, 2 * i + 1) = b(2, 2 * i) = gradient(1, i);
+    }
+    return b;
+}
+
+/// Jacobian dx/dxi at the centre of the element: constant in the corrected derivatives of the incompatible modes.
+struct CentreJacobian {
+    Eigen::Matrix2d inverse; ///< (d xi / d x), rows: d/dx, d/dy as acting on natural derivatives
+    double determinant = 0.0;
+};
+
+CentreJacobian centre_jacobian(const Corners& c)
+{
+    Eigen::Matrix2d j;
+    j << 0.25 * (-c[0].x + c[1].x + c[2].x - c[3].x), 0.25 * (-c[0].y + c[1].y + c[2].y - c[3].y), //
+        0.25 * (-c[0].x - c[1].x + c[2].x + c[3].x), 0.25 * (-c[0].y - c[1].y + c[2].y + c[3].y);
+    return {j.inverse(), j.determinant()};
+}
+
+/// Taylor, Beresford, Wilson (1976): grad M = (j0 / j) J0^-1 dM/dxi, so that the modes' strain integrates to zero and a
+/// constant stress does no work on them.
+ModeMatrix mode_matrix(const CentreJacobian& centre, const QuadraturePoint& point)
+{
+    const double ratio = centre.determinant / point.weight; // Gauss weights are 1: point.weight is the determinant
+    const Eigen::Vector2d first = ratio * centre.inverse.col(0) * (-2.0 * point.xi);
+    const Eigen::Vector2d second = ratio * centre.inverse.col(1) * (-2.0 * point.eta);
+    ModeMatrix g;
+    g << first[0], 0.0, second[0], 0.0, //
+        0.0, first[1], 0.0, second[1],  //
+        first[1], first[0], second[1], second[0];
+    return g;
+}
+
+struct ModeStiffness {
+    Eigen::Matrix4d modes = Eigen::Matrix4d::Zero();                            ///< K_aa
+    Eigen::Matrix<double, 4, 8> coupling = Eigen::Matrix<double, 4, 8>::Zero(); ///< K_au
+};
+
+ModeStiffness mode_stiffness(std::span<const QuadraturePoint> points, const CentreJacobian& centre,
+                             const Eigen::Matrix3d& d)
+{
+    ModeStiffness k;
+    for (const QuadraturePoint& point : points) {
+        const ModeMatrix g = mode_matrix(centre, point);
+        const Eigen::Matrix<double, 4, 3> gd = g.transpose() * d * point.weight;
+        k.modes += gd * g;
+        k.coupling += gd * strain_matrix(point.gradient);
+    }
+    return k;
+}
+
+/// Amplitudes of the incompatible modes: K_aa a + K_au u = 0.
+Eigen::Vector4d mode_amplitudes(const Corners& corners, const Eigen::Matrix3d& d, const Eigen::Matrix<double, 8, 1>& u)
+{
+    const auto points = q4_points(corners);
+    const ModeStiffness k = mode_stiffness(points, centre_jacobian(corners), d);
+    return -k.modes.inverse() * (k.coupling * u);
+}
+
+/// Stress at the four Gauss points of a quadrilateral, one column each.
+Eigen::Matrix<double, 3, 4> gauss_stress(const Corners& corners, const Eigen::Matrix3d& d, Q4Kind kind,
+                                         const Eigen::Matrix<double, 8, 1>& u)
+{
+    const auto points = q4_points(corners);
+    Eigen::Vector4d a = Eigen::Vector4d::Zero();
+    if (kind == Q4Kind::incompatible) a = mode_amplitudes(corners, d, u);
+    const CentreJacobian centre = centre_jacobian(corners);
+    Eigen::Matrix<double, 3, 4> stress;
+    for (int i = 0; i < 4; ++i)
+        stress.col(i) = d * (strain_matrix(points[i].gradient) * u + mode_matrix(centre, points[i]) * a);
+    return stress;
+}
+
+Eigen::Vector3d t3_stress(const Corners& corners, const Eigen::Matrix3d& d, const ElementVector& u)
+{
+    return d * (strain_matrix(t3_points(corners)[0].gradient).leftCols<6>() * u.head<6>());
+}
+
+template <class Points>
+ElementMatrix consistent_mass(const Points& points, int size, double density)
+{
+    ElementMatrix m = ElementMatrix::Zero(2 * size, 2 * size);
+    for (const QuadraturePoint& point : points)
+        for (int i = 0; i < size; ++i)
+            for (int j = 0; j < size; ++j) {
+                const double value = density * point.weight * point.shape[i] * point.shape[j];
+                m(2 * i, 2 * j) += value;
+                m(2 * i + 1, 2 * j + 1) += value;
+            }
+    return m;
+}
+
+template <class Points>
+ElementVector constant_force(const Points& points, int size, const Eigen::Vector2d& force)
+{
+    ElementVector f = ElementVector::Zero(2 * size);
+    for (const QuadraturePoint& point : points)
+        for (int i = 0; i < size; ++i) f.segment<2>(2 * i) += point.weight * point.shape[i] * force;
+    return f;
+}
+
+} // namespace
+
+Q4Kind q4_kind(ElementKind kind)
+{
+    return kind == ElementKind::q4_incompatible ? Q4Kind::incompatible : Q4Kind::plain;
+}
+
+ElementMatrix elastic_stiffness(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind)
+{
+    if (size == 3) {
+        const auto points = t3_points(corners);
+        const Eigen::Matrix<double, 3, 6> b = strain_matrix(points[0].gradient).leftCols<6>();
+        return 3.0 * points[0].weight * b.transpose() * d * b;
+    }
+    const auto points = q4_points(corners);
+    Eigen::Matrix<double, 8, 8> k = Eigen::Matrix<double, 8, 8>::Zero();
+    for (const QuadraturePoint& point : points) {
+        const StrainMatrix b = strain_matrix(point.gradient);
+        k += point.weight * b.transpose() * d * b;
+    }
+    if (kind == Q4Kind::incompatible) {
+        const ModeStiffness modes = mode_stiffness(points, centre_jacobian(corners), d);
+        k -= modes.coupling.transpose() * modes.modes.inverse() * modes.coupling;
+    }
+    return 0.5 * (k + k.transpose());
+}
+
+ElementMatrix elastic_mass(const Corners& corners, int size, double density, MassKind kind)
+{
+    ElementMatrix m =
+        size == 3 ? consistent_mass(t3_points(corners), 3, density) : consistent_mass(q4_points(corners), 4, density);
+    if (kind == MassKind::lumped) {
+        const ElementVector sums = m.rowwise().sum();
+        m = sums.asDiagonal();
+    }
+    return m;
+}
+
+ElementVector body_force(const Corners& corners, int size, const Eigen::Vector2d& force)
+{
+    return size == 3 ? constant_force(t3_points(corners), 3, force) : constant_force(q4_points(corners), 4, force);
+}
+
+Eigen::Matrix<double, 3, 4> nodal_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
+                                         const ElementVector& u)
+{
+    if (size == 3) return t3_stress(corners, d, u).replicate<1, 4>();
+    // The Gauss points are a square of half-width 1/sqrt 3: seen from it the nodes are at +-sqrt 3 of the bilinear
+    // functions.
+    const double a = 1.0 + std::numbers::sqrt3 / 2.0, b = -0.5, c = 1.0 - std::numbers::sqrt3 / 2.0;
+    Eigen::Matrix4d extrapolation;
+    extrapolation << a, b, c, b, b, a, b, c, c, b, a, b, b, c, b, a;
+    return gauss_stress(corners, d, kind, u) * extrapolation;
+}
+
+Eigen::Vector3d centre_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
+                              const ElementVector& u)
+{
+    if (size == 3) return t3_stress(corners, d, u);
+    return gauss_stress(corners, d, kind, u).rowwise().mean();
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "fe2d/mesh/mesh.hpp"
+#include "scene/scene.hpp"
+
+namespace damslip::fe2d {
+
+/// How far the fine part of the rock surface goes on, straight, past heel and toe: the dam may slide that far.
+struct ContactExtension {
+    double upstream = 1.0;   ///< [m], >= 0
+    double downstream = 1.0; ///< [m], >= 0
+};
+
+/// Element sizes of a scene with all defaults filled in [m].
+struct MeshSizes {
+    double dam = 0.0;     ///< height / 40
+    double contact = 0.0; ///< min(dam, base / 60)
+    double rock = 0.0;    ///< largest in the rock: depth / 8
+};
+MeshSizes mesh_sizes(const Scene& scene);
+
+/// Meshes the dam and, where the scene has a foundation, the rock box with the curtain (scene.mesh gives sizes, growth
+/// and element kind; with ElementKind::t3 every quadrilateral is split along its shorter diagonal). Node places depend
+/// on the scene only: same scene, same bits.
+/// @throws InputError when the section cannot be meshed (faces.hpp, quality.hpp), or the box does not hold the base,
+/// its extensions or
+///         the curtain.
+Mesh build_mesh(const Scene& scene, const ContactExtension& extension = {});
+
+} // namespace damslip::fe2d

@@ -1,0 +1,163 @@
+#include "fe2d/mesh/faces.hpp"
+
+#include "core/input_error.hpp"
+#include "core/number.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::fe2d {
+
+namespace {
+
+constexpr double flattest_face =
+    0.7; ///< tangent of the slope (35 degrees) below which an edge at the top counts as crest
+
+std::string vertex_text(const Polyline& polygon, std::size_t i)
+{
+    return std::to_string(i + 1) + " (" + shortest(polygon[i].x) + ", " + shortest(polygon[i].y) + ")";
+}
+
+[[noreturn]] void refuse(const Scene& scene, std::string problem, std::string expected, std::string fix)
+{
+    throw InputError(Diagnostic{.file = scene.file.string(),
+                                .problem = std::move(problem),
+                                .expected = std::move(expected),
+                                .fix = std::move(fix)});
+}
+
+double slope(Point a, Point b)
+{
+    return std::abs(b.y - a.y) / std::max(std::abs(b.x - a.x), 1e-300);
+}
+
+/// Vertices of the crest, first its downstream end; equal where the section ends in a point.
+struct Crest {
+    std::size_t downstream, upstream;
+};
+
+Crest find_crest(const Polyline& polygon)
+{
+    const std::size_t n = polygon.size();
+    const double top = std::max_element(polygon.begin(), polygon.end(), [](Point a, Point b) { return a.y < b.y; })->y;
+    const double tolerance = 1e-9 * (top - std::min(polygon[0].y, polygon[1].y));
+    std::size_t first = n, last = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (polygon[i].y < top - tolerance) continue;
+        first = std::min(first, i);
+        last = i;
+    }
+    if (first != last) return {first, last};
+    // One highest vertex: the flatter of its two edges is the crest, unless it leads straight to the heel or the toe.
+    const double before = first - 1 >= 2 ? slope(polygon[first - 1], polygon[first]) : HUGE_VAL;
+    const double after = first + 1 < n ? slope(polygon[first], polygon[first + 1]) : HUGE_VAL;
+    if (std::min(before, after) >= flattest_face) return {first, first};
+    return before < after ? Crest{first - 1, first} : Crest{first, first + 1};
+}
+
+void check_rising(const Scene& scene, const std::vector<std::size_t>& chain, const char* face)
+{
+    const Polyline& polygon = scene.section.polygon;
+    for (std::size_t k = 0; k + 1 < chain.size(); ++k)
+        if (polygon[chain[k + 1]].y <= polygon[chain[k]].y)
+            refuse(scene,
+                   "section.polygon: the " + std::string(face) + " face does not rise between vertex " +
+                       vertex_text(polygon, chain[k]) + " and vertex " + vertex_text(polygon, chain[k + 1]) + ".",
+                   "both faces rising from the base to the crest",
+                   "give a step a slope, for example 1 mm of rise, or mesh the section with an imported mesh");
+}
+
+Polyline points_of(const Polyline& polygon, const std::vector<std::size_t>& chain)
+{
+    Polyline points;
+    for (const std::size_t i : chain) points.push_back(polygon[i]);
+    return points;
+}
+
+Point at(const Polyline& face, double s)
+{
+    const double y = face.front().y + s * (face.back().y - face.front().y);
+    if (s <= 0.0) return face.front();
+    if (s >= 1.0) return face.back();
+    std::size_t i = 0;
+    while (i + 2 < face.size() && face[i + 1].y < y) ++i;
+    const double t = (y - face[i].y) / (face[i + 1].y - face[i].y);
+    return {face[i].x + t * (face[i + 1].x - face[i].x), y};
+}
+
+double parameter(const Polyline& face, double y)
+{
+    return (y - face.front().y) / (face.back().y - face.front().y);
+}
+
+} // namespace
+
+Point Faces::upstream_at(double s) const
+{
+    return at(upstream, s);
+}
+Point Faces::downstream_at(double s) const
+{
+    return at(downstream, s);
+}
+
+double Faces::width_at(double s) const
+{
+    const Point a = upstream_at(s), b = downstream_at(s);
+    return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+double Faces::height() const
+{
+    return 0.5 * (upstream.back().y - upstream.front().y + downstream.back().y - downstream.front().y);
+}
+
+std::vector<double> Faces::kinks() const
+{
+    std::vector<double> all;
+    for (const Polyline* face : {&upstream, &downstream})
+        for (const Point& p : *face) all.push_back(parameter(*face, p.y));
+    std::sort(all.begin(), all.end());
+    std::vector<double> distinct;
+    for (const double s : all)
+        if (distinct.empty() || s - distinct.back() > 1e-9) distinct.push_back(s);
+    distinct.front() = 0.0;
+    distinct.back() = 1.0;
+    return distinct;
+}
+
+double Faces::parameter_of_level(double y) const
+{
+    return parameter(upstream, y);
+}
+bool Faces::ends_in_point() const
+{
+    return upstream.back() == downstream.back();
+}
+
+Faces split_faces(const Scene& scene)
+{
+    const Polyline& polygon = scene.section.polygon;
+    if (polygon.size() < 3)
+        refuse(scene, "section.polygon has " + std::to_string(polygon.size()) + " vertices.", "at least three",
+               "add vertices");
+    if (!(area(scene.section) > 0.0))
+        refuse(scene, "section.polygon is not counter-clockwise.",
+               "heel first, toe second, then up the downstream face", "turn the order of the vertices round");
+    const Crest crest = find_crest(polygon);
+    std::vector<std::size_t> up{0}, down;
+    for (std::size_t i = polygon.size() - 1; i >= crest.upstream; --i) up.push_back(i);
+    for (std::size_t i = 1; i <= crest.downstream; ++i) down.push_back(i);
+    if (up.size() < 2 || down.size() < 2)
+        refuse(scene,
+               "section.polygon: vertex " + vertex_text(polygon, crest.downstream) +
+                   " is heel or toe and the highest point.",
+               "heel and toe below the crest",
+               "list the vertices from the heel to the toe, then up the downstream face");
+    check_rising(scene, up, "upstream");
+    check_rising(scene, down, "downstream");
+    return {points_of(polygon, up), points_of(polygon, down)};
+}
+
+} // namespace damslip::fe2d

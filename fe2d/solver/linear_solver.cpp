@@ -1,0 +1,245 @@
+#include "fe2d/solver/linear_solver.hpp"
+
+#include "fe2d/solver/blas_threads.hpp"
+#include "fe2d/solver/cholmod_factor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace damslip::fe2d {
+
+namespace {
+
+constexpr int block = 16; ///< right-hand sides per call of the factor: fastest measured
+
+/// The nearest power of two to value^-1/2.
+double scale_for(double diagonal)
+{
+    const double magnitude = std::abs(diagonal);
+    if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return 1.0;
+    return std::exp2(std::round(-0.5 * std::log2(magnitude)));
+}
+
+/// Lower triangle in CHOLMOD's storage.
+struct LowerTriangle {
+    std::vector<int> columns, rows;
+    std::vector<double> values;
+};
+
+LowerTriangle scaled_lower(const Eigen::SparseMatrix<double>& a, const Eigen::VectorXd& scale)
+{
+    LowerTriangle lower;
+    lower.columns.push_back(0);
+    for (int j = 0; j < a.cols(); ++j) {
+        for (Eigen::SparseMatrix<double>::InnerIterator it(a, j); it; ++it) {
+            if (it.row() < j) continue;
+            lower.rows.push_back(static_cast<int>(it.row()));
+            lower.values.push_back(scale[it.row()] * it.value() * scale[j]);
+        }
+        lower.columns.push_back(static_cast<int>(lower.rows.size()));
+    }
+    return lower;
+}
+
+/// Smallest |pivot| and the number of negative ones of a simplicial L D L^T or a supernodal L L^T.
+struct Pivots {
+    double smallest = HUGE_VAL;
+    int negative = 0;
+
+    void add(double pivot)
+    {
+        smallest = std::min(smallest, std::abs(pivot));
+        negative += pivot < 0.0;
+    }
+};
+
+Pivots pivots_of(const cholmod_factor& factor)
+{
+    Pivots pivots;
+    const auto* x = static_cast<const double*>(factor.x);
+    if (!factor.is_super) {
+        const auto* p = static_cast<const int*>(factor.p);
+        for (std::size_t j = 0; j < factor.n; ++j) pivots.add(factor.is_ll ? x[p[j]] * x[p[j]] : x[p[j]]);
+        return pivots;
+    }
+    const auto* super = static_cast<const int*>(factor.super);
+    const auto *pi = static_cast<const int*>(factor.pi), *px = static_cast<const int*>(factor.px);
+    for (std::size_t s = 0; s < factor.nsuper; ++s)
+        for (int k = 0; k < super[s + 1] - super[s]; ++k) {
+            const double diagonal = x[px[s] + static_cast<std::ptrdiff_t>(k) * (pi[s + 1] - pi[s]) + k];
+            pivots.add(diagonal * diagonal);
+        }
+    return pivots;
+}
+
+std::int64_t factor_nonzeros(const cholmod_factor& factor)
+{
+    if (!factor.is_super) {
+        const auto* counts = static_cast<const int*>(factor.nz);
+        std::int64_t sum = 0;
+        for (std::size_t j = 0; j < factor.n; ++j) sum += counts[j];
+        return sum;
+    }
+    return static_cast<std::int64_t>(factor.xsize);
+}
+
+std::int64_t factor_bytes(const cholmod_factor& factor)
+{
+    const auto n = static_cast<std::int64_t>(factor.n);
+    if (factor.is_super) // values, row indices, four supernode pointers; permutation and column counts
+        return static_cast<std::int64_t>(8 * factor.xsize + 4 * factor.ssize + 12 * (factor.nsuper + 1)) + 8 * n;
+    return static_cast<std::int64_t>(12 * factor.nzmax) +
+           4 * 6 * n; // values and rows; pointers, counts, list, permutation
+}
+
+} // namespace
+
+std::string SolverReport::text() const
+{
+    const std::string size = fmt::format("{} unknowns, {} non-zeros in the factor", unknowns, nonzeros_factor);
+    switch (status) {
+    case SolverStatus::ok:
+        return fmt::format("Factorised: {}, residual {:.1e}.", size, residual);
+    case SolverStatus::not_factorised:
+        return "Nothing has been factorised yet.";
+    case SolverStatus::not_positive_definite:
+        return fmt::format("The matrix ({} unknowns) is not positive definite: the structure is a mechanism.",
+                           unknowns);
+    case SolverStatus::singular:
+        return fmt::format("The matrix ({}) is singular: smallest pivot {:.1e} of a unit diagonal.", size,
+                           smallest_pivot);
+    case SolverStatus::inaccurate:
+        return fmt::format("The factorisation ({}) is inaccurate: residual {:.1e}, error {:.1e}.", size, residual,
+                           forward_error);
+    case SolverStatus::out_of_memory:
+        return fmt::format("Out of memory while factorising {} unknowns.", unknowns);
+    }
+    return {};
+}
+
+struct LinearSolver::Implementation {
+    SolverOptions options;
+    CholmodFactor factor;
+    Eigen::VectorXd scale;
+    std::vector<int> columns, rows; ///< pattern the ordering belongs to
+    SolverReport report;
+    std::int64_t solves = 0;
+
+    bool wants_supernodal(int n) const
+    {
+        if (options.definiteness == Definiteness::quasi_definite) return false;
+        return options.factorisation == Factorisation::supernodal ||
+               (options.factorisation == Factorisation::automatic && n > options.supernodal_above);
+    }
+
+    void begin_report(const Eigen::SparseMatrix<double>& a)
+    {
+        report = {.analyses = report.analyses, .factorisations = report.factorisations + 1};
+        report.unknowns = a.rows();
+        report.nonzeros_matrix = a.nonZeros();
+        report.supernodal = wants_supernodal(static_cast<int>(a.rows()));
+    }
+
+    SolverStatus run(const Eigen::SparseMatrix<double>& a)
+    {
+        const int n = static_cast<int>(a.rows());
+        scale.resize(n);
+        for (int i = 0; i < n; ++i) scale[i] = scale_for(a.coeff(i, i));
+        LowerTriangle lower = scaled_lower(a, scale);
+        if (lower.columns != columns || lower.rows != rows) {
+            ++report.analyses;
+            if (!factor.analyse(n, lower.columns, lower.rows, lower.values, report.supernodal))
+                return SolverStatus::out_of_memory;
+            columns = lower.columns;
+            rows = lower.rows;
+        }
+        if (!factor.factorise(n, lower.columns, lower.rows, lower.values))
+            return factor.out_of_memory() ? SolverStatus::out_of_memory : SolverStatus::not_positive_definite;
+        const Pivots pivots = pivots_of(*factor.factor());
+        report.smallest_pivot = pivots.smallest;
+        report.negative_pivots = pivots.negative;
+        report.nonzeros_factor = factor_nonzeros(*factor.factor());
+        report.bytes =
+            factor_bytes(*factor.factor()) + 8 * n + static_cast<std::int64_t>(4 * (columns.size() + rows.size()));
+        if (pivots.negative > 0 && options.definiteness == Definiteness::positive)
+            return SolverStatus::not_positive_definite;
+        if (!(pivots.smallest > options.smallest_pivot)) return SolverStatus::singular;
+        return check(a);
+    }
+
+    /// One known solution: x alternates in sign, in the scaled unknowns.
+    SolverStatus check(const Eigen::SparseMatrix<double>& a)
+    {
+        Eigen::VectorXd x(a.rows());
+        for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = i % 2 == 0 ? 1.0 : -1.0;
+        const Eigen::VectorXd exact = scale.cwiseProduct(x);
+        const Eigen::VectorXd b = a * exact;
+        Eigen::MatrixXd solution = b;
+        solve_in_place(solution);
+        const Eigen::VectorXd residual = scale.cwiseProduct(a * solution.col(0) - b), right = scale.cwiseProduct(b);
+        report.residual = residual.lpNorm<Eigen::Infinity>() / right.lpNorm<Eigen::Infinity>();
+        report.forward_error = (solution.col(0).cwiseQuotient(scale) - x).lpNorm<Eigen::Infinity>();
+        return report.residual <= options.residual_limit ? SolverStatus::ok : SolverStatus::inaccurate;
+    }
+
+    void solve_in_place(Eigen::MatrixXd& b)
+    {
+        assert(b.rows() == scale.size() && factor.factor() != nullptr);
+        const int n = static_cast<int>(b.rows());
+        b = scale.asDiagonal() * b;
+        for (Eigen::Index j = 0; j < b.cols(); j += block) {
+            const int count = static_cast<int>(std::min<Eigen::Index>(block, b.cols() - j));
+            if (n > 0) factor.solve(b.col(j).data(), n, count);
+        }
+        b = scale.asDiagonal() * b;
+        solves += b.cols();
+    }
+};
+
+LinearSolver::LinearSolver(const SolverOptions& options) : implementation_(std::make_unique<Implementation>())
+{
+    implementation_->options = options;
+}
+
+LinearSolver::~LinearSolver() = default;
+LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
+LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
+
+const SolverReport& LinearSolver::factorise(const Eigen::SparseMatrix<double>& matrix)
+{
+    assert(matrix.rows() == matrix.cols());
+    use_one_blas_thread();
+    implementation_->begin_report(matrix);
+    const SolverStatus status = implementation_->run(matrix);
+    implementation_->report.status = status;
+    return implementation_->report;
+}
+
+const SolverReport& LinearSolver::report() const
+{
+    return implementation_->report;
+}
+std::int64_t LinearSolver::solves() const
+{
+    return implementation_->solves;
+}
+
+Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& b) const
+{
+    Eigen::MatrixXd x = b;
+    implementation_->solve_in_place(x);
+    return x.col(0);
+}
+
+Eigen::MatrixXd LinearSolver::solve(const Eigen::MatrixXd& b) const
+{
+    Eigen::MatrixXd x = b;
+    implementation_->solve_in_place(x);
+    return x;
+}
+
+} // namespace damslip::fe2d
