@@ -10,5 +10,6 @@ void add_block_cases(Registry& registry);
 void add_empirical_cases(Registry& registry);
 void add_load_cases(Registry& registry);
 void add_equilibrium_cases(Registry& registry);
+void add_fe_time_cases(Registry& registry);
 
 } // namespace damslip::verification

@@ -16,9 +16,12 @@ bool Check::passed() const
 {
     if (!std::isfinite(computed)) return false;
     switch (measure) {
-    case Measure::upper_bound: return computed <= expected;
-    case Measure::lower_bound: return computed >= expected;
-    default: return error() <= tolerance;
+    case Measure::upper_bound:
+        return computed <= expected;
+    case Measure::lower_bound:
+        return computed >= expected;
+    default:
+        return error() <= tolerance;
     }
 }
 
@@ -30,6 +33,7 @@ Registry all_cases()
     add_empirical_cases(registry);
     add_load_cases(registry);
     add_equilibrium_cases(registry);
+    add_fe_time_cases(registry);
     return registry;
 }
 
