@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace damslip::records {
+
+/// A file's content as lines, without byte-order mark and line ends (LF, CRLF or CR). Views into the content.
+struct RecordText {
+    std::string_view file_name;
+    std::vector<std::string_view> lines;
+};
+
+/// Place in a RecordText, both from 1; 0: the line or the file as a whole.
+struct Place {
+    std::size_t line = 0;
+    std::size_t column = 0;
+};
+
+/// @throws InputError for content that is no text: empty, UTF-16, NUL bytes, compressed, or more than 6 million lines.
+RecordText split_lines(std::string_view content, std::string_view file_name);
+
+/// Throws InputError{file:line:column: problem, expected, fix}.
+[[noreturn]] void refuse(const RecordText& text, Place place, std::string problem, std::string expected,
+                         std::string fix);
+
+std::string_view trimmed(std::string_view s); ///< without blanks and tabs at both ends
+std::string lower(std::string_view s);        ///< ASCII letters only
+std::string printable(std::string_view s);    ///< control characters and bytes that are not UTF-8 become '?'
+std::string in_quotes(std::string_view s);    ///< "'...'", at most 40 printable characters, for messages
+bool contains(std::string_view s, std::string_view part);
+
+} // namespace damslip::records

@@ -1,0 +1,51 @@
+#include "records/read/unit.hpp"
+
+#include "core/units.hpp"
+#include "records/read/record_text.hpp"
+
+#include <array>
+#include <string>
+
+namespace damslip::records {
+
+namespace {
+
+constexpr std::array<AccelerationUnit, 6> table{{{"g", units::standard_gravity},
+                                                 {"m/s2", 1.0},
+                                                 {"cm/s2", 0.01},
+                                                 {"gal", units::gal},
+                                                 {"mg", 0.001 * units::standard_gravity},
+                                                 {"mm/s2", 0.001}}};
+
+void replace_all(std::string& s, std::string_view from, std::string_view to)
+{
+    for (std::size_t at = 0; (at = s.find(from, at)) != std::string::npos; at += to.size())
+        s.replace(at, from.size(), to);
+}
+
+} // namespace
+
+std::optional<AccelerationUnit> acceleration_unit(std::string_view text)
+{
+    if (text.size() > 24) return std::nullopt;
+    std::string s = lower(trimmed(text));
+    // One spelling: "m/sec/sec", "m/s^2", "m/s**2", "m_s2", "m s-2", "m/s²" -> "m/s2".
+    replace_all(s, "seconds", "s");
+    replace_all(s, "sec", "s");
+    replace_all(s, "\xc2\xb2", "2");
+    replace_all(s, "**", "");
+    replace_all(s, "^", "");
+    replace_all(s, " s-2", "/s2");
+    replace_all(s, "*s-2", "/s2");
+    replace_all(s, "/s/s", "/s2");
+    replace_all(s, "_s2", "/s2");
+    replace_all(s, "/ss", "/s2");
+    replace_all(s, " ", "");
+    for (const AccelerationUnit& unit : table)
+        if (s == unit.name) return unit;
+    if (s == "gals") return table[3];
+    if (s == "milli-g" || s == "millig") return table[4];
+    return std::nullopt;
+}
+
+} // namespace damslip::records

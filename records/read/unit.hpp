@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace damslip::records {
+
+/// A unit of acceleration: its name here and the factor to m/s^2.
+struct AccelerationUnit {
+    std::string_view name; ///< "g", "m/s2", "cm/s2", "gal", "mg", "mm/s2"
+    double factor;         ///< 1 unit = factor m/s^2; "g" is 9.80665
+};
+
+/// The unit a text names, in any of its usual spellings ("M/S/S", "cm/sec^2", "m_s2", "m/s²"); nothing for others.
+std::optional<AccelerationUnit> acceleration_unit(std::string_view text);
+
+/// For messages: "g, m/s2, cm/s2, gal, mg or mm/s2".
+inline constexpr std::string_view known_units = "g, m/s2, cm/s2, gal, mg or mm/s2";
+
+} // namespace damslip::records
