@@ -114,17 +114,16 @@ CrackedBase cracked_base(const BaseLoad& load, double length, const CrackUplift&
     const CrackedBase closed = loaded(load, uplift(opened));
     // The end away from the resultant opens; without any N' left the heel does.
     const bool toe_opens = closed.effective_normal > 0.0 && closed.resultant_distance < 0.5 * length;
-    const Side side = opened.length > 0.0 ? opened.side : toe_opens ? Side::toe : Side::heel;
-    const Joint joint(load, length, uplift, side, opened.length);
+    const Side side = toe_opens ? Side::toe : Side::heel;
+    const bool other_end = opened.length > 0.0 && side != opened.side;
+    const CrackUplift fixed = [&](const Crack&) { return closed.profile; };
+    const Joint joint(load, length, other_end ? fixed : uplift, side, other_end ? 0.0 : opened.length);
     const std::optional<double> crack = shortest_crack(joint, scan_bounds(events, side, length));
-    if (!crack) {
-        CrackedBase base = joint.state(length);
-        base.status = CrackStatus::open;
-        return base;
-    }
-    CrackedBase base = joint.state(*crack);
-    base.compressed_length = length - *crack;
-    base.status = *crack > 0.0 ? CrackStatus::partial : CrackStatus::closed;
+    CrackedBase base = joint.state(crack.value_or(length));
+    base.compressed_length = crack ? length - *crack : 0.0;
+    base.compressed_side = side == Side::heel ? Side::toe : Side::heel;
+    base.status = !crack ? CrackStatus::open : *crack > 0.0 ? CrackStatus::partial : CrackStatus::closed;
+    if (other_end) base.crack = opened;
     return base;
 }
 

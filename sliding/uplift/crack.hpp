@@ -25,6 +25,7 @@ struct CrackedBase {
     Crack crack; ///< part that holds the full head [m]
     double compressed_length =
         0.0; ///< carries effective pressure [m]; can exceed what is left of the crack where it has closed again
+    Side compressed_side = Side::toe; ///< end at which the compressed length lies
     PressureProfile profile;
     UpliftResultant uplift;
     double effective_normal = 0.0;   ///< N' = N - U [N/m]
@@ -34,7 +35,7 @@ struct CrackedBase {
 /// The base without any crack: linear effective stress, tension allowed.
 CrackedBase uncracked_base(const BaseLoad& load, double length, const PressureProfile& profile);
 
-/// Uplift for each crack length on the given side; must not fall when the crack grows.
+/// Uplift for each crack.
 using CrackUplift = std::function<PressureProfile(const Crack&)>;
 
 /// No-tension joint: finds the shortest crack T for which the effective stress is a triangle over the rest,

@@ -137,6 +137,8 @@ std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& 
         return crack.side == Side::heel ? distance : base.length - distance;
     };
     const double heel_pressure = crack.side == Side::heel ? base.first_pressure() : base.second_pressure();
+    if (scene.curtain && state.curtain == CurtainState::damaged && scene.uplift->model != UpliftModel::drains)
+        return linear(base, crack.length);
     switch (scene.uplift->model) {
     case UpliftModel::none:
     case UpliftModel::linear:
@@ -144,7 +146,7 @@ std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& 
     case UpliftModel::curtain:
         if (!scene.curtain)
             refuse(scene, "uplift.model = \"curtain\" without a curtain.", "add a [curtain] with its distance_m");
-        if (!scene.curtain->intact || state.curtain == CurtainState::damaged) break;
+        if (!scene.curtain->intact) break;
         return with_curtain(base, crack.length, from_first(scene.curtain->distance), scene.uplift->curtain_ratio);
     case UpliftModel::drains:
         if (!scene.drains) refuse(scene, "uplift.model = \"drains\" without drains.", "add [drains] with distance_m");

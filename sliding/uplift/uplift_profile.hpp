@@ -16,7 +16,7 @@ struct UpliftState {
     std::optional<double> reservoir_level;       ///< above the heel [m]; none: dry
     std::optional<double> tailwater_level;       ///< above the heel [m]; none: dry
     DrainState drains = DrainState::effective;   ///< effective: as the scene says; ineffective: E = 0
-    CurtainState curtain = CurtainState::intact; ///< intact: as the scene says; damaged: as without a curtain
+    CurtainState curtain = CurtainState::intact; ///< intact: as the scene says; damaged: linear uplift, drains apart
 };
 
 /// The scene's own levels, drains and curtain.

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "sliding/equilibrium/base_state.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace damslip::sliding {
+
+/// Where the effective resultant cuts the base.
+enum class ResultantZone {
+    kern,        ///< middle third: no tension
+    middle_half, ///< within a quarter of the base from its middle
+    base,        ///< within the base
+    outside      ///< outside, or N' <= 0
+};
+
+/// Required value of one check; none: no criterion.
+struct Requirements {
+    std::optional<double>
+        sliding; ///< least factor, peak strength (residual strength in a combination that uses it) [-]
+    std::optional<double> sliding_residual; ///< least factor, residual strength [-]
+    std::optional<double> flotation;        ///< [-]
+    std::optional<double> overturning;      ///< [-]
+    std::optional<ResultantZone> resultant; ///< at least this far inside
+    std::string source;                     ///< document they are taken from
+};
+
+enum class Verdict { pass, fail, no_criterion };
+
+struct Check {
+    std::string quantity; ///< "sliding, peak strength"
+    double value =
+        0.0; ///< factor [-]; for the resultant its distance from the middle of the base over the base length [-]
+    std::optional<double> required; ///< [-]
+    Verdict verdict = Verdict::no_criterion;
+    std::string source;
+};
+
+/// What one load combination needs besides scene and combination.
+struct EquilibriumOptions {
+    SeepageProfile seepage; ///< for uplift.model = "seepage"
+    Crack opened;           ///< post-seismic: joint opened by the earthquake, holds the full head [m]
+};
+
+/// Limit equilibrium of one load combination. Base quantities are normal to and along the base; positive: N'
+/// compression, shear and eccentricity downstream, stress compression.
+struct Equilibrium {
+    std::string name;
+    CombinationKind kind = CombinationKind::usual;
+    CrackRule crack_rule = CrackRule::none;
+    double k_h = 0.0, k_v = 0.0; ///< seismic coefficients a / 9.80665 [-]; a_h upstream, a_v up
+    std::optional<double> reservoir_level, tailwater_level;  ///< above the heel [m]
+    double friction = 0.0, cohesion = 0.0;                   ///< used for `sliding_factor` [-], [Pa]
+    double residual_friction = 0.0, residual_cohesion = 0.0; ///< [-], [Pa]
+
+    BaseFrame frame;
+    std::vector<Load> loads;      ///< inertia and hydrodynamic force included, uplift not
+    Force load;                   ///< their sum
+    CrackedBase base;             ///< uplift, crack, N' and its position
+    double cohesive_length = 0.0; ///< A' [m]
+
+    double shear = 0.0;                   ///< T along the base [N/m]
+    double sliding_factor = 0.0;          ///< (c A' + mu N')/|T|, peak (or residual where the combination says so) [-]
+    double friction_factor = 0.0;         ///< mu N'/|T|: without cohesion [-]
+    double sliding_factor_residual = 0.0; ///< with residual friction, cohesion only if slip does not destroy it [-]
+    double overturning_factor =
+        0.0; ///< stabilising over overturning moment about the toe (the heel if T points upstream) [-]
+    double flotation_factor = 0.0;   ///< weight over uplift less the water on top, EM 1110-2-2100 (3-2) [-]
+    double resultant_from_toe = 0.0; ///< along the base [m]
+    double eccentricity = 0.0;       ///< from the middle of the base [m]
+    ResultantZone zone = ResultantZone::outside;
+    double heel_stress = 0.0,
+           toe_stress = 0.0;         ///< effective, at the ends of the compressed part [Pa]; NaN without equilibrium
+    double yield_acceleration = 0.0; ///< downstream [m/s^2], static uplift and crack of this combination, its k_v
+    double yield_acceleration_upstream = 0.0; ///< [m/s^2]
+    double tipping_acceleration = 0.0;        ///< a_h at which N' reaches the toe, uplift unchanged [m/s^2]
+    double critical_friction = 0.0;           ///< mu at which sliding_factor is 1 [-]
+    std::vector<Check> checks;
+    std::vector<std::string> notes;
+};
+
+/// Evaluates one combination.
+/// - Static loads with the combination's levels and factors; water_factor covers reservoir, tailwater and crest water;
+/// hydrodynamic
+///   force and inertia are not factored.
+/// - k_h, k_v: inertia (+m a_h, -m a_v) at the centroid and the added mass' force -M^w a_g, a_g = (-a_h, +a_v).
+/// - Crack rule with an earthquake (k_h or k_v not 0): `none` no crack; `static` the crack of the static loads, no
+/// further opening;
+///   `seismic-zero` no water pressure in what the earthquake opens (USBR 1987), `seismic-unchanged` pressure as before
+///   it (USACE 1995, FERC 1991), `seismic-full` full head in it, drains ignored once reached (ICOLD 1986). Without one:
+///   all but `none` mean the static crack.
+/// - Post-seismic: `options.opened` holds the full head and no cohesion.
+Equilibrium evaluate(const Scene& scene, const Combination& combination, const Requirements& required,
+                     const EquilibriumOptions& options = {});
+
+/// Words for tables and files: "usual", "kern", "seismic-full", "PASS".
+const char* word(CombinationKind kind);
+const char* word(ResultantZone zone);
+const char* word(CrackRule rule);
+const char* word(CrackStatus status);
+const char* word(Verdict verdict);
+
+} // namespace damslip::sliding

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sliding/equilibrium/base_state.hpp"
+
+#include <vector>
+
+namespace damslip::sliding {
+
+/// Loads of the ground acceleration (-a_h, +a_v) [m/s^2]: inertia (+m a_h, -m a_v) at the centroid and the added mass'
+/// force. a_h is positive upstream: it drives the dam downstream.
+std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v);
+
+/// The base under static and earthquake loads together (`load`), from the static state `before`; see `evaluate` for the
+/// crack rules.
+CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const BaseState& before, const Force& load,
+                        const SeepageProfile& seepage);
+
+/// Length still bonded [m]: neither in the static crack nor in the one under the earthquake.
+double bonded_length(const BaseState& before, const CrackedBase& base);
+
+} // namespace damslip::sliding
