@@ -71,6 +71,8 @@ RigidBlock make_rigid_block(const Scene& scene, const BlockOptions& options)
 {
     StaticCase static_case = scene_static_case(scene);
     if (options.crack) static_case.crack = *options.crack;
+    static_case.uplift.drains = options.drains;
+    static_case.uplift.curtain = options.curtain;
     return make_rigid_block(scene, base_state(scene, static_case, options.seepage), static_case.loads.reservoir_level,
                             options);
 }

@@ -59,7 +59,9 @@ struct BlockOptions {
     std::optional<double> friction; ///< mu [-]; default: contact.friction, or the first value of contact.friction_table
     std::optional<double> cohesion; ///< c [Pa]; default: contact.cohesion
     std::optional<CrackRule> crack; ///< default: uplift.crack
-    SeepageProfile seepage;         ///< for uplift.model = "seepage"
+    DrainState drains = DrainState::effective;   ///< ineffective: E = 0, e.g. after drains.lost_at_slip
+    CurtainState curtain = CurtainState::intact; ///< damaged: linear uplift, e.g. after a rupture
+    SeepageProfile seepage;                      ///< for uplift.model = "seepage"
 };
 
 /// The rigid block of the scene: weight, static forces, uplift, cohesion on the uncracked length, added mass of the

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace damslip::sliding {
 
@@ -32,6 +33,12 @@ struct Crack {
 
 /// Gives the uncracked profile of uplift.model = "seepage" (the seepage solver lives elsewhere).
 using SeepageProfile = std::function<PressureProfile(const UpliftState&)>;
+
+/// One solution for every state: for callers that solve the seepage once.
+inline SeepageProfile fixed_profile(PressureProfile profile)
+{
+    return [profile = std::move(profile)](const UpliftState&) { return profile; };
+}
 
 /// The uplift of the scene's model. Pressures at the ends: gamma_w h at the heel, gamma_w (h_t - y_toe) at the toe, 0
 /// where dry.

@@ -47,6 +47,20 @@ TEST(Equilibrium, OverridesReachTheBlock)
     EXPECT_DOUBLE_EQ(make_rigid_block(scene, options).cohesion_force, 90e5);
     scene.reservoir->model = ReservoirModel::hydrostatic;
     EXPECT_EQ(make_rigid_block(scene).added_mass.xx, 0.0);
+
+    // A seepage solution passed in, its rupture, and drains that are lost.
+    scene.uplift->model = UpliftModel::seepage;
+    options.seepage = fixed_profile({{{0.0, 6e5}, {7.0, 6e5}, {7.0, 2e5}, {45.0, 0.0}}});
+    EXPECT_DOUBLE_EQ(make_rigid_block(scene, options).uplift, 42e5 + 38e5);
+    options.curtain = CurtainState::damaged;
+    EXPECT_NEAR(make_rigid_block(scene, options).uplift, 22.5 * 613125.0, 1e-8);
+    scene.uplift->model = UpliftModel::drains;
+    scene.drains = Drains{};
+    scene.drains->distance = 9.0;
+    const double drained = make_rigid_block(scene, options).uplift;
+    options.drains = DrainState::ineffective;
+    EXPECT_NEAR(make_rigid_block(scene, options).uplift, 22.5 * 613125.0, 1e-8);
+    EXPECT_LT(drained, 22.5 * 613125.0);
 }
 
 Combination combination(CombinationKind kind = CombinationKind::usual)
