@@ -9,6 +9,9 @@ namespace {
 /// Columns are joined two by two where they would be narrower than this share of the wanted element size.
 constexpr double narrowest_column = 0.6;
 
+/// Uneven columns (curtain sides on the base, columns left over from joining) even out by this share from row to row.
+constexpr double evening = 0.2;
+
 /// One row of nodes from the upstream to the downstream face.
 struct Row {
     double s = 0.0;
@@ -17,6 +20,14 @@ struct Row {
 
     int columns() const { return static_cast<int>(nodes.size()) - 1; }
 };
+
+std::vector<double> evened(const std::vector<double>& fractions)
+{
+    std::vector<double> result = fractions;
+    const double columns = static_cast<double>(fractions.size() - 1);
+    for (std::size_t i = 1; i + 1 < fractions.size(); ++i) result[i] += evening * (static_cast<double>(i) / columns - fractions[i]);
+    return result;
+}
 
 class DamBuilder {
 public:
@@ -33,7 +44,7 @@ public:
     Row plain(const Row& below, double s)
     {
         Row row;
-        row.fractions = below.fractions;
+        row.fractions = evened(below.fractions);
         place(row, s);
         for (int i = 0; i < below.columns(); ++i)
             quad(below.nodes[i], below.nodes[i + 1], row.nodes[i + 1], row.nodes[i]);
@@ -47,6 +58,7 @@ public:
         Row row;
         for (int i = 0; i <= below.columns(); i += (i < 4 * groups ? 2 : 1))
             row.fractions.push_back(below.fractions[i]);
+        row.fractions = evened(row.fractions);
         place(row, s);
         for (int g = 0; g < groups; ++g) join_four(below, row, g);
         for (int i = 4 * groups; i < below.columns(); ++i)

@@ -1,0 +1,71 @@
+#include "fe2d/model/model.hpp"
+
+#include <algorithm>
+
+namespace damslip::fe2d {
+
+namespace {
+
+/// Non-zeros of the stiffness matrix of the dam alone.
+std::int64_t dam_nonzeros(const Model& model)
+{
+    return assemble(model.mesh, model.dofs, [&](const Element& element, const Corners&) -> ElementMatrix {
+               if (element.region != Region::dam) return {};
+               return ElementMatrix::Ones(2 * element.size(), 2 * element.size());
+           })
+        .nonZeros();
+}
+
+ModelCounts count(const Model& model)
+{
+    const Mesh& mesh = model.mesh;
+    const std::int64_t dam_unknowns = dam_dof_count(mesh, model.dofs), dam_stiffness = dam_nonzeros(model);
+    const std::int64_t dam_mass = std::min<std::int64_t>(model.mass.nonZeros(), dam_stiffness);
+    const auto curtain = std::count_if(mesh.elements.begin(), mesh.elements.end(), [](const Element& e) { return e.region == Region::curtain; });
+    ModelCounts counts;
+    counts.add({"dam", mesh.dam_element_count, dam_unknowns, dam_stiffness + dam_mass});
+    if (mesh.has_rock())
+        counts.add({"foundation", mesh.element_count() - mesh.dam_element_count - curtain, model.dofs.count - dam_unknowns,
+                    model.stiffness.nonZeros() - dam_stiffness + model.mass.nonZeros() - dam_mass});
+    if (curtain > 0) counts.add({"curtain", curtain, 0, 0});
+    if (model.added_mass.nonZeros() > 0) counts.add({"added mass", 0, 0, model.added_mass.nonZeros()});
+    return counts;
+}
+
+void assemble_water(const Scene& scene, const AddedMassLaw& law, Model& model)
+{
+    model.added_mass.resize(model.dofs.count, model.dofs.count);
+    if (!scene.reservoir || !law) return;
+    const double level = scene.reservoir->level;
+    const NodeChain& face = model.mesh.upstream_face;
+    model.added_mass = added_mass_matrix(model.mesh, model.dofs, face, law, level);
+    model.inertia_x += added_mass_inertia(model.mesh, model.dofs, face, law, level, {1.0, 0.0});
+    model.inertia_y += added_mass_inertia(model.mesh, model.dofs, face, law, level, {0.0, 1.0});
+    const DofMap all = all_dofs(model.mesh, 2);
+    for (const int c : {0, 1}) {
+        const Eigen::Vector2d direction = Eigen::Vector2d::Unit(c);
+        const Eigen::VectorXd water = added_mass_inertia(model.mesh, all, face, law, level, direction);
+        for (int i = c; i < water.size(); i += 2) model.total_mass[c] += water[i];
+    }
+}
+
+} // namespace
+
+Model build_model(const Scene& scene, const ModelOptions& options)
+{
+    Model model;
+    model.materials = materials_of(scene);
+    model.mesh = build_mesh(scene, options.extension);
+    model.dofs = displacement_dofs(model.mesh, options.base);
+    model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
+    model.mass = mass_matrix(model.mesh, model.dofs, model.materials, options.mass);
+    model.inertia_x = inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0});
+    model.inertia_y = inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0});
+    const Eigen::VectorXd all = inertia_vector(model.mesh, all_dofs(model.mesh, 2), model.materials, {1.0, 0.0});
+    model.total_mass.setConstant(all.sum());
+    assemble_water(scene, options.added_mass, model);
+    model.counts = count(model);
+    return model;
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,116 @@
+#include "fe2d/model/static_loads.hpp"
+
+#include "core/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace damslip::fe2d {
+
+namespace {
+
+/// Forces on the unknowns and the resultant over all nodes from one recipe.
+StaticLoad make(std::string name, const Model& model, const std::function<Eigen::VectorXd(const DofMap&)>& recipe)
+{
+    StaticLoad load{.name = std::move(name), .force = recipe(model.dofs), .resultant = Eigen::Vector2d::Zero()};
+    const Eigen::VectorXd all = recipe(all_dofs(model.mesh, 2));
+    for (Eigen::Index i = 0; i < all.size(); ++i) load.resultant[i % 2] += all[i];
+    return load;
+}
+
+StaticLoad water(std::string name, const Model& model, const NodeChain& chain, double level, double unit_weight)
+{
+    return make(std::move(name), model, [&](const DofMap& dofs) {
+        return pressure_load(model.mesh, dofs, chain, [&](Point p) { return unit_weight * (level - p.y); }, level);
+    });
+}
+
+StaticLoad weight(std::string name, const Scene& scene, const Model& model, std::vector<Region> regions)
+{
+    return make(std::move(name), model,
+                [&](const DofMap& dofs) { return gravity_load(model.mesh, dofs, model.materials, scene.gravity, regions); });
+}
+
+/// Silt thrust 1/2 K_s gamma' h^2 is horizontal: the pressure acts on the face's vertical projection.
+StaticLoad silt(const Scene& scene, const Model& model)
+{
+    const Silt& s = *scene.silt;
+    return make("silt", model, [&](const DofMap& dofs) {
+        Eigen::VectorXd force = pressure_load(
+            model.mesh, dofs, model.mesh.upstream_face,
+            [&](Point p) { return s.pressure_coefficient * s.submerged_unit_weight * (s.level - p.y); }, s.level);
+        for (int node = 0; node < model.mesh.node_count(); ++node)
+            if (const int dof = dofs(node, 1); dof != no_dof) force[dof] = 0.0;
+        return force;
+    });
+}
+
+StaticLoad concentrated(const std::string& name, const Scene& scene, const Model& model, Point at, const Eigen::Vector2d& force, const std::string& key)
+{
+    return make(name, model, [&](const DofMap& dofs) {
+        const auto load = point_load(model.mesh, dofs, at, force);
+        if (!load)
+            throw InputError(Diagnostic{.file = scene.file.string(),
+                                        .problem = fmt::format("{} acts at ({:g}, {:g}) m, outside the dam.", key, at.x, at.y),
+                                        .expected = "a point of the section",
+                                        .fix = "move it to the face or into the dam"});
+        return *load;
+    });
+}
+
+/// Where the upstream face has the height y.
+Point on_face(const Mesh& mesh, double y)
+{
+    const NodeChain& face = mesh.upstream_face;
+    for (std::size_t i = 0; i + 1 < face.size(); ++i) {
+        const Point a = mesh.nodes[face[i]], b = mesh.nodes[face[i + 1]];
+        if (y > a.y || y < b.y) continue;
+        return {a.x + (a.y - y) / (a.y - b.y) * (b.x - a.x), y};
+    }
+    return {mesh.nodes[face.front()].x, y}; // above the crest or below the heel: refused as outside the dam
+}
+
+void add_upstream_water(const Scene& scene, const Model& model, StaticLoads& loads)
+{
+    const double unit_weight = scene.reservoir->density * scene.gravity, level = scene.reservoir->level;
+    loads.impounding.push_back(water("water on the upstream face", model, model.mesh.upstream_face, level, unit_weight));
+    if (scene.reservoir->floor_pressure && model.mesh.has_rock())
+        loads.impounding.push_back(water("water on the reservoir floor", model, model.mesh.floor, level, unit_weight));
+}
+
+void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
+{
+    const double unit_weight = (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity, level = scene.tailwater->level;
+    loads.impounding.push_back(water("tailwater on the downstream face", model, model.mesh.downstream_face, level, unit_weight));
+    if (scene.reservoir && scene.reservoir->floor_pressure && model.mesh.has_rock())
+        loads.impounding.push_back(water("tailwater on the ground", model, model.mesh.ground, level, unit_weight));
+}
+
+} // namespace
+
+StaticLoads static_loads(const Scene& scene, const Model& model)
+{
+    StaticLoads loads;
+    loads.gravity.push_back(weight("weight of the dam", scene, model, {Region::dam}));
+    if (scene.stages.gravity == GravityStage::dam_and_rock && model.mesh.has_rock())
+        loads.gravity.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::curtain}));
+    if (scene.reservoir) add_upstream_water(scene, model, loads);
+    if (scene.tailwater) add_tailwater(scene, model, loads);
+    if (scene.silt) loads.impounding.push_back(silt(scene, model));
+    if (scene.ice)
+        loads.impounding.push_back(concentrated("ice", scene, model, on_face(model.mesh, scene.ice->level), {scene.ice->force, 0.0}, "ice"));
+    for (const PointForce& force : scene.forces)
+        loads.impounding.push_back(concentrated(force.name, scene, model, force.at, {force.force_x, force.force_y}, "force \"" + force.name + "\""));
+    return loads;
+}
+
+Eigen::VectorXd sum_of(const std::vector<StaticLoad>& loads, int unknowns)
+{
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(unknowns);
+    for (const StaticLoad& load : loads) sum += load.force;
+    return sum;
+}
+
+} // namespace damslip::fe2d

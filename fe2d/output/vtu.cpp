@@ -1,0 +1,129 @@
+#include "fe2d/output/vtu.hpp"
+
+#include "core/file.hpp"
+#include "core/number.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace damslip::fe2d {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the appended data is written as it lies in memory");
+
+/// Collects the appended data; every block is its length as UInt64, then its bytes.
+class Appended {
+public:
+    template <class T>
+    std::size_t add(const std::vector<T>& values)
+    {
+        const std::size_t offset = bytes_.size();
+        const std::uint64_t length = values.size() * sizeof(T);
+        append(&length, sizeof length);
+        append(values.data(), length);
+        return offset;
+    }
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    void append(const void* data, std::size_t length) { bytes_.append(static_cast<const char*>(data), length); }
+    std::string bytes_;
+};
+
+std::string escaped(const std::string& text)
+{
+    std::string result;
+    for (const char c : text)
+        switch (c) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '"': result += "&quot;"; break;
+        default: result += c;
+        }
+    return result;
+}
+
+std::string header(const char* type, const std::string& name, int components, std::size_t offset)
+{
+    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+                       escaped(name), components, offset);
+}
+
+std::string array(const VtuArray& a, Appended& data)
+{
+    const Eigen::Index rows = a.values.rows(), written = rows == 2 ? 3 : rows;
+    std::vector<double> values(static_cast<std::size_t>(written * a.values.cols()), 0.0);
+    for (Eigen::Index j = 0; j < a.values.cols(); ++j)
+        for (Eigen::Index i = 0; i < rows; ++i) values[static_cast<std::size_t>(written * j + i)] = a.values(i, j);
+    return header("Float64", a.name, static_cast<int>(written), data.add(values));
+}
+
+std::string points(const Mesh& mesh, Appended& data)
+{
+    std::vector<double> xyz;
+    xyz.reserve(3 * mesh.nodes.size());
+    for (const Point& p : mesh.nodes) xyz.insert(xyz.end(), {p.x, p.y, 0.0});
+    return "<Points>\n" + header("Float64", "points_m", 3, data.add(xyz)) + "</Points>\n";
+}
+
+std::string cells(const Mesh& mesh, Appended& data)
+{
+    constexpr std::uint8_t triangle = 5, quad = 9; // VTK_TRIANGLE, VTK_QUAD
+    std::vector<std::int64_t> connectivity, offsets;
+    std::vector<std::uint8_t> types;
+    for (const Element& e : mesh.elements) {
+        connectivity.insert(connectivity.end(), e.nodes.begin(), e.nodes.begin() + e.size());
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        types.push_back(e.size() == 3 ? triangle : quad);
+    }
+    std::string text = "<Cells>\n";
+    text += header("Int64", "connectivity", 1, data.add(connectivity));
+    text += header("Int64", "offsets", 1, data.add(offsets));
+    text += header("UInt8", "types", 1, data.add(types));
+    return text + "</Cells>\n";
+}
+
+VtuArray regions(const Mesh& mesh)
+{
+    VtuArray a{"region", Eigen::MatrixXd(1, mesh.element_count())};
+    for (int e = 0; e < mesh.element_count(); ++e) a.values(0, e) = static_cast<double>(mesh.elements[e].region);
+    return a;
+}
+
+} // namespace
+
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal, const std::vector<VtuArray>& elemental)
+{
+    Appended data;
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+    text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(), mesh.element_count());
+    text += points(mesh, data) + cells(mesh, data);
+    text += "<PointData>\n";
+    for (const VtuArray& a : nodal) {
+        assert(a.values.cols() == mesh.node_count());
+        text += array(a, data);
+    }
+    text += "</PointData>\n<CellData>\n" + array(regions(mesh), data);
+    for (const VtuArray& a : elemental) {
+        assert(a.values.cols() == mesh.element_count());
+        text += array(a, data);
+    }
+    text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    text += data.bytes();
+    text += "\n</AppendedData>\n</VTKFile>\n";
+    write_file(path, text);
+}
+
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries)
+{
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    for (const PvdEntry& e : entries)
+        text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", shortest(e.time), escaped(e.file));
+    write_file(path, text + "</Collection>\n</VTKFile>\n");
+}
+
+} // namespace damslip::fe2d
