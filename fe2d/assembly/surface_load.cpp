@@ -12,8 +12,10 @@ struct LinePoint {
     double t, weight;
 };
 constexpr std::array<LinePoint, 2> two_points{{{0.21132486540518713, 0.5}, {0.78867513459481287, 0.5}}};
-constexpr std::array<LinePoint, 5> five_points{{{0.046910077030668, 0.118463442528095}, {0.230765344947158, 0.239314335249683},
-                                                {0.5, 0.284444444444444}, {0.769234655052842, 0.239314335249683},
+constexpr std::array<LinePoint, 5> five_points{{{0.046910077030668, 0.118463442528095},
+                                                {0.230765344947158, 0.239314335249683},
+                                                {0.5, 0.284444444444444},
+                                                {0.769234655052842, 0.239314335249683},
                                                 {0.953089922969332, 0.118463442528095}}};
 
 /// The wet part of an edge from node a to node b, as an interval of its parameter t.
@@ -32,16 +34,25 @@ void clip(Edge& edge, double level)
     edge.from = 0.0;
     edge.to = 1.0;
     if (edge.pa.y <= level && edge.pb.y <= level) return;
-    if (edge.pa.y > level && edge.pb.y > level) edge.to = 0.0;
-    else if (edge.pa.y > level) edge.from = (edge.pa.y - level) / (edge.pa.y - edge.pb.y);
-    else edge.to = (level - edge.pa.y) / (edge.pb.y - edge.pa.y);
+    if (edge.pa.y > level && edge.pb.y > level)
+        edge.to = 0.0;
+    else if (edge.pa.y > level)
+        edge.from = (edge.pa.y - level) / (edge.pa.y - edge.pb.y);
+    else
+        edge.to = (level - edge.pa.y) / (edge.pb.y - edge.pa.y);
 }
 
 template <class Visit>
 void for_each_wet_edge(const Mesh& mesh, const NodeChain& chain, double level, Visit visit)
 {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        Edge edge{.a = chain[i], .b = chain[i + 1], .pa = mesh.nodes[chain[i]], .pb = mesh.nodes[chain[i + 1]], .length = 0, .from = 0, .to = 0};
+        Edge edge{.a = chain[i],
+                  .b = chain[i + 1],
+                  .pa = mesh.nodes[chain[i]],
+                  .pb = mesh.nodes[chain[i + 1]],
+                  .length = 0,
+                  .from = 0,
+                  .to = 0};
         edge.length = std::hypot(edge.pb.x - edge.pa.x, edge.pb.y - edge.pa.y);
         clip(edge, level);
         if (edge.to > edge.from) visit(edge);
@@ -72,13 +83,15 @@ std::array<double, 3> edge_mass(const Edge& edge, const AddedMassLaw& law)
 
 } // namespace
 
-Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const PressureField& pressure, double surface_level)
+Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain,
+                              const PressureField& pressure, double surface_level)
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {
         for (const LinePoint& p : two_points) {
             const double t = edge.from + p.t * (edge.to - edge.from);
-            const Eigen::Vector2d force = -pressure(edge.at(t)) * p.weight * (edge.to - edge.from) * edge.length * edge.outward();
+            const Eigen::Vector2d force =
+                -pressure(edge.at(t)) * p.weight * (edge.to - edge.from) * edge.length * edge.outward();
             add(sum, dofs, edge.a, (1.0 - t) * force);
             add(sum, dofs, edge.b, t * force);
         }
@@ -86,7 +99,8 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeCh
     return sum;
 }
 
-SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law, double surface_level)
+SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law,
+                               double surface_level)
 {
     std::vector<Eigen::Triplet<double>> entries;
     for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {
@@ -97,7 +111,8 @@ SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeC
             for (int j = 0; j < 2; ++j)
                 for (int c = 0; c < 2; ++c)
                     for (int d = 0; d < 2; ++d)
-                        if (const int row = dofs(nodes[i], c), column = dofs(nodes[j], d); row != no_dof && column != no_dof && nn(c, d) != 0.0)
+                        if (const int row = dofs(nodes[i], c), column = dofs(nodes[j], d);
+                            row != no_dof && column != no_dof && nn(c, d) != 0.0)
                             entries.emplace_back(row, column, m[i + j] * nn(c, d));
     });
     SparseMatrix matrix(dofs.count, dofs.count);
@@ -105,8 +120,8 @@ SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeC
     return matrix;
 }
 
-Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law,
-                                   double surface_level, const Eigen::Vector2d& direction)
+Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain,
+                                   const AddedMassLaw& law, double surface_level, const Eigen::Vector2d& direction)
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-/// Loads and added mass on boundary chains. Integrals are taken below `surface_level` only: an edge that the water surface cuts is
-/// integrated over its wet part, so a level between two nodes costs no accuracy in the resultant.
+/// Loads and added mass on boundary chains. Integrals are taken below `surface_level` only: an edge that the water
+/// surface cuts is integrated over its wet part, so a level between two nodes costs no accuracy in the resultant.
 namespace damslip::fe2d {
 
 inline constexpr double everywhere = std::numeric_limits<double>::infinity();
@@ -15,25 +15,30 @@ inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 /// Pressure at a point of the boundary [Pa]; positive pushes against the body.
 using PressureField = std::function<double(Point)>;
 
-/// Mass of water that moves with the face in its normal direction, per area of wet face [kg/m^2]; `face_angle` phi is the inclination of
-/// the face from the vertical, positive where the body widens downwards [rad].
+/// Mass of water that moves with the face in its normal direction, per area of wet face [kg/m^2]; `face_angle` phi is
+/// the inclination of the face from the vertical, positive where the body widens downwards [rad].
 using AddedMassLaw = std::function<double(Point, double face_angle)>;
 
-/// Nodal forces - integral of N^T p n_out dS [N/m] of a pressure on a chain. Exact for pressures linear along each wet edge.
-Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const PressureField& pressure,
-                              double surface_level = everywhere);
+/// Nodal forces - integral of N^T p n_out dS [N/m] of a pressure on a chain. Exact for pressures linear along each wet
+/// edge.
+Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain,
+                              const PressureField& pressure, double surface_level = everywhere);
 
-/// Integral of m N^T n n^T N dS [kg/m] (Goldgruber 2015, (3-29) with m the normal component): consistent, full along each edge.
-SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law, double surface_level);
+/// Integral of m N^T n n^T N dS [kg/m] (Goldgruber 2015, (3-29) with m the normal component): consistent, full along
+/// each edge.
+SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law,
+                               double surface_level);
 
 /// The same matrix times a rigid translation of every node, the fixed ones included [kg/m]; compare inertia_vector.
-Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain, const AddedMassLaw& law,
-                                   double surface_level, const Eigen::Vector2d& direction);
+Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain,
+                                   const AddedMassLaw& law, double surface_level, const Eigen::Vector2d& direction);
 
 enum class ContactSide { dam, rock };
 
-/// Water pressure in the joint [N/m]: on the dam it lifts along the upward normal of the plane, on the rock it presses the opposite way.
-/// @param profile  x = distance from the heel along the base [m], not decreasing; y = pressure [Pa]; linear between, a repeated x is a
+/// Water pressure in the joint [N/m]: on the dam it lifts along the upward normal of the plane, on the rock it presses
+/// the opposite way.
+/// @param profile  x = distance from the heel along the base [m], not decreasing; y = pressure [Pa]; linear between, a
+/// repeated x is a
 ///                 jump, nothing outside. Integrated exactly, whatever the mesh.
 Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline& profile, ContactSide side);
 

@@ -25,7 +25,8 @@ std::vector<double> evened(const std::vector<double>& fractions)
 {
     std::vector<double> result = fractions;
     const double columns = static_cast<double>(fractions.size() - 1);
-    for (std::size_t i = 1; i + 1 < fractions.size(); ++i) result[i] += evening * (static_cast<double>(i) / columns - fractions[i]);
+    for (std::size_t i = 1; i + 1 < fractions.size(); ++i)
+        result[i] += evening * (static_cast<double>(i) / columns - fractions[i]);
     return result;
 }
 

@@ -9,10 +9,11 @@ namespace {
 /// Non-zeros of the stiffness matrix of the dam alone.
 std::int64_t dam_nonzeros(const Model& model)
 {
-    return assemble(model.mesh, model.dofs, [&](const Element& element, const Corners&) -> ElementMatrix {
-               if (element.region != Region::dam) return {};
-               return ElementMatrix::Ones(2 * element.size(), 2 * element.size());
-           })
+    return assemble(model.mesh, model.dofs,
+                    [&](const Element& element, const Corners&) -> ElementMatrix {
+                        if (element.region != Region::dam) return {};
+                        return ElementMatrix::Ones(2 * element.size(), 2 * element.size());
+                    })
         .nonZeros();
 }
 
@@ -21,11 +22,13 @@ ModelCounts count(const Model& model)
     const Mesh& mesh = model.mesh;
     const std::int64_t dam_unknowns = dam_dof_count(mesh, model.dofs), dam_stiffness = dam_nonzeros(model);
     const std::int64_t dam_mass = std::min<std::int64_t>(model.mass.nonZeros(), dam_stiffness);
-    const auto curtain = std::count_if(mesh.elements.begin(), mesh.elements.end(), [](const Element& e) { return e.region == Region::curtain; });
+    const auto curtain = std::count_if(mesh.elements.begin(), mesh.elements.end(),
+                                       [](const Element& e) { return e.region == Region::curtain; });
     ModelCounts counts;
     counts.add({"dam", mesh.dam_element_count, dam_unknowns, dam_stiffness + dam_mass});
     if (mesh.has_rock())
-        counts.add({"foundation", mesh.element_count() - mesh.dam_element_count - curtain, model.dofs.count - dam_unknowns,
+        counts.add({"foundation", mesh.element_count() - mesh.dam_element_count - curtain,
+                    model.dofs.count - dam_unknowns,
                     model.stiffness.nonZeros() - dam_stiffness + model.mass.nonZeros() - dam_mass});
     if (curtain > 0) counts.add({"curtain", curtain, 0, 0});
     if (model.added_mass.nonZeros() > 0) counts.add({"added mass", 0, 0, model.added_mass.nonZeros()});

@@ -13,11 +13,12 @@ struct ModelOptions {
     Base base = Base::tied;
     MassKind mass = MassKind::consistent;
     ContactExtension extension = {};
-    AddedMassLaw added_mass = {}; ///< of the upstream face; used only when the scene has a reservoir; empty: no added mass
+    AddedMassLaw added_mass =
+        {}; ///< of the upstream face; used only when the scene has a reservoir; empty: no added mass
 };
 
-/// The assembled structure of one scene. Only what the scene holds is there: without a foundation no rock unknowns, without a reservoir
-/// (or without a law for it) `added_mass` has no entries, without a curtain no curtain elements.
+/// The assembled structure of one scene. Only what the scene holds is there: without a foundation no rock unknowns,
+/// without a reservoir (or without a law for it) `added_mass` has no entries, without a curtain no curtain elements.
 struct Model {
     Mesh mesh;
     DofMap dofs;
@@ -25,8 +26,10 @@ struct Model {
     SparseMatrix stiffness;  ///< K [N/m per m]
     SparseMatrix mass;       ///< of the structure [kg/m]; rows of massless rock are empty
     SparseMatrix added_mass; ///< of the water on the upstream face [kg/m]
-    Eigen::VectorXd inertia_x, inertia_y; ///< (mass + added mass) times a rigid translation in x, y, fixed nodes included [kg/m]
-    Eigen::Vector2d total_mass = Eigen::Vector2d::Zero(); ///< of everything that moves, in x and in y, added mass included [kg/m]
+    Eigen::VectorXd inertia_x,
+        inertia_y; ///< (mass + added mass) times a rigid translation in x, y, fixed nodes included [kg/m]
+    Eigen::Vector2d total_mass =
+        Eigen::Vector2d::Zero(); ///< of everything that moves, in x and in y, added mass included [kg/m]
     ModelCounts counts;
 
     SparseMatrix moving_mass() const { return mass + added_mass; }

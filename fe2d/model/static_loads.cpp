@@ -23,14 +23,16 @@ StaticLoad make(std::string name, const Model& model, const std::function<Eigen:
 StaticLoad water(std::string name, const Model& model, const NodeChain& chain, double level, double unit_weight)
 {
     return make(std::move(name), model, [&](const DofMap& dofs) {
-        return pressure_load(model.mesh, dofs, chain, [&](Point p) { return unit_weight * (level - p.y); }, level);
+        return pressure_load(
+            model.mesh, dofs, chain, [&](Point p) { return unit_weight * (level - p.y); }, level);
     });
 }
 
 StaticLoad weight(std::string name, const Scene& scene, const Model& model, std::vector<Region> regions)
 {
-    return make(std::move(name), model,
-                [&](const DofMap& dofs) { return gravity_load(model.mesh, dofs, model.materials, scene.gravity, regions); });
+    return make(std::move(name), model, [&](const DofMap& dofs) {
+        return gravity_load(model.mesh, dofs, model.materials, scene.gravity, regions);
+    });
 }
 
 /// Silt thrust 1/2 K_s gamma' h^2 is horizontal: the pressure acts on the face's vertical projection.
@@ -47,15 +49,17 @@ StaticLoad silt(const Scene& scene, const Model& model)
     });
 }
 
-StaticLoad concentrated(const std::string& name, const Scene& scene, const Model& model, Point at, const Eigen::Vector2d& force, const std::string& key)
+StaticLoad concentrated(const std::string& name, const Scene& scene, const Model& model, Point at,
+                        const Eigen::Vector2d& force, const std::string& key)
 {
     return make(name, model, [&](const DofMap& dofs) {
         const auto load = point_load(model.mesh, dofs, at, force);
         if (!load)
-            throw InputError(Diagnostic{.file = scene.file.string(),
-                                        .problem = fmt::format("{} acts at ({:g}, {:g}) m, outside the dam.", key, at.x, at.y),
-                                        .expected = "a point of the section",
-                                        .fix = "move it to the face or into the dam"});
+            throw InputError(
+                Diagnostic{.file = scene.file.string(),
+                           .problem = fmt::format("{} acts at ({:g}, {:g}) m, outside the dam.", key, at.x, at.y),
+                           .expected = "a point of the section",
+                           .fix = "move it to the face or into the dam"});
         return *load;
     });
 }
@@ -75,15 +79,18 @@ Point on_face(const Mesh& mesh, double y)
 void add_upstream_water(const Scene& scene, const Model& model, StaticLoads& loads)
 {
     const double unit_weight = scene.reservoir->density * scene.gravity, level = scene.reservoir->level;
-    loads.impounding.push_back(water("water on the upstream face", model, model.mesh.upstream_face, level, unit_weight));
+    loads.impounding.push_back(
+        water("water on the upstream face", model, model.mesh.upstream_face, level, unit_weight));
     if (scene.reservoir->floor_pressure && model.mesh.has_rock())
         loads.impounding.push_back(water("water on the reservoir floor", model, model.mesh.floor, level, unit_weight));
 }
 
 void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
 {
-    const double unit_weight = (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity, level = scene.tailwater->level;
-    loads.impounding.push_back(water("tailwater on the downstream face", model, model.mesh.downstream_face, level, unit_weight));
+    const double unit_weight = (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity,
+                 level = scene.tailwater->level;
+    loads.impounding.push_back(
+        water("tailwater on the downstream face", model, model.mesh.downstream_face, level, unit_weight));
     if (scene.reservoir && scene.reservoir->floor_pressure && model.mesh.has_rock())
         loads.impounding.push_back(water("tailwater on the ground", model, model.mesh.ground, level, unit_weight));
 }
@@ -100,9 +107,11 @@ StaticLoads static_loads(const Scene& scene, const Model& model)
     if (scene.tailwater) add_tailwater(scene, model, loads);
     if (scene.silt) loads.impounding.push_back(silt(scene, model));
     if (scene.ice)
-        loads.impounding.push_back(concentrated("ice", scene, model, on_face(model.mesh, scene.ice->level), {scene.ice->force, 0.0}, "ice"));
+        loads.impounding.push_back(
+            concentrated("ice", scene, model, on_face(model.mesh, scene.ice->level), {scene.ice->force, 0.0}, "ice"));
     for (const PointForce& force : scene.forces)
-        loads.impounding.push_back(concentrated(force.name, scene, model, force.at, {force.force_x, force.force_y}, "force \"" + force.name + "\""));
+        loads.impounding.push_back(concentrated(force.name, scene, model, force.at, {force.force_x, force.force_y},
+                                                "force \"" + force.name + "\""));
     return loads;
 }
 

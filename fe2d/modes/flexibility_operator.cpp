@@ -2,7 +2,8 @@
 
 namespace damslip::fe2d {
 
-FlexibilityOperator::FlexibilityOperator(const LinearSolver& solver, const SparseMatrix& mass) : solver_(solver), unknowns_(mass.rows())
+FlexibilityOperator::FlexibilityOperator(const LinearSolver& solver, const SparseMatrix& mass)
+    : solver_(solver), unknowns_(mass.rows())
 {
     std::vector<int> place(static_cast<std::size_t>(mass.rows()), no_dof);
     for (int i = 0; i < mass.rows(); ++i)
@@ -13,7 +14,8 @@ FlexibilityOperator::FlexibilityOperator(const LinearSolver& solver, const Spars
     std::vector<Eigen::Triplet<double>> entries;
     for (int j = 0; j < mass.cols(); ++j)
         for (SparseMatrix::InnerIterator it(mass, j); it; ++it)
-            if (place[it.row()] != no_dof && place[j] != no_dof) entries.emplace_back(place[it.row()], place[j], it.value());
+            if (place[it.row()] != no_dof && place[j] != no_dof)
+                entries.emplace_back(place[it.row()], place[j], it.value());
     SparseMatrix reduced(rows(), rows());
     reduced.setFromTriplets(entries.begin(), entries.end());
     factor_.compute(reduced);

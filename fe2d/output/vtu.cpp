@@ -37,20 +37,27 @@ private:
 std::string escaped(const std::string& text)
 {
     std::string result;
-    for (const char c : text)
-        switch (c) {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '"': result += "&quot;"; break;
-        default: result += c;
+    for (const char c : text) switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c;
         }
     return result;
 }
 
 std::string header(const char* type, const std::string& name, int components, std::size_t offset)
 {
-    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-                       escaped(name), components, offset);
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+        escaped(name), components, offset);
 }
 
 std::string array(const VtuArray& a, Appended& data)
@@ -96,11 +103,14 @@ VtuArray regions(const Mesh& mesh)
 
 } // namespace
 
-void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal, const std::vector<VtuArray>& elemental)
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal,
+               const std::vector<VtuArray>& elemental)
 {
     Appended data;
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-    text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(), mesh.element_count());
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+    text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(),
+                        mesh.element_count());
     text += points(mesh, data) + cells(mesh, data);
     text += "<PointData>\n";
     for (const VtuArray& a : nodal) {
@@ -120,7 +130,8 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::v
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries)
 {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+                       "byte_order=\"LittleEndian\">\n<Collection>\n";
     for (const PvdEntry& e : entries)
         text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", shortest(e.time), escaped(e.file));
     write_file(path, text + "</Collection>\n</VTKFile>\n");

@@ -10,18 +10,19 @@
 
 namespace damslip::fe2d {
 
-/// One named array of a VTU file: one row per component, one column per node or element. Two components are written as three (z = 0), as
-/// ParaView expects of vectors.
+/// One named array of a VTU file: one row per component, one column per node or element. Two components are written as
+/// three (z = 0), as ParaView expects of vectors.
 struct VtuArray {
     std::string name; ///< with its unit: "displacement_m"
     Eigen::MatrixXd values;
 };
 
-/// Writes nodes, elements and arrays as a VTK unstructured grid (.vtu, VTK file format 1.0: raw appended data, 64-bit block headers,
-/// little endian, float64). The region of every element is added as the cell array "region" (0 dam, 1 rock, 2 curtain, 3 reservoir).
-/// The file appears whole or not at all.
+/// Writes nodes, elements and arrays as a VTK unstructured grid (.vtu, VTK file format 1.0: raw appended data, 64-bit
+/// block headers, little endian, float64). The region of every element is added as the cell array "region" (0 dam, 1
+/// rock, 2 curtain, 3 reservoir). The file appears whole or not at all.
 /// @throws InputError when the file cannot be written.
-void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal, const std::vector<VtuArray>& elemental);
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal,
+               const std::vector<VtuArray>& elemental);
 
 struct PvdEntry {
     double time = 0.0; ///< [s]

@@ -13,7 +13,8 @@ Eigen::Vector2d resultant_of(const std::vector<StaticLoad>& loads)
 
 } // namespace
 
-StaticSolution solve_static(const Scene& scene, const Model& model, const StaticLoads& loads, const SolverOptions& options)
+StaticSolution solve_static(const Scene& scene, const Model& model, const StaticLoads& loads,
+                            const SolverOptions& options)
 {
     LinearSolver solver(options);
     StaticSolution solution{.solver = solver.factorise(model.stiffness), .stages = {}};
@@ -41,16 +42,20 @@ Eigen::Matrix2Xd base_forces(const Model& model, const Eigen::VectorXd& displace
 {
     const DofMap all = all_dofs(model.mesh, 2);
     const Eigen::VectorXd u = nodal_values(model.dofs, displacement);
-    const Eigen::VectorXd internal = assemble_vector(model.mesh, all, [&](const Element& element, const Corners& c) -> ElementVector {
-        if (element.region != Region::dam) return {};
-        ElementVector ue(2 * element.size());
-        for (int i = 0; i < element.size(); ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * element.nodes[i]);
-        return elastic_stiffness(c, element.size(), plane_strain_matrix(model.materials.dam), model.materials.kind) * ue;
-    });
+    const Eigen::VectorXd internal =
+        assemble_vector(model.mesh, all, [&](const Element& element, const Corners& c) -> ElementVector {
+            if (element.region != Region::dam) return {};
+            ElementVector ue(2 * element.size());
+            for (int i = 0; i < element.size(); ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * element.nodes[i]);
+            return elastic_stiffness(c, element.size(), plane_strain_matrix(model.materials.dam),
+                                     model.materials.kind) *
+                   ue;
+        });
     const std::vector<int>& nodes = model.mesh.contact.dam_nodes;
     Eigen::Matrix2Xd forces(2, static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        forces.col(static_cast<Eigen::Index>(i)) = internal.segment<2>(2 * nodes[i]) - dam_load.segment<2>(2 * nodes[i]);
+        forces.col(static_cast<Eigen::Index>(i)) =
+            internal.segment<2>(2 * nodes[i]) - dam_load.segment<2>(2 * nodes[i]);
     return forces;
 }
 

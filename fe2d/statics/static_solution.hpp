@@ -19,10 +19,11 @@ struct StaticSolution {
 };
 
 /// Solves the stages of a tied model, one factorisation for all. A stage without loads is left out.
-StaticSolution solve_static(const Scene& scene, const Model& model, const StaticLoads& loads, const SolverOptions& options = {});
+StaticSolution solve_static(const Scene& scene, const Model& model, const StaticLoads& loads,
+                            const SolverOptions& options = {});
 
-/// Forces the rock (or the rigid base) exerts on the dam at the base nodes, heel to toe, 2 x n [N/m]: internal forces of the dam minus
-/// `dam_load`. For a tied base they are the nodal contact forces.
+/// Forces the rock (or the rigid base) exerts on the dam at the base nodes, heel to toe, 2 x n [N/m]: internal forces
+/// of the dam minus `dam_load`. For a tied base they are the nodal contact forces.
 /// @param dam_load  forces on all dam nodes, by all_dofs(mesh, 2) [N/m]
 Eigen::Matrix2Xd base_forces(const Model& model, const Eigen::VectorXd& displacement, const Eigen::VectorXd& dam_load);
 

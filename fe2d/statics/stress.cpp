@@ -4,10 +4,12 @@
 
 namespace damslip::fe2d {
 
-StressField stress_field(const Mesh& mesh, const DofMap& dofs, const Materials& materials, const Eigen::VectorXd& displacement)
+StressField stress_field(const Mesh& mesh, const DofMap& dofs, const Materials& materials,
+                         const Eigen::VectorXd& displacement)
 {
     const Eigen::VectorXd u = nodal_values(dofs, displacement);
-    StressField field{.nodal = Eigen::Matrix3Xd::Zero(3, mesh.node_count()), .centre = Eigen::Matrix3Xd::Zero(3, mesh.element_count())};
+    StressField field{.nodal = Eigen::Matrix3Xd::Zero(3, mesh.node_count()),
+                      .centre = Eigen::Matrix3Xd::Zero(3, mesh.element_count())};
     Eigen::VectorXi elements_at = Eigen::VectorXi::Zero(mesh.node_count());
     for (int e = 0; e < mesh.element_count(); ++e) {
         const Element& element = mesh.elements[e];

@@ -5,7 +5,8 @@ namespace damslip::exact {
 ElasticWedge::Stress ElasticWedge::stress(double x, double y) const
 {
     const double d = height - y, t = base / height;
-    return {-water_weight * d, (unit_weight / t - 2.0 * water_weight / (t * t * t)) * x + (water_weight / (t * t) - unit_weight) * d,
+    return {-water_weight * d,
+            (unit_weight / t - 2.0 * water_weight / (t * t * t)) * x + (water_weight / (t * t) - unit_weight) * d,
             water_weight * x / (t * t)};
 }
 
@@ -18,7 +19,8 @@ ElasticWedge::Displacement ElasticWedge::displacement(double x, double y) const
     struct Linear {
         double x, y, c;
     };
-    const Linear xx{ex.xx - o.xx, ey.xx - o.xx, o.xx}, yy{ex.yy - o.yy, ey.yy - o.yy, o.yy}, xy{ex.xy - o.xy, ey.xy - o.xy, o.xy};
+    const Linear xx{ex.xx - o.xx, ey.xx - o.xx, o.xx}, yy{ex.yy - o.yy, ey.yy - o.yy, o.yy},
+        xy{ex.xy - o.xy, ey.xy - o.xy, o.xy};
     const Linear e1{direct * xx.x + cross * yy.x, direct * xx.y + cross * yy.y, direct * xx.c + cross * yy.c};
     const Linear e2{direct * yy.x + cross * xx.x, direct * yy.y + cross * xx.y, direct * yy.c + cross * xx.c};
     const Linear g{shear * xy.x, shear * xy.y, shear * xy.c};

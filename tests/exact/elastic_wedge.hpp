@@ -1,10 +1,12 @@
 #pragma once
 
-/// Levy's triangular dam (M. Levy, Comptes Rendus 127, 1898, 10-15; Timoshenko & Goodier, Theory of Elasticity, art. 45).
+/// Levy's triangular dam (M. Levy, Comptes Rendus 127, 1898, 10-15; Timoshenko & Goodier, Theory of Elasticity, art.
+/// 45).
 ///
-/// Section: heel (0, 0), toe (B, 0), apex (0, H); water to the apex on the vertical upstream face, own weight, downstream face free.
-/// With d = H - y the depth below the apex and t = B / H the stresses are linear, here re-derived from equilibrium and the face tractions:
-/// upstream x = 0: sigma_xx = -gamma d, tau = 0; downstream x = t d: traction zero. Equilibrium d(tau)/dx + d(sigma_yy)/dy = w closes it:
+/// Section: heel (0, 0), toe (B, 0), apex (0, H); water to the apex on the vertical upstream face, own weight,
+/// downstream face free. With d = H - y the depth below the apex and t = B / H the stresses are linear, here re-derived
+/// from equilibrium and the face tractions: upstream x = 0: sigma_xx = -gamma d, tau = 0; downstream x = t d: traction
+/// zero. Equilibrium d(tau)/dx + d(sigma_yy)/dy = w closes it:
 ///     sigma_xx = -gamma d
 ///     sigma_xy =  gamma x / t^2
 ///     sigma_yy = (w / t - 2 gamma / t^3) x + (gamma / t^2 - w) d

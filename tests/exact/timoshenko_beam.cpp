@@ -8,7 +8,8 @@ namespace damslip::exact {
 double TimoshenkoCantilever::tip_deflection(double force) const
 {
     const double inertia = depth * depth * depth / 12.0;
-    return force * length * length * length / (3.0 * young_modulus * inertia) + force * length / (shear_factor * shear_modulus * depth);
+    return force * length * length * length / (3.0 * young_modulus * inertia) +
+           force * length / (shear_factor * shear_modulus * depth);
 }
 
 std::vector<double> TimoshenkoCantilever::frequencies(int count) const
@@ -22,7 +23,8 @@ std::vector<double> TimoshenkoCantilever::frequencies(int count) const
         return 2.0 + (b * b * (r2 - s2) * (r2 - s2) + 2.0) * std::cosh(b * a) * std::cos(b * c) -
                b * (r2 + s2) / std::sqrt(1.0 - b * b * r2 * s2) * std::sinh(b * a) * std::sin(b * c);
     };
-    const double scale = std::sqrt(young_modulus * inertia / (density * area)) / (length * length * 2.0 * std::numbers::pi);
+    const double scale =
+        std::sqrt(young_modulus * inertia / (density * area)) / (length * length * 2.0 * std::numbers::pi);
     std::vector<double> result;
     const double step = 0.05, cut_off = 1.0 / std::sqrt(r2 * s2);
     for (double b = step; static_cast<int>(result.size()) < count && b + step < cut_off; b += step) {

@@ -23,7 +23,8 @@ TEST(FeModes, orthonormal_in_mass_and_stiffness)
     const Model model = build_model(test::reference_dam_on_rock());
     const NaturalModes modes = natural_modes(model, 8);
     ASSERT_EQ(modes.status, ModesStatus::ok);
-    const Eigen::MatrixXd m = modes.shape.transpose() * (model.mass * modes.shape), k = modes.shape.transpose() * (model.stiffness * modes.shape);
+    const Eigen::MatrixXd m = modes.shape.transpose() * (model.mass * modes.shape),
+                          k = modes.shape.transpose() * (model.stiffness * modes.shape);
     EXPECT_LT((m - Eigen::MatrixXd::Identity(8, 8)).lpNorm<Eigen::Infinity>(), 1e-9);
     const Eigen::VectorXd omega2 = (2.0 * M_PI * modes.frequency).cwiseAbs2();
     const Eigen::MatrixXd diagonal = omega2.asDiagonal();
@@ -36,8 +37,8 @@ TEST(FeModes, orthonormal_in_mass_and_stiffness)
     }
 }
 
-// All modes of a small model, against Eigen's dense generalised solver on the statically condensed (massive) unknowns; together they carry
-// the whole mass in both directions, because the base of the dam moves with the rock here.
+// All modes of a small model, against Eigen's dense generalised solver on the statically condensed (massive) unknowns;
+// together they carry the whole mass in both directions, because the base of the dam moves with the rock here.
 TEST(FeModes, all_modes_of_a_small_model)
 {
     const Model model = build_model(coarse_dam(true));
@@ -52,14 +53,17 @@ TEST(FeModes, all_modes_of_a_small_model)
     const int n = model.dofs.count - massive; // dam unknowns come first and all have mass; the rest is massless rock
     ASSERT_EQ(dam_dof_count(model.mesh, model.dofs), massive);
     const Eigen::MatrixXd condensed =
-        k.topLeftCorner(massive, massive) - k.topRightCorner(massive, n) * k.bottomRightCorner(n, n).ldlt().solve(k.bottomLeftCorner(n, massive));
+        k.topLeftCorner(massive, massive) -
+        k.topRightCorner(massive, n) * k.bottomRightCorner(n, n).ldlt().solve(k.bottomLeftCorner(n, massive));
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(condensed, m.topLeftCorner(massive, massive));
-    for (int i = 0; i < 20; ++i) EXPECT_NEAR(modes.frequency[i], std::sqrt(dense.eigenvalues()[i]) / (2.0 * M_PI), 1e-8 * modes.frequency[i]);
+    for (int i = 0; i < 20; ++i)
+        EXPECT_NEAR(modes.frequency[i], std::sqrt(dense.eigenvalues()[i]) / (2.0 * M_PI), 1e-8 * modes.frequency[i]);
     const NaturalModes few = natural_modes(model, 5); // by Lanczos instead of the whole spectrum
     EXPECT_LT((few.frequency - modes.frequency.head(5)).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// A rigid base keeps the mass of its own nodes: the effective masses sum to less than the total, by no more than the base row's share.
+// A rigid base keeps the mass of its own nodes: the effective masses sum to less than the total, by no more than the
+// base row's share.
 TEST(FeModes, rigid_base)
 {
     const Model model = build_model(coarse_dam(false));
@@ -82,7 +86,8 @@ TEST(FeModes, added_mass_moves_with_the_normal_of_the_face)
     const Model inclined = build_model(scene, {.added_mass = [&](Point, double phi) { return angle = phi, 1000.0; }});
     EXPECT_NEAR(angle, std::atan2(20.0, 62.5), 1e-12);
     const double length = std::hypot(20.0, 62.5), cosine = 62.5 / length;
-    EXPECT_NEAR(inclined.added_mass.sum(), 1000.0 * length * (cosine * cosine + (1 - cosine * cosine) - 2 * cosine * 20.0 / length), 1e-3);
+    EXPECT_NEAR(inclined.added_mass.sum(),
+                1000.0 * length * (cosine * cosine + (1 - cosine * cosine) - 2 * cosine * 20.0 / length), 1e-3);
 }
 
 TEST(FeModes, same_model_same_bits)

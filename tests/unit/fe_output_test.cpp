@@ -23,12 +23,13 @@ TEST(FeOutput, vtu_blocks_have_the_announced_places_and_lengths)
     const std::string text = read_file(path);
     std::filesystem::remove(path);
     const std::size_t data = text.find("<AppendedData encoding=\"raw\">\n_") + 31;
-    const std::vector<std::size_t> lengths{24u * mesh.nodes.size(), 32u * mesh.elements.size(), 8u * mesh.elements.size(),
-                                           mesh.elements.size(),    24u * mesh.nodes.size(),    8u * mesh.elements.size(),
-                                           24u * mesh.elements.size()};
+    const std::vector<std::size_t> lengths{
+        24u * mesh.nodes.size(), 32u * mesh.elements.size(), 8u * mesh.elements.size(), mesh.elements.size(),
+        24u * mesh.nodes.size(), 8u * mesh.elements.size(),  24u * mesh.elements.size()};
     const std::regex offset("offset=\"([0-9]+)\"");
     std::size_t i = 0;
-    for (std::sregex_iterator it(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(data), offset), end; it != end; ++it, ++i) {
+    for (std::sregex_iterator it(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(data), offset), end;
+         it != end; ++it, ++i) {
         ASSERT_LT(i, lengths.size());
         std::uint64_t length = 0;
         std::memcpy(&length, text.data() + data + std::stoull((*it)[1]), sizeof length);

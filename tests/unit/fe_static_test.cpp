@@ -1,4 +1,5 @@
-// Static loads and stages: resultants, equilibrium, stresses, the zero-displacement start, what is not in the scene is not in the model.
+// Static loads and stages: resultants, equilibrium, stresses, the zero-displacement start, what is not in the scene is
+// not in the model.
 #include "core/input_error.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/statics/stress.hpp"
@@ -28,7 +29,8 @@ Scene full_reservoir()
     return scene;
 }
 
-// Weight 2500 * 9.81 * 1599.75, thrust 1/2 gamma h^2, whatever the mesh: the shape functions sum to one and the pressure is linear.
+// Weight 2500 * 9.81 * 1599.75, thrust 1/2 gamma h^2, whatever the mesh: the shape functions sum to one and the
+// pressure is linear.
 TEST(FeStatic, resultants_are_exact)
 {
     Scene scene = full_reservoir();
@@ -63,7 +65,8 @@ TEST(FeStatic, floor_pressure_only_where_asked_for)
     EXPECT_EQ(static_loads(scene, model).impounding.size(), 1u);
 }
 
-// A jump inside an element and kinks off the nodes: the integral is that of the profile, 1/2 and whole trapezoids by hand.
+// A jump inside an element and kinks off the nodes: the integral is that of the profile, 1/2 and whole trapezoids by
+// hand.
 TEST(FeStatic, uplift_profile_is_integrated_exactly_and_acts_on_both_sides)
 {
     const Scene scene = test::reference_dam_on_rock();
@@ -80,11 +83,13 @@ TEST(FeStatic, uplift_profile_is_integrated_exactly_and_acts_on_both_sides)
     EXPECT_NEAR(vertical(ContactSide::dam), expected, 1e-6);
     EXPECT_NEAR(vertical(ContactSide::rock), -expected, 1e-6);
     const DofMap tied = displacement_dofs(mesh, Base::tied);
-    const Eigen::VectorXd both = uplift_load(mesh, tied, profile, ContactSide::dam) + uplift_load(mesh, tied, profile, ContactSide::rock);
+    const Eigen::VectorXd both =
+        uplift_load(mesh, tied, profile, ContactSide::dam) + uplift_load(mesh, tied, profile, ContactSide::rock);
     EXPECT_LT(both.lpNorm<Eigen::Infinity>(), 1e-8); // a tied joint does not feel its pore pressure
 }
 
-// An inclined base: the uplift acts along the base's normal (sin theta, cos theta), theta positive where the base dips downstream.
+// An inclined base: the uplift acts along the base's normal (sin theta, cos theta), theta positive where the base dips
+// downstream.
 TEST(FeStatic, uplift_on_an_inclined_base_is_normal_to_it)
 {
     Scene scene = test::reference_dam();
@@ -97,7 +102,8 @@ TEST(FeStatic, uplift_on_an_inclined_base_is_normal_to_it)
     EXPECT_NEAR(sum[1], 45.0, 1e-12);
 }
 
-// Newton's third law across the base: the rock's forces on the dam balance all loads on the dam, in both forces and about the heel.
+// Newton's third law across the base: the rock's forces on the dam balance all loads on the dam, in both forces and
+// about the heel.
 TEST(FeStatic, base_forces_balance_the_loads)
 {
     for (const bool rigid : {true, false}) {
@@ -108,14 +114,17 @@ TEST(FeStatic, base_forces_balance_the_loads)
         ASSERT_TRUE(solution.solver.ok()) << solution.solver.text();
         const DofMap all = all_dofs(model.mesh, 2);
         const Region dam[] = {Region::dam};
-        const Eigen::VectorXd load = gravity_load(model.mesh, all, model.materials, scene.gravity, dam) +
-                                     pressure_load(model.mesh, all, model.mesh.upstream_face, [](Point p) { return gamma_w * (62.5 - p.y); }, 62.5);
+        const Eigen::VectorXd load =
+            gravity_load(model.mesh, all, model.materials, scene.gravity, dam) +
+            pressure_load(
+                model.mesh, all, model.mesh.upstream_face, [](Point p) { return gamma_w * (62.5 - p.y); }, 62.5);
         const Eigen::Matrix2Xd forces = base_forces(model, solution.stages.back().elastic, load);
         const double weight = 2500.0 * 9.81 * 1599.75, thrust = 0.5 * gamma_w * 62.5 * 62.5;
         EXPECT_NEAR(forces.row(0).sum(), -thrust, 1e-8 * thrust);
         EXPECT_NEAR(forces.row(1).sum(), weight, 1e-8 * weight);
         double moment = 0.0; // about the heel, x F_y; the base is horizontal
-        for (Eigen::Index i = 0; i < forces.cols(); ++i) moment += model.mesh.contact.distance[static_cast<std::size_t>(i)] * forces(1, i);
+        for (Eigen::Index i = 0; i < forces.cols(); ++i)
+            moment += model.mesh.contact.distance[static_cast<std::size_t>(i)] * forces(1, i);
         EXPECT_NEAR(moment, weight * centroid(scene.section).x + thrust * 62.5 / 3.0, 1e-8 * moment);
     }
 }
@@ -145,7 +154,8 @@ TEST(FeStatic, rock_weight_only_where_asked_for)
     const Model model = build_model(scene);
     EXPECT_EQ(static_loads(scene, model).gravity.size(), 1u);
     scene.stages.gravity = GravityStage::dam_and_rock;
-    EXPECT_NEAR(named(static_loads(scene, model).gravity, "weight of the rock").resultant[1], -2700.0 * 9.81 * 30000.0, 1e-2);
+    EXPECT_NEAR(named(static_loads(scene, model).gravity, "weight of the rock").resultant[1], -2700.0 * 9.81 * 30000.0,
+                1e-2);
 }
 
 TEST(FeStatic, principal_stresses)
@@ -158,7 +168,8 @@ TEST(FeStatic, principal_stresses)
     EXPECT_NEAR(std::abs(vertical.angle), M_PI / 2, 1e-15);
 }
 
-// The effects of a scene sum to what the matrices hold; an effect that is not in the scene is not in the list and adds nothing.
+// The effects of a scene sum to what the matrices hold; an effect that is not in the scene is not in the list and adds
+// nothing.
 TEST(FeStatic, counts_are_those_of_the_matrices)
 {
     const AddedMassLaw law = [](Point, double) { return 1000.0; };
