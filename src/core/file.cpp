@@ -20,7 +20,8 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes)
     };
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status)) fail("there is no such file.", "check the name; relative names start from the file that mentions them");
+    if (!fs::exists(status))
+        fail("there is no such file.", "check the name; relative names start from the file that mentions them");
     if (fs::is_directory(status)) fail("this is a folder, not a file.", "name a file inside it");
     std::ifstream in(path, std::ios::binary);
     if (!in) fail("the file cannot be opened.", "check its read permission");
@@ -29,7 +30,8 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes)
     while (in.read(block.data(), block.size()) || in.gcount() > 0) {
         content.append(block.data(), static_cast<std::size_t>(in.gcount()));
         if (content.size() > max_bytes)
-            fail(fmt::format("the file is larger than {} MB.", max_bytes >> 20), "this is not one of the formats read here; cut it down");
+            fail(fmt::format("the file is larger than {} MB.", max_bytes >> 20),
+                 "this is not one of the formats read here; cut it down");
     }
     return content;
 }
@@ -37,8 +39,8 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes)
 void write_file(const fs::path& path, std::string_view content)
 {
     const auto fail = [&](const std::string& why) {
-        throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why, "a folder with write permission and space left",
-                                    "choose another output folder"});
+        throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why,
+                                    "a folder with write permission and space left", "choose another output folder"});
     };
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);

@@ -31,7 +31,8 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-/// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is near.
+/// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is
+/// near.
 std::string_view nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace damslip

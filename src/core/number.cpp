@@ -7,7 +7,10 @@
 namespace damslip {
 
 namespace {
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
 } // namespace
 
 std::optional<double> parse_number(std::string_view text, std::size_t* used)
@@ -20,7 +23,8 @@ std::optional<double> parse_number(std::string_view text, std::size_t* used)
     }
     const std::string_view body = text.substr(at);
     const std::size_t digits_from = !body.empty() && body[0] == '-' ? 1 : 0;
-    if (digits_from >= body.size() || !(body[digits_from] == '.' || (body[digits_from] >= '0' && body[digits_from] <= '9')))
+    if (digits_from >= body.size() ||
+        !(body[digits_from] == '.' || (body[digits_from] >= '0' && body[digits_from] <= '9')))
         return std::nullopt;
 
     double value = 0.0;

@@ -6,7 +6,8 @@
 
 namespace damslip {
 
-/// A finite decimal number at the start of `text`, locale-free: leading blanks and `+` skipped, Fortran `D` exponents read as `E`.
+/// A finite decimal number at the start of `text`, locale-free: leading blanks and `+` skipped, Fortran `D` exponents
+/// read as `E`.
 /// @param used  characters consumed, blanks included; untouched when nothing is found.
 /// @returns nothing for no number, NaN, infinity, overflow or `****`.
 std::optional<double> parse_number(std::string_view text, std::size_t* used = nullptr);

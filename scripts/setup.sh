@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Installs what the project is built with (Debian 12, Ubuntu); does nothing when everything is there. Run by demo.sh and test.sh.
+set -euo pipefail
+packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgsl-dev libsuitesparse-dev libopenblas-dev libcli11-dev libtomlplusplus-dev
+          nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev)
+[ "${1:-}" = tests ] && packages+=(libgtest-dev)
+missing=()
+for p in "${packages[@]}"; do
+    dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+sudo=()
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "setup: these packages are missing and neither root nor sudo is at hand: ${missing[*]}" >&2; exit 1; }
+    sudo=(sudo)
+fi
+echo "setup: installing ${missing[*]}" >&2
+export DEBIAN_FRONTEND=noninteractive
+"${sudo[@]}" apt-get update -qq >&2
+"${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2

@@ -1,0 +1,224 @@
+#include "cli/arguments.hpp"
+
+#include "cli/completion_command.hpp"
+#include "cli/explain_command.hpp"
+#include "cli/schema_command.hpp"
+#include "cli/screen_command.hpp"
+#include "cli/sweep_command.hpp"
+#include "cli/usage_error.hpp"
+#include "cli/verify_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command line, 3 input file, 4 did not converge "
+                               "or a check failed (results so far are kept).";
+
+/// All option structs, owned together with the parser that fills them.
+struct Parser {
+    CLI::App app{"How far does this concrete gravity dam slide in this earthquake, and how sure are we?", "damslip"};
+    bool json = false, quiet = false;
+    std::function<int(const Streams&)> chosen;
+
+    ScreenArguments screen;
+    SweepArguments sweep;
+    ExplainArguments explain;
+    VerifyArguments verify;
+    SchemaArguments schema;
+    std::string shell;
+};
+
+CLI::App* command(Parser& p, const std::string& name, const std::string& description, const std::string& example)
+{
+    CLI::App* sub = p.app.add_subcommand(name, description);
+    sub->footer("Example:\n  " + example);
+    sub->add_flag("--json", p.json, "one JSON object on standard output, for machines");
+    sub->add_flag("-q,--quiet", p.quiet, "no progress, no talk");
+    return sub;
+}
+
+void add_run_inputs(CLI::App* sub, RunInputs& in)
+{
+    sub->add_option("SCENE", in.scene, "scene file (TOML)")->required();
+    sub->add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's")
+        ->group("Ground motion");
+    sub->add_option("--vertical", in.verticals, "vertical accelerogram(s), one for each --record, in the same order")
+        ->group("Ground motion");
+    sub->add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
+        ->group("Ground motion");
+    sub->add_option("--dt", in.dt, "time step of one-column record files [s]")->group("Ground motion");
+}
+
+void add_screen(Parser& p)
+{
+    CLI::App* sub =
+        command(p, "screen", "limit equilibrium, yield accelerations, rigid-block displacement and regressions",
+                "damslip screen examples/reference_dam.toml --record ns.at2 --vertical up.at2");
+    add_run_inputs(sub, p.screen.inputs);
+    sub->add_option("--scale", p.screen.inputs.scale, "factor on all records")->group("Ground motion");
+    sub->add_option("--friction", p.screen.inputs.friction, "Coulomb mu instead of the scene's");
+    sub->add_option("--scheme", p.screen.inputs.scheme, "exact (default) or slammer");
+    sub->add_option("--out", p.screen.out, "folder for summary.json, displacements.csv and the resolved scene");
+    sub->add_option("-j,--jobs", p.screen.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    sub->callback([&p] { p.chosen = [a = p.screen](const Streams& s) { return screen(a, s); }; });
+}
+
+void add_sweep(Parser& p)
+{
+    CLI::App* sub = command(
+        p, "sweep", "slip over a grid of friction, level, uplift, reservoir, scale, polarity and records; CSV",
+        "damslip sweep examples/reference_dam.toml --friction 0.65:1.0:0.05 --uplift curtain,linear --scale 1,2");
+    add_run_inputs(sub, p.sweep.inputs);
+    const auto list = [&](const char* flag, std::string& target, const char* text) {
+        sub->add_option(flag, target, text)->group("Grid");
+    };
+    list("--friction", p.sweep.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
+    list("--friction-deg", p.sweep.friction_deg, "friction angles instead [deg]");
+    list("--level", p.sweep.level, "water levels above the heel [m]");
+    list("--uplift", p.sweep.uplift, "none, linear, curtain, drains, points, seepage");
+    list("--reservoir", p.sweep.reservoir, "hydrostatic, westergaard, westergaard-simplified, zangar, goldgruber");
+    list("--scale", p.sweep.scale, "factors on the records");
+    list("--polarity", p.sweep.polarity, "1, -1 or both: 1,-1");
+    list("--method", p.sweep.method,
+         "rigid (horizontal), rigid-v (with the vertical component), and the regressions ambraseys-menu-1988, "
+         "jibson-1993, jibson-1998");
+    sub->add_option("--scheme", p.sweep.inputs.scheme, "exact (default) or slammer");
+    sub->add_option("-o,--out", p.sweep.out, "CSV file; without it the rows go to standard output");
+    sub->add_option("-j,--jobs", p.sweep.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    sub->callback([&p] { p.chosen = [a = p.sweep](const Streams& s) { return sweep(a, s); }; });
+}
+
+void add_explain(Parser& p)
+{
+    CLI::App* sub = command(p, "explain", "the effect plan: what is taken into account, why, and what it costs",
+                            "damslip explain examples/reference_dam.toml");
+    sub->add_option("SCENE", p.explain.scene, "scene file (TOML)")->required();
+    sub->add_option("--method", p.explain.method, "rigid or fe")
+        ->check(CLI::IsMember({"rigid", "fe"}))
+        ->capture_default_str();
+    sub->callback([&p] { p.chosen = [a = p.explain](const Streams& s) { return explain(a, s); }; });
+}
+
+void add_small_commands(Parser& p)
+{
+    CLI::App* check = command(p, "verify", "closed-form and published cases: expected, computed, error, pass",
+                              "damslip verify sliding.block");
+    check->add_option("FILTER", p.verify.filter, "part of the case ids to run");
+    check->add_flag("--markdown", p.verify.markdown, "print docs/verification.md");
+    check->callback([&p] { p.chosen = [a = p.verify](const Streams& s) { return verify(a, s); }; });
+
+    CLI::App* schema = command(p, "schema", "JSON Schema of the scene file", "damslip schema > scene.schema.json");
+    schema->add_flag("--markdown", p.schema.markdown, "the same keys as a Markdown document");
+    schema->callback([&p] { p.chosen = [a = p.schema](const Streams& s) { return print_schema(a, s); }; });
+
+    CLI::App* complete =
+        command(p, "completion", "completion script for bash, zsh or fish", "source <(damslip completion bash)");
+    complete->add_option("SHELL", p.shell, "bash, zsh or fish")->required();
+    complete->callback([&p] { p.chosen = [shell = p.shell](const Streams& s) { return completion(shell, s); }; });
+}
+
+void build(Parser& p)
+{
+    p.app.set_version_flag("--version", "damslip " + program_version());
+    p.app.require_subcommand(1);
+    p.app.footer(std::string("Examples:\n  damslip screen examples/reference_dam.toml\n  damslip sweep "
+                             "examples/reference_dam.toml --friction 0.65:1.0:0.05\n") +
+                 exit_codes);
+    add_screen(p);
+    add_sweep(p);
+    add_explain(p);
+    add_small_commands(p);
+}
+
+std::vector<std::string> command_names(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(sub->get_name());
+    return names;
+}
+
+std::vector<std::string> flag_names(const CLI::App& app)
+{
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    return flags;
+}
+
+[[noreturn]] void unknown(const std::string& what, const std::string& word, const std::string& where,
+                          const std::vector<std::string>& known, const std::string& help)
+{
+    const std::string_view near = nearest(word, known);
+    throw UsageError(Diagnostic{"", 0, 0,
+                                fmt::format("unknown {} {}{}.{}", what, word, where,
+                                            near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
+                                fmt::format("{}", fmt::join(known, ", ")), "run  " + help});
+}
+
+/// Misspelt commands and flags, which CLI11 would report without a suggestion.
+void check_spelling(const CLI::App& top, const std::vector<std::string>& arguments)
+{
+    const CLI::App* app = &top;
+    std::string path = "damslip";
+    for (const std::string& word : arguments) {
+        if (word == "--") return;
+        if (word.size() > 2 && word.starts_with("--")) {
+            const std::string flag = word.substr(0, word.find('='));
+            const std::vector<std::string> known = flag_names(*app);
+            if (std::find(known.begin(), known.end(), flag) == known.end())
+                unknown("flag", flag, " of " + path, known, path + " --help");
+        } else if (const std::vector<std::string> names = command_names(*app);
+                   !names.empty() && !word.starts_with("-")) {
+            if (std::find(names.begin(), names.end(), word) == names.end())
+                unknown("command", word, app == &top ? "" : " of " + path, names, path + " --help");
+            app = app->get_subcommand(word);
+            path += " " + word;
+        }
+    }
+}
+
+void summarise(const CLI::App& app, const std::string& prefix, std::vector<CommandSummary>& out)
+{
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+        out.push_back({prefix + sub->get_name(), sub->get_description(), flag_names(*sub)});
+        summarise(*sub, prefix + sub->get_name() + " ", out);
+    }
+}
+
+} // namespace
+
+Invocation parse_arguments(const std::vector<std::string>& arguments)
+{
+    Parser parser;
+    build(parser);
+    if (arguments.empty()) throw HelpText{parser.app.help()};
+    check_spelling(parser.app, arguments);
+    try {
+        parser.app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const CLI::CallForHelp&) {
+        const CLI::App* app = &parser.app;
+        while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+        throw HelpText{app->help()};
+    } catch (const CLI::CallForVersion& version) {
+        throw HelpText{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(Diagnostic{"", 0, 0, error.what(), "", "run  damslip --help  or  damslip COMMAND --help"});
+    }
+    return {parser.chosen, parser.json ? Form::json : Form::text, parser.quiet};
+}
+
+std::vector<CommandSummary> command_summaries()
+{
+    Parser parser;
+    build(parser);
+    std::vector<CommandSummary> summaries;
+    summarise(parser.app, "", summaries);
+    return summaries;
+}
+
+} // namespace damslip::cli

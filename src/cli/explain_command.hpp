@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cli/streams.hpp"
+
+namespace damslip::cli {
+
+struct ExplainArguments {
+    std::filesystem::path scene;
+    std::string method = "rigid"; ///< "rigid" or "fe"
+};
+
+/// The effect plan: which effects are on, why, and what each costs.
+int explain(const ExplainArguments& arguments, const Streams& streams);
+
+} // namespace damslip::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "cli/streams.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+
+namespace damslip::cli {
+
+/// A bar with percentage and time left on a terminal, at most ten times a second; silent otherwise.
+class Progress {
+public:
+    Progress(const Streams& streams, std::string label, std::size_t total);
+    ~Progress();
+    void advance(std::size_t by = 1); ///< from any thread
+
+private:
+    void draw();
+
+    const Streams& streams_;
+    std::string label_;
+    std::size_t total_, done_ = 0;
+    std::chrono::steady_clock::time_point start_, drawn_;
+    std::mutex mutex_;
+    bool shown_ = false;
+};
+
+} // namespace damslip::cli

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "records/record.hpp"
+#include "scene/effect_plan.hpp"
+#include "scene/scene.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace damslip::cli {
+
+/// What the commands that run a scene have in common on the command line.
+struct RunInputs {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> records;   ///< horizontal components; given: they replace the scene's
+    std::vector<std::filesystem::path> verticals; ///< none, or one for each record, in the same order
+    std::string unit;                             ///< of record files that do not say
+    std::optional<double> dt;                     ///< of one-column files [s]
+    std::optional<double> friction;
+    std::optional<double> scale;
+    std::string scheme; ///< "exact" or "slammer"; empty: the scene's
+};
+
+/// One record pair of a scene as read, with what its files are.
+struct RecordPair {
+    RecordFiles files;
+    Record horizontal;
+    std::optional<Record> vertical;
+};
+
+/// The scene with the command line's changes, checked. @throws InputError, UsageError
+Scene read_run_scene(const RunInputs& inputs);
+
+/// The scene with another peak friction; a residual value above it is lowered to it. @throws UsageError for a scene
+/// with a friction table
+Scene with_friction(Scene scene, double friction);
+
+/// Reads the scene's records; verticals only where the plan has vertical motion.
+std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan);
+
+/// Both components on one grid, scaled as scene and record say. @param scale  on top of them; @param polarity  on top
+/// of the scene's
+GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale = 1.0, int polarity = 1);
+
+} // namespace damslip::cli

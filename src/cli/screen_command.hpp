@@ -1,0 +1,19 @@
+#pragma once
+
+#include "cli/run_inputs.hpp"
+#include "cli/streams.hpp"
+
+#include <optional>
+
+namespace damslip::cli {
+
+struct ScreenArguments {
+    RunInputs inputs;
+    std::filesystem::path out; ///< folder for summary.json, displacements.csv and the resolved scene; empty: none
+    int jobs = 0;              ///< threads; 0: all cores
+};
+
+/// Limit equilibrium, yield accelerations, rigid-block displacements and regressions for every record of the scene.
+int screen(const ScreenArguments& arguments, const Streams& streams);
+
+} // namespace damslip::cli

@@ -1,0 +1,118 @@
+#include "cli/verify_command.hpp"
+
+#include "cli/progress.hpp"
+#include "cli/usage_error.hpp"
+#include "report/table_text.hpp"
+#include "verification/registry.hpp"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+using verification::Case;
+using verification::Check;
+using verification::Measure;
+
+struct Outcome {
+    const Case* subject;
+    std::vector<Check> checks;
+    double seconds = 0.0;
+};
+
+std::string tolerance_text(const Check& check)
+{
+    switch (check.measure) {
+    case Measure::relative:
+        return fmt::format("{:.2g} rel", check.tolerance);
+    case Measure::absolute:
+        return fmt::format("{:.2g} abs", check.tolerance);
+    case Measure::upper_bound:
+        return "at most";
+    case Measure::lower_bound:
+        return "at least";
+    }
+    return "";
+}
+
+Table table_of(const std::vector<Outcome>& outcomes)
+{
+    Table table;
+    table.columns = {{"case", "case", "", 4},           {"quantity", "quantity", "", 4},
+                     {"unit", "unit", "", 4},           {"expected", "expected", "", 7},
+                     {"computed", "computed", "", 7},   {"error", "error", "", 2},
+                     {"tolerance", "tolerance", "", 2}, {"passed", "", "", 4}};
+    for (const Outcome& o : outcomes)
+        for (const Check& c : o.checks)
+            table.rows.push_back({o.subject->id, c.quantity, c.unit, c.expected, c.computed, c.error(),
+                                  tolerance_text(c), std::string(c.passed() ? "pass" : "FAIL")});
+    return table;
+}
+
+/// The claims and tolerances, which do not depend on the machine, and the errors of this run.
+std::string markdown_of(const std::vector<Outcome>& outcomes)
+{
+    std::string out = "# Verification\n\nWhat the program is held against: closed and published solutions. Made by "
+                      "`damslip verify --markdown`; every case is also a test "
+                      "and is run by `damslip verify`.\n";
+    for (const Outcome& o : outcomes) {
+        out += fmt::format("\n## {}\n{}\n\nSource: {}\n\nTolerance: {}\n\n| quantity | unit | expected | tolerance "
+                           "|\n| --- | --- | --- | --- |\n",
+                           o.subject->id, o.subject->claim, o.subject->source, o.subject->tolerance);
+        for (const Check& c : o.checks)
+            out += fmt::format("| {} | {} | {:.7g} | {} |\n", c.quantity, c.unit, c.expected, tolerance_text(c));
+    }
+    return out;
+}
+
+} // namespace
+
+int verify(const VerifyArguments& arguments, const Streams& streams)
+{
+    const verification::Registry cases = verification::all_cases();
+    std::vector<const Case*> selected;
+    for (const Case& c : cases)
+        if (c.id.find(arguments.filter) != std::string::npos) selected.push_back(&c);
+    if (selected.empty())
+        throw UsageError(Diagnostic{"", 0, 0, fmt::format("verify: no case has \"{}\" in its name.", arguments.filter),
+                                    "part of a case id, such as sliding.block",
+                                    "run  damslip verify  without a filter to see them all"});
+
+    std::vector<Outcome> outcomes;
+    std::size_t checks = 0, failed = 0;
+    double seconds = 0.0;
+    {
+        Progress progress(streams, "verify", selected.size());
+        for (const Case* c : selected) {
+            const auto start = std::chrono::steady_clock::now();
+            outcomes.push_back({c, c->run(), 0.0});
+            outcomes.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            seconds += outcomes.back().seconds;
+            checks += outcomes.back().checks.size();
+            for (const Check& check : outcomes.back().checks) failed += check.passed() ? 0 : 1;
+            progress.advance();
+        }
+    }
+    if (arguments.markdown) {
+        streams.out << markdown_of(outcomes);
+    } else if (streams.form == Form::json) {
+        auto j = json_header("verify");
+        j["cases"] = outcomes.size();
+        j["checks"] = checks;
+        j["failed"] = failed;
+        j["seconds"] = seconds;
+        j["results"] = json_of(table_of(outcomes));
+        streams.out << j.dump(2) << "\n";
+    } else {
+        streams.out << report::text(table_of(outcomes))
+                    << fmt::format("{} cases, {} checks, {} failed, {:.2f} s\n", outcomes.size(), checks, failed,
+                                   seconds);
+    }
+    return failed == 0 ? exit_ok : exit_no_convergence;
+}
+
+} // namespace damslip::cli

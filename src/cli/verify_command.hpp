@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cli/streams.hpp"
+
+namespace damslip::cli {
+
+struct VerifyArguments {
+    std::string filter;    ///< part of the ids to run; empty: all
+    bool markdown = false; ///< print docs/verification.md
+};
+
+/// Runs the verification cases. @returns exit_ok when every check passes, else exit_no_convergence.
+int verify(const VerifyArguments& arguments, const Streams& streams);
+
+} // namespace damslip::cli
