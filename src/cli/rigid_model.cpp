@@ -1,0 +1,59 @@
+#include "cli/rigid_model.hpp"
+
+#include "core/input_error.hpp"
+
+namespace damslip::cli {
+
+sliding::SeepageProfile seepage_profile(const Scene& scene)
+{
+    if (!scene.uplift || scene.uplift->model != UpliftModel::seepage) return {};
+    return {};
+}
+
+RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack)
+{
+    sliding::BlockOptions options;
+    options.crack = crack;
+    options.seepage = seepage_profile(scene);
+    RigidModel model;
+    model.block = sliding::make_rigid_block(scene, options);
+    model.stages = sliding::strength_stages(model.block, scene.contact);
+    if (scene.drains && scene.drains->lost_at_slip) {
+        Scene without = scene;
+        without.drains->efficiency = 0.0;
+        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip, sliding::make_rigid_block(without, options));
+    }
+    model.downstream = sliding::yield_downstream(model.block);
+    model.upstream = sliding::yield_upstream(model.block);
+    model.state = sliding::static_state(model.block);
+    model.critical_friction = sliding::critical_friction(model.block);
+    return model;
+}
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity, sliding::HistoryOutput history)
+{
+    sliding::SlideOptions options;
+    options.sliding = scene.sliding;
+    options.polarity = polarity;
+    options.history = history;
+    return sliding::slide(motion, model.stages, options);
+}
+
+GroundMotion horizontal_only(GroundMotion motion)
+{
+    motion.accel_v.clear();
+    return motion;
+}
+
+std::string status_word(sliding::SlideStatus status)
+{
+    switch (status) {
+    case sliding::SlideStatus::at_rest: return "at rest";
+    case sliding::SlideStatus::sliding_at_end: return "sliding at end";
+    case sliding::SlideStatus::static_sliding: return "slides statically";
+    case sliding::SlideStatus::unresolved: return "UNRESOLVED";
+    }
+    return "";
+}
+
+} // namespace damslip::cli

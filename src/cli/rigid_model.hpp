@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scene/scene.hpp"
+#include "sliding/block/slide.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+
+namespace damslip::cli {
+
+/// The uplift profile of uplift.model = "seepage" for a scene; empty function for other models.
+sliding::SeepageProfile seepage_profile(const Scene& scene);
+
+/// The rigid block of a scene, what it becomes with slip, and what holds it.
+struct RigidModel {
+    sliding::RigidBlock block;   ///< before any slip
+    sliding::SlipStages stages;  ///< strength and uplift over slip
+    sliding::Yield downstream, upstream;
+    sliding::StaticState state = sliding::StaticState::at_rest;
+    double critical_friction = 0.0; ///< [-]
+};
+
+/// @param crack  in place of the scene's uplift.crack, if given
+RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack = std::nullopt);
+
+/// Slip of the model under a motion with the scene's [sliding] options.
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+/// The same motion without its vertical component.
+GroundMotion horizontal_only(GroundMotion motion);
+
+/// "at rest", "sliding at end", ...
+std::string status_word(sliding::SlideStatus status);
+
+} // namespace damslip::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cli/screening.hpp"
+#include "core/table.hpp"
+
+namespace damslip::cli {
+
+Table yield_table(const Screening& s);
+Table uplift_table(const Screening& s);
+Table slip_table(const Screening& s, const std::optional<double>& allowable);
+Table regression_table(const Screening& s);
+Table statistics_table(const Screening& s);
+
+} // namespace damslip::cli
