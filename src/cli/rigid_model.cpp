@@ -21,7 +21,8 @@ RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack)
     if (scene.drains && scene.drains->lost_at_slip) {
         Scene without = scene;
         without.drains->efficiency = 0.0;
-        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip, sliding::make_rigid_block(without, options));
+        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
+                                                sliding::make_rigid_block(without, options));
     }
     model.downstream = sliding::yield_downstream(model.block);
     model.upstream = sliding::yield_upstream(model.block);
@@ -30,7 +31,8 @@ RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack)
     return model;
 }
 
-sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity, sliding::HistoryOutput history)
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history)
 {
     sliding::SlideOptions options;
     options.sliding = scene.sliding;
@@ -48,10 +50,14 @@ GroundMotion horizontal_only(GroundMotion motion)
 std::string status_word(sliding::SlideStatus status)
 {
     switch (status) {
-    case sliding::SlideStatus::at_rest: return "at rest";
-    case sliding::SlideStatus::sliding_at_end: return "sliding at end";
-    case sliding::SlideStatus::static_sliding: return "slides statically";
-    case sliding::SlideStatus::unresolved: return "UNRESOLVED";
+    case sliding::SlideStatus::at_rest:
+        return "at rest";
+    case sliding::SlideStatus::sliding_at_end:
+        return "sliding at end";
+    case sliding::SlideStatus::static_sliding:
+        return "slides statically";
+    case sliding::SlideStatus::unresolved:
+        return "UNRESOLVED";
     }
     return "";
 }

@@ -12,8 +12,8 @@ sliding::SeepageProfile seepage_profile(const Scene& scene);
 
 /// The rigid block of a scene, what it becomes with slip, and what holds it.
 struct RigidModel {
-    sliding::RigidBlock block;   ///< before any slip
-    sliding::SlipStages stages;  ///< strength and uplift over slip
+    sliding::RigidBlock block;  ///< before any slip
+    sliding::SlipStages stages; ///< strength and uplift over slip
     sliding::Yield downstream, upstream;
     sliding::StaticState state = sliding::StaticState::at_rest;
     double critical_friction = 0.0; ///< [-]

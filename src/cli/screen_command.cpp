@@ -20,7 +20,9 @@ nlohmann::ordered_json record_provenance(const std::vector<RecordPair>& records)
 {
     auto list = nlohmann::ordered_json::array();
     const auto component = [](const Record& r) {
-        return nlohmann::ordered_json{{"file", r.source.file}, {"format", r.source.format}, {"unit", r.source.unit}, {"sha256", r.source.sha256}, {"samples", r.acceleration.size()}, {"dt_s", r.dt}};
+        return nlohmann::ordered_json{
+            {"file", r.source.file},     {"format", r.source.format},        {"unit", r.source.unit},
+            {"sha256", r.source.sha256}, {"samples", r.acceleration.size()}, {"dt_s", r.dt}};
     };
     for (const RecordPair& pair : records) {
         nlohmann::ordered_json entry{{"name", pair.files.name}, {"horizontal", component(pair.horizontal)}};
@@ -30,14 +32,15 @@ nlohmann::ordered_json record_provenance(const std::vector<RecordPair>& records)
     return list;
 }
 
-nlohmann::ordered_json json_of(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records)
+nlohmann::ordered_json summary(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records)
 {
     auto j = json_header("screen");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["records"] = record_provenance(records);
     j["effects"] = json_of(effect_table(s.plan));
     j["limit_equilibrium"] = nlohmann::ordered_json::array();
-    for (const Table& t : s.equilibrium) j["limit_equilibrium"].push_back({{"title", t.title}, {"rows", json_of(t)}, {"notes", t.notes}});
+    for (const Table& t : s.equilibrium)
+        j["limit_equilibrium"].push_back({{"title", t.title}, {"rows", json_of(t)}, {"notes", t.notes}});
     j["yield"] = json_of(yield_table(s));
     j["uplift_profiles"] = json_of(uplift_table(s));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
@@ -57,7 +60,8 @@ std::string effects_line(const EffectPlan& plan)
 
 void print_text(const Scene& scene, const Screening& s, std::ostream& out)
 {
-    out << scene.title << "   (" << scene.file.string() << ", scene " << scene_hash(scene).substr(0, 12) << ")\n" << effects_line(s.plan) << "\n";
+    out << scene.title << "   (" << scene.file.string() << ", scene " << scene_hash(scene).substr(0, 12) << ")\n"
+        << effects_line(s.plan) << "\n";
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out << report::text(table) << "\n";
     };
@@ -72,7 +76,10 @@ void print_text(const Scene& scene, const Screening& s, std::ostream& out)
 
 int exit_code(const Screening& s)
 {
-    const auto unresolved = [](const SlipRow& row) { return row.judged().status == sliding::SlideStatus::unresolved || row.horizontal.status == sliding::SlideStatus::unresolved; };
+    const auto unresolved = [](const SlipRow& row) {
+        return row.judged().status == sliding::SlideStatus::unresolved ||
+               row.horizontal.status == sliding::SlideStatus::unresolved;
+    };
     return std::any_of(s.slips.begin(), s.slips.end(), unresolved) ? exit_no_convergence : exit_ok;
 }
 
@@ -87,17 +94,24 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     for (const RecordPair& pair : records)
         for (const Record* r : {&pair.horizontal, pair.vertical ? &*pair.vertical : nullptr})
             if (r && !streams.quiet)
-                for (const std::string& warning : r->warnings) streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
+                for (const std::string& warning : r->warnings)
+                    streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
 
     const Screening s = run_screening(scene, plan, records, arguments.jobs);
-    if (streams.form == Form::json) streams.out << json_of(scene, s, records).dump(2) << "\n";
-    else print_text(scene, s, streams.out);
+    if (streams.form == Form::json)
+        streams.out << summary(scene, s, records).dump(2) << "\n";
+    else
+        print_text(scene, s, streams.out);
 
     if (!arguments.out.empty()) {
-        write_file(arguments.out / "summary.json", json_of(scene, s, records).dump(2) + "\n");
-        write_file(arguments.out / "displacements.csv", report::csv(slip_table(s, scene.criteria.allowable_slip), {"damslip " + program_version(), "scene " + scene_hash(scene)}));
+        write_file(arguments.out / "summary.json", summary(scene, s, records).dump(2) + "\n");
+        write_file(arguments.out / "displacements.csv",
+                   report::csv(slip_table(s, scene.criteria.allowable_slip),
+                               {"damslip " + program_version(), "scene " + scene_hash(scene)}));
         write_file(arguments.out / "scene.resolved.toml", resolved_toml(given));
-        if (!streams.quiet) streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, scene.resolved.toml\n";
+        if (!streams.quiet)
+            streams.talk << "written: " << (arguments.out / "summary.json").string()
+                         << ", displacements.csv, scene.resolved.toml\n";
     }
     return exit_code(s);
 }

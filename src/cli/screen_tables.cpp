@@ -11,22 +11,30 @@ namespace {
 constexpr double mm = units::mm;
 constexpr double g = units::standard_gravity;
 
-Cell cell(const std::optional<double>& value, double unit = 1.0) { return value ? Cell(*value / unit) : Cell(); }
+Cell cell(const std::optional<double>& value, double unit = 1.0)
+{
+    return value ? Cell(*value / unit) : Cell();
+}
 
 std::string state_word(const RigidModel& model)
 {
     switch (model.state) {
-    case sliding::StaticState::at_rest: return "stands";
-    case sliding::StaticState::slides_downstream: return "SLIDES STATICALLY";
-    case sliding::StaticState::slides_upstream: return "SLIDES UPSTREAM";
-    case sliding::StaticState::lifts_off: return "FLOATS";
+    case sliding::StaticState::at_rest:
+        return "stands";
+    case sliding::StaticState::slides_downstream:
+        return "SLIDES STATICALLY";
+    case sliding::StaticState::slides_upstream:
+        return "SLIDES UPSTREAM";
+    case sliding::StaticState::lifts_off:
+        return "FLOATS";
     }
     return "";
 }
 
 std::string verdict(const sliding::SlideResult& r, const std::optional<double>& allowable)
 {
-    if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::sliding_at_end) return "FAIL";
+    if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::sliding_at_end)
+        return "FAIL";
     if (r.status == sliding::SlideStatus::unresolved) return "unresolved";
     if (!allowable) return "no criterion";
     return r.max_slip <= *allowable ? "PASS" : "FAIL";
@@ -48,9 +56,11 @@ Table yield_table(const Screening& s)
                  {"state", "without earthquake", "", 4}};
     for (const BaseRow& row : s.bases) {
         const RigidModel& m = row.model;
-        t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant, m.downstream.law.constant / g, m.upstream.law.constant, m.critical_friction, state_word(m)});
+        t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant,
+                          m.downstream.law.constant / g, m.upstream.law.constant, m.critical_friction, state_word(m)});
     }
-    t.notes.push_back("a_y: ground acceleration at which the dam starts to slide; critical μ: friction that just holds it without an earthquake.");
+    t.notes.push_back("a_y: ground acceleration at which the dam starts to slide; critical μ: friction that just holds "
+                      "it without an earthquake.");
     return t;
 }
 
@@ -58,8 +68,12 @@ Table uplift_table(const Screening& s)
 {
     Table t;
     t.title = "What each uplift profile asks for";
-    t.columns = {{"uplift", "uplift", "", 4}, {"chosen", "chosen", "", 4}, {"uplift_kN_m", "U", "kN/m", 6}, {"critical_friction", "critical μ", "–", 6}};
-    for (const UpliftRow& row : s.uplifts) t.rows.push_back({row.uplift, row.chosen, row.force / 1e3, row.critical_friction});
+    t.columns = {{"uplift", "uplift", "", 4},
+                 {"chosen", "chosen", "", 4},
+                 {"uplift_kN_m", "U", "kN/m", 6},
+                 {"critical_friction", "critical μ", "–", 6}};
+    for (const UpliftRow& row : s.uplifts)
+        t.rows.push_back({row.uplift, row.chosen, row.force / 1e3, row.critical_friction});
     return t;
 }
 
@@ -81,11 +95,17 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     const double a_y = s.bases.front().model.downstream.law.constant;
     for (const SlipRow& row : s.slips) {
         const sliding::SlideResult& r = row.judged();
-        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga, row.pga > 0 ? Cell(a_y / row.pga) : Cell(), row.horizontal.slip / mm, row.with_vertical ? Cell(row.with_vertical->slip / mm) : Cell(), r.max_slip, r.upstream_slip / mm,
-                          static_cast<std::int64_t>(r.lift_offs), status_word(r.status), verdict(r, allowable)});
+        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
+                          row.pga > 0 ? Cell(a_y / row.pga) : Cell(), row.horizontal.slip / mm,
+                          row.with_vertical ? Cell(row.with_vertical->slip / mm) : Cell(), r.max_slip,
+                          r.upstream_slip / mm, static_cast<std::int64_t>(r.lift_offs), status_word(r.status),
+                          verdict(r, allowable)});
     }
-    t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical component where the record has one.");
-    if (allowable) t.notes.push_back(fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
+    t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
+                      "component where the record has one.");
+    if (allowable)
+        t.notes.push_back(
+            fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
     return t;
 }
 
@@ -93,8 +113,15 @@ Table regression_table(const Screening& s)
 {
     Table t;
     t.title = "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
-    t.columns = {{"record", "record", "", 4}, {"model", "regression", "", 4}, {"slip_mm", "slip", "mm", 4}, {"slip_minus_sigma_mm", "−1σ", "mm", 4}, {"slip_plus_sigma_mm", "+1σ", "mm", 4}, {"remark", "remark", "", 4}};
-    for (const RegressionRow& row : s.regressions) t.rows.push_back({row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm), row.remark});
+    t.columns = {{"record", "record", "", 4},
+                 {"model", "regression", "", 4},
+                 {"slip_mm", "slip", "mm", 4},
+                 {"slip_minus_sigma_mm", "−1σ", "mm", 4},
+                 {"slip_plus_sigma_mm", "+1σ", "mm", 4},
+                 {"remark", "remark", "", 4}};
+    for (const RegressionRow& row : s.regressions)
+        t.rows.push_back(
+            {row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm), row.remark});
     return t;
 }
 
@@ -102,9 +129,20 @@ Table statistics_table(const Screening& s)
 {
     Table t;
     t.title = "Over the records (largest slip, worse polarity of each)";
-    t.columns = {{"quantity", "method", "", 4}, {"n", "n", "", 4}, {"median_mm", "median", "mm", 4}, {"percentile_16_mm", "16 %", "mm", 4}, {"percentile_84_mm", "84 %", "mm", 4}, {"mean_mm", "mean", "mm", 4}, {"largest_mm", "largest", "mm", 4}, {"share_above_allowable_percent", "above allowable", "%", 3}, {"controlling_record", "controlling record", "", 4}};
+    t.columns = {{"quantity", "method", "", 4},
+                 {"n", "n", "", 4},
+                 {"median_mm", "median", "mm", 4},
+                 {"percentile_16_mm", "16 %", "mm", 4},
+                 {"percentile_84_mm", "84 %", "mm", 4},
+                 {"mean_mm", "mean", "mm", 4},
+                 {"largest_mm", "largest", "mm", 4},
+                 {"share_above_allowable_percent", "above allowable", "%", 3},
+                 {"controlling_record", "controlling record", "", 4}};
     for (const SetStatistics& q : s.statistics)
-        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), q.median / mm, q.percentile_16 / mm, q.percentile_84 / mm, q.mean / mm, q.largest / mm, q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(), q.controlling_record});
+        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), q.median / mm, q.percentile_16 / mm,
+                          q.percentile_84 / mm, q.mean / mm, q.largest / mm,
+                          q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(),
+                          q.controlling_record});
     return t;
 }
 

@@ -53,7 +53,8 @@ double peak(const std::vector<double>& a)
     return p;
 }
 
-std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, const std::vector<RecordPair>& records, int jobs, std::vector<std::string>& warnings)
+std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, const std::vector<RecordPair>& records,
+                               int jobs, std::vector<std::string>& warnings)
 {
     std::vector<GroundMotion> motions;
     std::vector<SlipRow> rows;
@@ -71,27 +72,42 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, cons
     parallel_for(2 * rows.size(), jobs, [&](std::size_t task) {
         SlipRow& row = rows[task / 2];
         const GroundMotion& motion = motions[task / 4];
-        if (task % 2 == 0) row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
-        else if (!motion.accel_v.empty()) row.with_vertical = slide_model(scene, model, motion, row.polarity);
+        if (task % 2 == 0)
+            row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
+        else if (!motion.accel_v.empty())
+            row.with_vertical = slide_model(scene, model, motion, row.polarity);
     });
     return rows;
 }
 
-SetStatistics statistics_of(const std::string& quantity, const std::vector<std::pair<std::string, double>>& slip, const std::optional<double>& allowable)
+SetStatistics statistics_of(const std::string& quantity, const std::vector<std::pair<std::string, double>>& slip,
+                            const std::optional<double>& allowable)
 {
     std::vector<double> values;
     for (const auto& [record, value] : slip) values.push_back(value);
-    SetStatistics s{quantity, values.size(), percentile(values, 0.5), percentile(values, 0.16), percentile(values, 0.84), std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), 0.0, {}, ""};
-    const auto worst = std::max_element(slip.begin(), slip.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    SetStatistics s{quantity,
+                    values.size(),
+                    percentile(values, 0.5),
+                    percentile(values, 0.16),
+                    percentile(values, 0.84),
+                    std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
+                    0.0,
+                    {},
+                    ""};
+    const auto worst =
+        std::max_element(slip.begin(), slip.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     s.largest = worst->second;
     s.controlling_record = worst->first;
     if (allowable)
-        s.share_above_allowable = static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v > *allowable; })) / static_cast<double>(values.size());
+        s.share_above_allowable =
+            static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v > *allowable; })) /
+            static_cast<double>(values.size());
     return s;
 }
 
 /// Rows come in pairs of polarities: the worse one of each record.
-template <class Select> std::vector<std::pair<std::string, double>> worse_polarity(const std::vector<SlipRow>& rows, Select&& slip)
+template <class Select>
+std::vector<std::pair<std::string, double>> worse_polarity(const std::vector<SlipRow>& rows, Select&& slip)
 {
     std::vector<std::pair<std::string, double>> worse;
     for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
@@ -109,22 +125,33 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
         if (!worse.empty()) out.push_back(statistics_of(name, worse, allowable));
     };
     add("rigid, horizontal", [](const SlipRow& r) { return std::optional<double>(r.horizontal.max_slip); });
-    add("rigid, with vertical", [](const SlipRow& r) { return r.with_vertical ? std::optional<double>(r.with_vertical->max_slip) : std::nullopt; });
+    add("rigid, with vertical", [](const SlipRow& r) {
+        return r.with_vertical ? std::optional<double>(r.with_vertical->max_slip) : std::nullopt;
+    });
     return out;
 }
 
 void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
 {
-    if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift)) warnings.push_back("The base is taken as dry although there is water: give [uplift] or a [curtain].");
+    if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift))
+        warnings.push_back("The base is taken as dry although there is water: give [uplift] or a [curtain].");
     const RigidModel& model = s.bases.front().model;
     if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
-        warnings.push_back(fmt::format("The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.", model.block.friction, model.critical_friction));
-    if (model.state == sliding::StaticState::lifts_off) warnings.push_back("The uplift carries more than the weight: the block floats without any earthquake.");
-    if (scene.sliding.scheme == SlidingScheme::slammer) warnings.push_back("SLAMMER's trapezoid scheme has an error of second order in the time step, largest where the yield acceleration is near the peak; the exact scheme has none.");
+        warnings.push_back(fmt::format(
+            "The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.",
+            model.block.friction, model.critical_friction));
+    if (model.state == sliding::StaticState::lifts_off)
+        warnings.push_back("The uplift carries more than the weight: the block floats without any earthquake.");
+    if (scene.sliding.scheme == SlidingScheme::slammer)
+        warnings.push_back("SLAMMER's trapezoid scheme has an error of second order in the time step, largest where "
+                           "the yield acceleration is near the peak; the exact scheme has none.");
     for (const SlipRow& row : s.slips)
         for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
             if (!r) continue;
-            if (r->status == sliding::SlideStatus::sliding_at_end) warnings.push_back(fmt::format("{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.", row.record, row.polarity, scene.sliding.run_out_max));
+            if (r->status == sliding::SlideStatus::sliding_at_end)
+                warnings.push_back(fmt::format(
+                    "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
+                    row.record, row.polarity, scene.sliding.run_out_max));
             if (r->status == sliding::SlideStatus::unresolved)
                 for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
         }
@@ -146,9 +173,12 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
 {
     Screening s;
     s.plan = plan;
-    s.bases.push_back({plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene)});
-    if (!plan.on(Effect::base_crack)) s.bases.push_back({"cracked under static loads", make_rigid_model(scene, CrackRule::fixed_static)});
-    else s.bases.push_back({"uncracked", make_rigid_model(scene, CrackRule::none)});
+    s.bases.push_back(
+        {plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene)});
+    if (!plan.on(Effect::base_crack))
+        s.bases.push_back({"cracked under static loads", make_rigid_model(scene, CrackRule::fixed_static)});
+    else
+        s.bases.push_back({"uncracked", make_rigid_model(scene, CrackRule::none)});
     s.uplifts = uplift_rows(scene);
     s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
     for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);

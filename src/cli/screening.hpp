@@ -28,8 +28,8 @@ struct UpliftRow {
 struct SlipRow {
     std::string record;
     int polarity = 1;
-    double pga = 0.0;                                 ///< of the scaled horizontal component [m/s^2]
-    sliding::SlideResult horizontal;                  ///< without the vertical component
+    double pga = 0.0;                                  ///< of the scaled horizontal component [m/s^2]
+    sliding::SlideResult horizontal;                   ///< without the vertical component
     std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
 
     /// The slip to judge by: with the vertical component where there is one.
@@ -48,7 +48,7 @@ struct SetStatistics {
     std::string quantity; ///< "rigid, horizontal", "rigid, with vertical"
     std::size_t n = 0;
     double median = 0.0, percentile_16 = 0.0, percentile_84 = 0.0, mean = 0.0, largest = 0.0; ///< [m]
-    std::optional<double> share_above_allowable; ///< [-]
+    std::optional<double> share_above_allowable;                                              ///< [-]
     std::string controlling_record;
 };
 

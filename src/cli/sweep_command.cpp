@@ -28,48 +28,67 @@ struct Axes {
     std::vector<std::string> uplift, reservoir, method;
 };
 
-const std::vector<std::pair<std::string, UpliftModel>> uplift_words{{"none", UpliftModel::none}, {"linear", UpliftModel::linear}, {"curtain", UpliftModel::curtain}, {"drains", UpliftModel::drains}, {"points", UpliftModel::points}, {"seepage", UpliftModel::seepage}};
-const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{{"westergaard", AddedMassFormula::westergaard}, {"westergaard-simplified", AddedMassFormula::westergaard_simplified}, {"zangar", AddedMassFormula::zangar}, {"goldgruber", AddedMassFormula::goldgruber}};
+const std::vector<std::pair<std::string, UpliftModel>> uplift_words{
+    {"none", UpliftModel::none},     {"linear", UpliftModel::linear}, {"curtain", UpliftModel::curtain},
+    {"drains", UpliftModel::drains}, {"points", UpliftModel::points}, {"seepage", UpliftModel::seepage}};
+const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{
+    {"westergaard", AddedMassFormula::westergaard},
+    {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
+    {"zangar", AddedMassFormula::zangar},
+    {"goldgruber", AddedMassFormula::goldgruber}};
 
-template <class Enum> std::string word_of(const std::vector<std::pair<std::string, Enum>>& words, Enum value)
+template <class Enum>
+std::string word_of(const std::vector<std::pair<std::string, Enum>>& words, Enum value)
 {
     return std::find_if(words.begin(), words.end(), [value](const auto& w) { return w.second == value; })->first;
 }
 
-template <class Enum> Enum value_of(const std::vector<std::pair<std::string, Enum>>& words, const std::string& word)
+template <class Enum>
+Enum value_of(const std::vector<std::pair<std::string, Enum>>& words, const std::string& word)
 {
     return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; })->second;
 }
 
-template <class Enum> std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>& words)
+template <class Enum>
+std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>& words)
 {
     std::vector<std::string> keys;
     for (const auto& [key, value] : words) keys.push_back(key);
     return keys;
 }
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix) { throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)}); }
+[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
 
-std::vector<double> checked_numbers(const std::string& text, const std::string& flag, double own, double low, double high, const std::string& meaning)
+std::vector<double> checked_numbers(const std::string& text, const std::string& flag, double own, double low,
+                                    double high, const std::string& meaning)
 {
     if (text.empty()) return {own};
     std::vector<double> values = number_list(text, flag);
     for (const double v : values)
-        if (!(v >= low && v <= high)) usage(fmt::format("{}: {} is not allowed.", flag, v), meaning, fmt::format("give values from {} to {}", low, high));
+        if (!(v >= low && v <= high))
+            usage(fmt::format("{}: {} is not allowed.", flag, v), meaning,
+                  fmt::format("give values from {} to {}", low, high));
     return values;
 }
 
 std::string reservoir_word(const Scene& scene)
 {
     if (!scene.reservoir) return "none";
-    return scene.reservoir->model == ReservoirModel::hydrostatic ? "hydrostatic" : word_of(formula_words, scene.added_mass.formula);
+    return scene.reservoir->model == ReservoirModel::hydrostatic ? "hydrostatic"
+                                                                 : word_of(formula_words, scene.added_mass.formula);
 }
 
 std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
 {
-    if (!a.friction.empty() && !a.friction_deg.empty()) usage("--friction and --friction-deg are both given.", "one of them", "delete one");
-    if (a.friction_deg.empty()) return checked_numbers(a.friction, "--friction", scene.contact.friction, 0, 10, "Coulomb mu, 0 ... 10");
-    std::vector<double> values = checked_numbers(a.friction_deg, "--friction-deg", 0, 0, 84, "friction angle [deg], 0 ... 84");
+    if (!a.friction.empty() && !a.friction_deg.empty())
+        usage("--friction and --friction-deg are both given.", "one of them", "delete one");
+    if (a.friction_deg.empty())
+        return checked_numbers(a.friction, "--friction", scene.contact.friction, 0, 10, "Coulomb mu, 0 ... 10");
+    std::vector<double> values =
+        checked_numbers(a.friction_deg, "--friction-deg", 0, 0, 84, "friction angle [deg], 0 ... 84");
     for (double& v : values) v = std::tan(v * units::degree);
     return values;
 }
@@ -78,23 +97,43 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
 {
     Axes axes;
     axes.friction = friction_axis(a, scene);
-    if (!a.level.empty() && !scene.reservoir) usage("--level is given, but the scene has no [reservoir].", "a scene with [reservoir]", "add [reservoir] to the scene");
-    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0, 3 * crest_level(scene.section), "water level above the heel [m]");
+    if (!a.level.empty() && !scene.reservoir)
+        usage("--level is given, but the scene has no [reservoir].", "a scene with [reservoir]",
+              "add [reservoir] to the scene");
+    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
+                                 3 * crest_level(scene.section), "water level above the heel [m]");
     axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
     for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
-        if (p != 1 && p != -1) usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
+        if (p != 1 && p != -1)
+            usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
         axes.polarity.push_back(static_cast<int>(p));
     }
-    axes.uplift = a.uplift.empty() ? std::vector<std::string>{scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"} : word_list(a.uplift, "--uplift", keys_of(uplift_words));
+    axes.uplift = a.uplift.empty()
+                      ? std::vector<std::string>{scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"}
+                      : word_list(a.uplift, "--uplift", keys_of(uplift_words));
     for (const std::string& u : axes.uplift) {
-        const bool possible = (u != "curtain" || scene.curtain) && (u != "drains" || scene.drains) && (u != "points" || (scene.uplift && !scene.uplift->points.empty()));
-        if (!possible) usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), "[curtain] for curtain, [drains] for drains, uplift.points_m for points", "add it to the scene or leave the profile out");
+        const bool possible = (u != "curtain" || scene.curtain) && (u != "drains" || scene.drains) &&
+                              (u != "points" || (scene.uplift && !scene.uplift->points.empty()));
+        if (!possible)
+            usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u),
+                  "[curtain] for curtain, [drains] for drains, uplift.points_m for points",
+                  "add it to the scene or leave the profile out");
     }
     std::vector<std::string> reservoirs = keys_of(formula_words);
     reservoirs.insert(reservoirs.begin(), "hydrostatic");
-    axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)} : word_list(a.reservoir, "--reservoir", reservoirs);
-    if (!a.reservoir.empty() && !scene.reservoir) usage("--reservoir is given, but the scene has no [reservoir].", "a scene with [reservoir]", "add [reservoir] to the scene");
-    axes.method = word_list(a.method, "--method", sweep_methods());
+    axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)}
+                                         : word_list(a.reservoir, "--reservoir", reservoirs);
+    if (!a.reservoir.empty() && !scene.reservoir)
+        usage("--reservoir is given, but the scene has no [reservoir].", "a scene with [reservoir]",
+              "add [reservoir] to the scene");
+    if (!a.method.empty())
+        axes.method = word_list(a.method, "--method", sweep_methods());
+    else if (std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                         [](const RecordFiles& r) { return r.vertical.has_value(); }) &&
+             scene.motion.vertical)
+        axes.method = {"rigid", "rigid-v"};
+    else
+        axes.method = {"rigid"};
     return axes;
 }
 
@@ -102,13 +141,16 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
 {
     if (scene.reservoir) {
         scene.reservoir->level = level;
-        if (reservoir == "hydrostatic") scene.reservoir->model = ReservoirModel::hydrostatic;
+        if (reservoir == "hydrostatic")
+            scene.reservoir->model = ReservoirModel::hydrostatic;
         else {
             scene.added_mass.formula = value_of(formula_words, reservoir);
-            if (scene.reservoir->model == ReservoirModel::hydrostatic) scene.reservoir->model = ReservoirModel::added_mass;
+            if (scene.reservoir->model == ReservoirModel::hydrostatic)
+                scene.reservoir->model = ReservoirModel::added_mass;
         }
     }
-    if (uplift == "none") scene.uplift.reset();
+    if (uplift == "none")
+        scene.uplift.reset();
     else {
         if (!scene.uplift) scene.uplift.emplace();
         scene.uplift->model = value_of(uplift_words, uplift);
@@ -119,11 +161,176 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
 Table empty_table()
 {
     Table t;
-    t.columns = {{"id", "id", "", 4}, {"friction", "μ", "–", 4}, {"level_m", "level", "m", 4}, {"uplift", "uplift", "", 4}, {"reservoir", "reservoir", "", 4}, {"scale", "scale", "–", 4}, {"polarity", "polarity", "", 4}, {"record", "record", "", 4}, {"method", "method", "", 4},
-                 {"yield_acceleration_m_s2", "a_y", "m/s²", 5}, {"yield_coefficient_g", "a_y", "g", 5}, {"pga_m_s2", "PGA", "m/s²", 4}, {"slip_m", "slip", "m", 5}, {"max_slip_m", "largest", "m", 5}, {"upstream_slip_m", "upstream", "m", 4}, {"slip_low_m", "−1σ", "m", 4}, {"slip_high_m", "+1σ", "m", 4}, {"status", "status", "", 4}};
+    t.columns = {{"id", "id", "", 4},
+                 {"friction", "μ", "–", 4},
+                 {"level_m", "level", "m", 4},
+                 {"uplift", "uplift", "", 4},
+                 {"reservoir", "reservoir", "", 4},
+                 {"scale", "scale", "–", 4},
+                 {"polarity", "polarity", "", 4},
+                 {"record", "record", "", 4},
+                 {"method", "method", "", 4},
+                 {"yield_acceleration_m_s2", "a_y", "m/s²", 5},
+                 {"yield_coefficient_g", "a_y", "g", 5},
+                 {"pga_m_s2", "PGA", "m/s²", 4},
+                 {"slip_m", "slip", "m", 5},
+                 {"max_slip_m", "largest", "m", 5},
+                 {"upstream_slip_m", "upstream", "m", 4},
+                 {"slip_low_m", "−1σ", "m", 4},
+                 {"slip_high_m", "+1σ", "m", 4},
+                 {"status", "status", "", 4}};
     return t;
 }
 
+/// Position of a flat index in the grid, the last axis fastest.
+struct GridIndex {
+    std::size_t friction, level, uplift, reservoir, scale, polarity, record, method;
+};
+
+GridIndex grid_index(const Axes& axes, std::size_t records, std::size_t id)
+{
+    const auto take = [&id](std::size_t n) {
+        const std::size_t i = id % n;
+        id /= n;
+        return i;
+    };
+    GridIndex g{};
+    g.method = take(axes.method.size());
+    g.record = take(records);
+    g.polarity = take(axes.polarity.size());
+    g.scale = take(axes.scale.size());
+    g.reservoir = take(axes.reservoir.size());
+    g.uplift = take(axes.uplift.size());
+    g.level = take(axes.level.size());
+    g.friction = take(axes.friction.size());
+    return g;
+}
+
+/// What all rows share, made once: a model per friction, level, uplift and reservoir, a motion per record and scale.
+struct Grid {
+    Axes axes;
+    std::vector<RigidModel> models;
+    std::vector<GroundMotion> motions;
+    std::vector<std::string> records;
+
+    std::size_t size() const { return models.size() * motions.size() * axes.polarity.size() * axes.method.size(); }
+    const RigidModel& model(const GridIndex& g) const
+    {
+        return models[((g.friction * axes.level.size() + g.level) * axes.uplift.size() + g.uplift) *
+                          axes.reservoir.size() +
+                      g.reservoir];
+    }
+    const GroundMotion& motion(const GridIndex& g) const { return motions[g.record * axes.scale.size() + g.scale]; }
+};
+
+Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
+{
+    Grid grid{axes, {}, {}, {}};
+    grid.models.resize(axes.friction.size() * axes.level.size() * axes.uplift.size() * axes.reservoir.size());
+    parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
+        std::size_t rest = i;
+        const std::string& reservoir = axes.reservoir[rest % axes.reservoir.size()];
+        rest /= axes.reservoir.size();
+        const std::string& uplift = axes.uplift[rest % axes.uplift.size()];
+        rest /= axes.uplift.size();
+        Scene here = variant(scene, axes.level[rest % axes.level.size()], uplift, reservoir);
+        const double friction = axes.friction[rest / axes.level.size()];
+        if (friction != here.contact.friction) here = with_friction(std::move(here), friction);
+        grid.models[i] = make_rigid_model(here);
+    });
+    for (const RecordPair& pair : records) {
+        grid.records.push_back(pair.files.name);
+        for (const double scale : axes.scale) grid.motions.push_back(ground_motion(scene, pair, scale));
+    }
+    return grid;
+}
+
+double peak(const std::vector<double>& a)
+{
+    double p = 0.0;
+    for (const double x : a) p = std::max(p, std::abs(x));
+    return p;
+}
+
+std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)
+{
+    const GridIndex g = grid_index(grid.axes, grid.records.size(), id);
+    const RigidModel& model = grid.model(g);
+    const GroundMotion& motion = grid.motion(g);
+    const int polarity = grid.axes.polarity[g.polarity];
+    const std::string& method = grid.axes.method[g.method];
+    const double a_y = model.downstream.law.constant;
+    std::vector<Cell> row{static_cast<std::int64_t>(id),
+                          grid.axes.friction[g.friction],
+                          grid.axes.level[g.level],
+                          grid.axes.uplift[g.uplift],
+                          grid.axes.reservoir[g.reservoir],
+                          grid.axes.scale[g.scale],
+                          static_cast<std::int64_t>(polarity),
+                          grid.records[g.record],
+                          method,
+                          a_y,
+                          a_y / units::standard_gravity,
+                          peak(motion.accel_h)};
+    const auto rest = [&row](std::vector<Cell> cells) {
+        row.insert(row.end(), cells.begin(), cells.end());
+        return row;
+    };
+    if (method == "rigid-v" && motion.accel_v.empty())
+        return rest({Cell{}, Cell{}, Cell{}, Cell{}, Cell{}, std::string("no vertical component")});
+    const sliding::SlideResult r =
+        slide_model(scene, model, method == "rigid" ? horizontal_only(motion) : motion, polarity);
+    return rest({r.slip, r.max_slip, r.upstream_slip, Cell{}, Cell{}, status_word(r.status)});
+}
+
 } // namespace
+
+std::vector<std::string> sweep_methods()
+{
+    return {"rigid", "rigid-v"};
+}
+
+int sweep(const SweepArguments& arguments, const Streams& streams)
+{
+    const Scene given = read_run_scene(arguments.inputs);
+    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
+    const Axes axes = make_axes(arguments, given);
+    if (given.motion.records.empty())
+        usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
+              "add  --record FILE");
+    const Scene scene = called_for(plan, given);
+    const std::vector<RecordPair> records = read_records(scene, plan);
+    // Axes may bring back what the scene itself leaves off (another uplift model), so the grid starts from the scene as given.
+    const Grid grid = make_grid(given, axes, records, arguments.jobs);
+    if (grid.size() > 20'000'000)
+        usage(fmt::format("the grid has {} rows.", grid.size()), "at most 20 million", "split it");
+
+    Table table = empty_table();
+    table.rows.resize(grid.size());
+    {
+        Progress progress(streams, "sweep", grid.size());
+        parallel_for(grid.size(), arguments.jobs, [&](std::size_t id) {
+            table.rows[id] = make_row(scene, grid, id);
+            progress.advance();
+        });
+    }
+    std::string text;
+    if (streams.form == Form::json) {
+        auto j = json_header("sweep");
+        j["scene"] = {{"title", given.title}, {"file", given.file.string()}, {"hash", scene_hash(given)}};
+        j["rows"] = json_of(table);
+        text = j.dump(2) + "\n";
+    } else {
+        text = report::csv(table, {"damslip " + program_version() + " sweep", "scene " + scene_hash(given)});
+    }
+    if (arguments.out.empty())
+        streams.out << text;
+    else
+        write_file(arguments.out, text);
+    if (!streams.quiet)
+        streams.talk << fmt::format("{} rows{}\n", grid.size(),
+                                    arguments.out.empty() ? "" : " in " + arguments.out.string());
+    return exit_ok;
+}
 
 } // namespace damslip::cli

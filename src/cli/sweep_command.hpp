@@ -9,10 +9,13 @@ namespace damslip::cli {
 struct SweepArguments {
     RunInputs inputs;
     std::string friction, friction_deg, level, uplift, reservoir, scale, polarity;
-    std::string method = "rigid,rigid-v";
+    std::string method;        ///< empty: rigid, and rigid-v where a record has a vertical component
     std::filesystem::path out; ///< CSV file; empty: standard output
     int jobs = 0;              ///< threads; 0: all cores
 };
+
+/// Names of the methods --method takes.
+std::vector<std::string> sweep_methods();
 
 /// The full grid of friction x level x uplift x reservoir x scale x polarity x record x method, one CSV row each, in
 /// that order for any number of threads.
