@@ -223,6 +223,14 @@ Key only_with(TimeScheme scheme, Key key)
     return key;
 }
 
+Key with_residual(Key key)
+{
+    key.applies = [](const void* contact) {
+        return static_cast<const Contact*>(contact)->residual_friction.has_value();
+    };
+    return key;
+}
+
 std::vector<KeyGroup> fe_groups()
 {
     std::vector<KeyGroup> groups;
@@ -375,8 +383,9 @@ std::vector<KeyGroup> base_groups()
                     at(&Contact::cohesion_lost_at_slip)),
                number("residual_friction", friction, Range::between(0, 10), "the peak value",
                       "Coulomb mu after residual_slip", "0.65", at(&Contact::residual_friction)),
-               number("residual_slip", small_length, Range::at_least(0), "0 (at first slip)",
-                      "accumulated slip at which the residual value is reached", "0.01", at(&Contact::residual_slip)),
+               with_residual(number("residual_slip", small_length, Range::at_least(0), "0 (at first slip)",
+                                    "accumulated slip at which the residual value is reached", "0.01",
+                                    at(&Contact::residual_slip))),
                word("residual_path", "steps", "between peak and residual: a step at residual_slip, or linear in slip",
                     "\"linear\"",
                     choice(&Contact::residual_path,

@@ -1,0 +1,118 @@
+// Wrong command lines and the exact words their users read.
+#include "cli/number_list.hpp"
+#include "cli/program.hpp"
+#include "cli/usage_error.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace {
+
+using namespace damslip;
+
+struct Answer {
+    int code;
+    std::string out, talk;
+};
+
+Answer run(const std::vector<std::string>& arguments)
+{
+    std::ostringstream out, talk;
+    const int code = cli::run_program(arguments, out, talk, false);
+    return {code, out.str(), talk.str()};
+}
+
+std::string scene_file(const std::string& text)
+{
+    const auto path =
+        std::filesystem::temp_directory_path() / ("damslip_cli_input_" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(path) << text;
+    return path.string();
+}
+
+const char* const dry_block =
+    "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.5\n";
+
+TEST(CliInput, UnknownCommandAndFlagGetASuggestion)
+{
+    const Answer command = run({"sceen"});
+    EXPECT_EQ(command.code, 2);
+    EXPECT_EQ(command.talk.substr(0, command.talk.find('\n')), "error: unknown command sceen. Did you mean screen?");
+    const Answer flag = run({"screen", "x.toml", "--recrod", "a"});
+    EXPECT_EQ(flag.code, 2);
+    EXPECT_EQ(flag.talk.substr(0, flag.talk.find('\n')),
+              "error: unknown flag --recrod of damslip screen. Did you mean --record?");
+}
+
+TEST(CliInput, MissingScene)
+{
+    EXPECT_EQ(run({"screen"}).code, 2);
+    const Answer missing = run({"screen", "no_such_scene.toml"});
+    EXPECT_EQ(missing.code, 3);
+    EXPECT_NE(missing.talk.find("no_such_scene.toml: error: there is no such file."), std::string::npos)
+        << missing.talk;
+}
+
+TEST(CliInput, ErrorsAreAnObjectWithJson)
+{
+    const Answer answer = run({"screen", scene_file(std::string(dry_block) + "fricton = 3\n"), "--json"});
+    EXPECT_EQ(answer.code, 3);
+    const auto j = nlohmann::json::parse(answer.out);
+    EXPECT_EQ(j["error"]["code"], 3);
+    EXPECT_EQ(j["error"]["diagnostics"][0]["line"], 8);
+}
+
+TEST(CliInput, NumberLists)
+{
+    EXPECT_EQ(cli::number_list("1.00,0.84,0.77", "--friction"), (std::vector<double>{1.0, 0.84, 0.77}));
+    EXPECT_EQ(cli::number_list("0.65:1.0:0.05", "--friction"),
+              (std::vector<double>{0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0}));
+    EXPECT_EQ(cli::number_list("3:1:-1,7", "--level"), (std::vector<double>{3, 2, 1, 7}));
+    for (const char* bad : {"", "a", "1,", "1:2", "1:2:0", "1:2:-1", "nan", "inf", "0:1e9:1e-9", "1:2:3:4"})
+        EXPECT_THROW(cli::number_list(bad, "--friction"), cli::UsageError) << bad;
+}
+
+TEST(CliInput, SweepRefusesWhatTheSceneLacks)
+{
+    const std::string scene = scene_file(dry_block);
+    const auto says = [&](std::vector<std::string> more, const std::string& part) {
+        more.insert(more.begin(), {"sweep", scene});
+        const Answer a = run(more);
+        EXPECT_EQ(a.code, 2) << a.talk;
+        EXPECT_NE(a.talk.find(part), std::string::npos) << a.talk;
+    };
+    says({}, "there is no record to sweep over.");
+    says({"--level", "3"}, "--level is given, but the scene has no [reservoir].");
+    says({"--uplift", "curtain"}, "--uplift curtain: the scene lacks what this profile needs.");
+    says({"--uplift", "curtian"}, "Did you mean curtain?");
+    says({"--friction", "-1"}, "--friction: -1 is not allowed.");
+    says({"--friction", "1", "--friction-deg", "40"}, "both given");
+    says({"--polarity", "0"}, "--polarity 0 is not allowed.");
+    says({"--method", "rigd"}, "Did you mean rigid?");
+}
+
+TEST(CliInput, ScreenFlags)
+{
+    const std::string scene = scene_file(dry_block);
+    EXPECT_EQ(run({"screen", scene, "--vertical", "a.csv"}).code, 2);
+    EXPECT_EQ(run({"screen", scene, "--record", "a.csv", "--vertical", "b.csv", "--vertical", "c.csv"}).code, 2);
+    EXPECT_EQ(run({"screen", scene, "--friction", "-1"}).code, 2);
+    EXPECT_EQ(run({"screen", scene, "--scheme", "newmark"}).code, 2);
+    EXPECT_EQ(run({"screen", scene, "--record", "no_such_record.csv"}).code, 3);
+}
+
+TEST(CliInput, VerifyWithoutACase)
+{
+    EXPECT_EQ(run({"verify", "no.such.case"}).code, 2);
+}
+TEST(CliInput, CompletionForAnUnknownShell)
+{
+    EXPECT_EQ(run({"completion", "tcsh"}).code, 2);
+}
+
+} // namespace

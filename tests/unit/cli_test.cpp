@@ -1,0 +1,152 @@
+#include "cli/program.hpp"
+#include "cli/screening.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace {
+
+using namespace damslip;
+
+struct ProgramAnswer {
+    int code;
+    std::string out, talk;
+};
+
+ProgramAnswer answer_of(const std::vector<std::string>& arguments)
+{
+    std::ostringstream out, talk;
+    const int code = cli::run_program(arguments, out, talk, false);
+    return {code, out.str(), talk.str()};
+}
+
+/// A folder with a dry 2500 kg/m3 block on friction 0.1 and one triangular pulse of 2 m/s2 over 2 s.
+class CliScene : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        folder = std::filesystem::temp_directory_path() / ("damslip_cli_" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder);
+        std::ofstream(folder / "pulse.csv") << "time_s,accel_m_s2\n0,0\n1,2\n2,0\n3,0\n";
+        std::ofstream(folder / "block.toml")
+            << "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
+               "0.1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    std::string scene() const { return (folder / "block.toml").string(); }
+    std::filesystem::path folder;
+};
+
+// Downstream a_y = mu g = 0.981. Triangle a = 2t rising, 2(2 - t) falling. Sliding starts at t1 = a_y/2, relative acceleration a - a_y.
+// Rest is reached at t2 > 1 where the velocity integral vanishes: with q = 2 - a_y the velocity gained up to the second crossing
+// tc = 2 - a_y/2 is V = q^2/2 (two triangles of height q and width q/2). After tc the deceleration grows as 2(t - tc) until t = 2,
+// where it is a_y; V - (a_y/2)^2 is left and stops under the constant a_y.
+double triangle_slip(double a_y)
+{
+    const double q = 2 - a_y, w = q / 2; // half width of the part above yield
+    const double v_peak = q * w;         // speed at tc: area of the triangle of base 2w and height q
+    const double s1 =
+        q * w * w / 6 + (q * w / 2) * w + q * w * w / 3; // rise: q w^2/6; fall: at speed q w/2, plus q w^2 (1/2 - 1/6)
+    const double t2 = a_y / 2;                           // from tc to t = 2
+    const double v2 = v_peak - t2 * t2;                  // 2 t^2 / 2
+    const double s2 = v_peak * t2 - t2 * t2 * t2 / 3;
+    return s1 + s2 + v2 * v2 / (2 * a_y);
+}
+
+TEST_F(CliScene, ScreenFindsTheSlipOfATriangularPulse)
+{
+    const ProgramAnswer a = answer_of({"screen", scene(), "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto j = nlohmann::json::parse(a.out);
+    EXPECT_EQ(j["schema"], "damslip.screen/1");
+    const double slip = j["displacements"][0]["slip_h_mm"].get<double>() / 1000;
+    EXPECT_NEAR(slip, triangle_slip(0.981), 1e-12 * slip);
+    EXPECT_EQ(j["displacements"][0]["polarity"], 1);
+    EXPECT_NEAR(j["displacements"][1]["slip_h_mm"].get<double>() / 1000, -slip,
+                1e-12 * slip); // dry block: the mirror image
+    EXPECT_NEAR(j["yield"][0]["yield_acceleration_m_s2"].get<double>(), 0.981, 1e-15);
+}
+
+TEST_F(CliScene, ScreenWritesItsFilesAndTheResolvedSceneReproducesThem)
+{
+    const std::string first = (folder / "one").string(), second = (folder / "two").string();
+    ASSERT_EQ(answer_of({"screen", scene(), "--out", first}).code, 0);
+    ASSERT_EQ(answer_of({"screen", first + "/scene.resolved.toml", "--out", second}).code, 0);
+    const auto content = [](const std::string& file) {
+        std::ifstream in(file);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    EXPECT_EQ(content(first + "/displacements.csv"), content(second + "/displacements.csv"));
+    EXPECT_NE(content(first + "/displacements.csv").find("slip_h_mm"), std::string::npos);
+}
+
+TEST_F(CliScene, SweepRowsDoNotDependOnTheNumberOfThreads)
+{
+    const std::vector<std::string> arguments{"sweep",   scene(), "--friction", "0.02:0.3:0.01",
+                                             "--scale", "1,2",   "--polarity", "1,-1"};
+    auto with_jobs = [&](const char* jobs) {
+        std::vector<std::string> a = arguments;
+        a.insert(a.end(), {"--jobs", jobs});
+        return answer_of(a);
+    };
+    const ProgramAnswer one = with_jobs("1"), three = with_jobs("3");
+    ASSERT_EQ(one.code, 0) << one.talk;
+    EXPECT_EQ(one.out, three.out);
+    EXPECT_EQ(std::count(one.out.begin(), one.out.end(), '\n'), 2 + 1 + 29 * 2 * 2);
+}
+
+TEST_F(CliScene, ExplainNamesEveryEffectOnce)
+{
+    const ProgramAnswer a = answer_of({"explain", scene(), "--json"});
+    ASSERT_EQ(a.code, 0);
+    const auto j = nlohmann::json::parse(a.out);
+    EXPECT_EQ(j["effects"].size(), 21u);
+    for (const auto& e : j["effects"]) {
+        const bool expected = e["effect"] == "upstream sliding" || e["effect"] == "run-out";
+        EXPECT_EQ(e["on"].get<bool>(), expected) << e["effect"];
+    }
+}
+
+TEST(Cli, HelpNamesAnExampleForEveryCommand)
+{
+    for (const char* command : {"screen", "sweep", "explain", "verify", "schema", "completion"}) {
+        const ProgramAnswer a = answer_of({command, "--help"});
+        EXPECT_EQ(a.code, 0);
+        EXPECT_NE(a.out.find("Example:"), std::string::npos) << command;
+    }
+    EXPECT_NE(answer_of({"--help"}).out.find("Exit codes:"), std::string::npos);
+    EXPECT_EQ(answer_of({"--version"}).code, 0);
+}
+
+TEST(Cli, SchemaIsJsonAndClosed)
+{
+    const auto j = nlohmann::json::parse(answer_of({"schema"}).out);
+    EXPECT_FALSE(j["additionalProperties"].get<bool>());
+    EXPECT_TRUE(j["properties"]["contact"]["properties"].contains("friction_deg"));
+    EXPECT_TRUE(j["properties"]["motion"]["properties"].contains("record"));
+}
+
+TEST(Cli, CompletionKnowsCommandsAndFlags)
+{
+    for (const char* shell : {"bash", "zsh", "fish"}) {
+        const std::string text = answer_of({"completion", shell}).out;
+        EXPECT_NE(text.find("screen"), std::string::npos);
+        EXPECT_NE(text.find(std::string(shell) == "fish" ? "-l record" : "--record"), std::string::npos);
+    }
+}
+
+TEST(Cli, PercentilesInterpolateBetweenOrderStatistics)
+{
+    EXPECT_DOUBLE_EQ(cli::percentile({3, 1, 2}, 0.5), 2);
+    EXPECT_DOUBLE_EQ(cli::percentile({1, 2, 3, 4}, 0.5), 2.5);
+    EXPECT_DOUBLE_EQ(cli::percentile({0, 10}, 0.16), 1.6);
+    EXPECT_TRUE(std::isnan(cli::percentile({}, 0.5)));
+}
+
+} // namespace
