@@ -6,6 +6,7 @@
 #include "core/file.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,11 +39,10 @@ nlohmann::ordered_json summary(const Scene& scene, const Screening& s, const std
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["records"] = record_provenance(records);
     j["effects"] = json_of(effect_table(s.plan));
-    j["limit_equilibrium"] = nlohmann::ordered_json::array();
-    for (const Table& t : s.equilibrium)
-        j["limit_equilibrium"].push_back({{"title", t.title}, {"rows", json_of(t)}, {"notes", t.notes}});
+    j["limit_equilibrium"] = json_of(sliding::equilibrium_table(s.combinations));
+    j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
     j["yield"] = json_of(yield_table(s));
-    j["uplift_profiles"] = json_of(uplift_table(s));
+    j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s));
@@ -65,9 +65,10 @@ void print_text(const Scene& scene, const Screening& s, std::ostream& out)
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out << report::text(table) << "\n";
     };
-    for (const Table& t : s.equilibrium) show(t);
+    show(sliding::equilibrium_table(s.combinations));
+    show(sliding::verdict_table(s.combinations));
     show(yield_table(s));
-    show(uplift_table(s));
+    show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));
     show(slip_table(s, scene.criteria.allowable_slip));
     show(statistics_table(s));

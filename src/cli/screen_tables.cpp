@@ -64,19 +64,6 @@ Table yield_table(const Screening& s)
     return t;
 }
 
-Table uplift_table(const Screening& s)
-{
-    Table t;
-    t.title = "What each uplift profile asks for";
-    t.columns = {{"uplift", "uplift", "", 4},
-                 {"chosen", "chosen", "", 4},
-                 {"uplift_kN_m", "U", "kN/m", 6},
-                 {"critical_friction", "critical μ", "–", 6}};
-    for (const UpliftRow& row : s.uplifts)
-        t.rows.push_back({row.uplift, row.chosen, row.force / 1e3, row.critical_friction});
-    return t;
-}
-
 Table slip_table(const Screening& s, const std::optional<double>& allowable)
 {
     Table t;

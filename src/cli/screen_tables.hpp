@@ -6,7 +6,6 @@
 namespace damslip::cli {
 
 Table yield_table(const Screening& s);
-Table uplift_table(const Screening& s);
 Table slip_table(const Screening& s, const std::optional<double>& allowable);
 Table regression_table(const Screening& s);
 Table statistics_table(const Screening& s);

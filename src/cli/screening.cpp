@@ -2,7 +2,6 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,39 +11,6 @@
 namespace damslip::cli {
 
 namespace {
-
-/// The scene with another uplift model, if it has what that model needs.
-std::vector<std::pair<std::string, Scene>> uplift_variants(const Scene& scene)
-{
-    const std::vector<std::tuple<UpliftModel, std::string, bool>> models{
-        {UpliftModel::none, "none", true},
-        {UpliftModel::curtain, "curtain (2/3 rule)", scene.curtain.has_value()},
-        {UpliftModel::drains, "drains", scene.drains.has_value()},
-        {UpliftModel::points, "points", scene.uplift && !scene.uplift->points.empty()},
-        {UpliftModel::seepage, "seepage", scene.uplift && scene.uplift->model == UpliftModel::seepage},
-        {UpliftModel::linear, "linear", true}};
-    std::vector<std::pair<std::string, Scene>> variants;
-    for (const auto& [model, name, possible] : models) {
-        if (!possible) continue;
-        Scene variant = scene;
-        if (!variant.uplift) variant.uplift.emplace();
-        variant.uplift->model = model;
-        variants.emplace_back(name, std::move(variant));
-    }
-    return variants;
-}
-
-std::vector<UpliftRow> uplift_rows(const Scene& scene)
-{
-    std::vector<UpliftRow> rows;
-    if (!scene.reservoir && !scene.tailwater) return rows;
-    const UpliftModel own = scene.uplift ? scene.uplift->model : UpliftModel::none;
-    for (const auto& [name, variant] : uplift_variants(scene)) {
-        const RigidModel model = make_rigid_model(variant);
-        rows.push_back({name, model.block.uplift, model.critical_friction, variant.uplift->model == own});
-    }
-    return rows;
-}
 
 double peak(const std::vector<double>& a)
 {
@@ -131,6 +97,13 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
     return out;
 }
 
+void add_equilibrium(const Scene& scene, Screening& s)
+{
+    const sliding::SeepageProfile seepage = seepage_profile(scene);
+    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, 0.0}, seepage);
+    if (scene.reservoir || scene.tailwater) s.uplifts = sliding::compare_uplift(scene, seepage);
+}
+
 void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
 {
     if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift))
@@ -179,9 +152,9 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
         s.bases.push_back({"cracked under static loads", make_rigid_model(scene, CrackRule::fixed_static)});
     else
         s.bases.push_back({"uncracked", make_rigid_model(scene, CrackRule::none)});
-    s.uplifts = uplift_rows(scene);
     s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
     for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
+    add_equilibrium(scene, s);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     add_warnings(scene, s, s.warnings);
     return s;

@@ -2,7 +2,7 @@
 
 #include "cli/rigid_model.hpp"
 #include "cli/run_inputs.hpp"
-#include "core/table.hpp"
+#include "sliding/equilibrium/combinations.hpp"
 
 #include <string>
 #include <vector>
@@ -14,14 +14,6 @@ namespace damslip::cli {
 struct BaseRow {
     std::string base; ///< "as given", "cracked base"
     RigidModel model;
-};
-
-/// What holds the dam under one uplift profile.
-struct UpliftRow {
-    std::string uplift;
-    double force = 0.0;             ///< U [N/m]
-    double critical_friction = 0.0; ///< [-]
-    bool chosen = false;            ///< the scene's own
 };
 
 /// One record with one polarity.
@@ -54,9 +46,9 @@ struct SetStatistics {
 
 struct Screening {
     EffectPlan plan;
-    std::vector<Table> equilibrium; ///< limit equilibrium per load combination
     std::vector<BaseRow> bases;
-    std::vector<UpliftRow> uplifts;
+    std::vector<sliding::Equilibrium> combinations; ///< limit equilibrium per load combination
+    std::vector<sliding::UpliftComparison> uplifts; ///< what each uplift profile asks for
     std::vector<SlipRow> slips;
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
