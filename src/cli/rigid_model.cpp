@@ -19,10 +19,10 @@ RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack)
     model.block = sliding::make_rigid_block(scene, options);
     model.stages = sliding::strength_stages(model.block, scene.contact);
     if (scene.drains && scene.drains->lost_at_slip) {
-        Scene without = scene;
-        without.drains->efficiency = 0.0;
+        sliding::BlockOptions later = options;
+        later.drains = sliding::DrainState::ineffective;
         model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
-                                                sliding::make_rigid_block(without, options));
+                                                sliding::make_rigid_block(scene, later));
     }
     model.downstream = sliding::yield_downstream(model.block);
     model.upstream = sliding::yield_upstream(model.block);

@@ -58,6 +58,16 @@ std::string effects_line(const EffectPlan& plan)
     return "effects on: " + (on.empty() ? "none" : on) + "\n";
 }
 
+/// The verdicts that have a criterion.
+Table judged(Table verdicts)
+{
+    const auto column = std::find_if(verdicts.columns.begin(), verdicts.columns.end(),
+                                     [](const Column& c) { return c.key == "verdict"; });
+    const auto j = static_cast<std::size_t>(column - verdicts.columns.begin());
+    std::erase_if(verdicts.rows, [j](const auto& row) { return row[j] == Cell(std::string("no criterion")); });
+    return verdicts;
+}
+
 void print_text(const Scene& scene, const Screening& s, std::ostream& out)
 {
     out << scene.title << "   (" << scene.file.string() << ", scene " << scene_hash(scene).substr(0, 12) << ")\n"
@@ -65,8 +75,11 @@ void print_text(const Scene& scene, const Screening& s, std::ostream& out)
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out << report::text(table) << "\n";
     };
-    show(sliding::equilibrium_table(s.combinations));
-    show(sliding::verdict_table(s.combinations));
+    out << report::text_by_columns(sliding::equilibrium_table(s.combinations), 3) << "\n";
+    const Table verdicts = judged(sliding::verdict_table(s.combinations));
+    if (verdicts.rows.empty())
+        out << "verdicts: no required values are given; name criteria.document, or required_... in [[combination]]\n\n";
+    show(verdicts);
     show(yield_table(s));
     show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));

@@ -43,13 +43,46 @@ std::string cell_text(const Cell& cell, int digits)
 
 bool is_number(const Cell& cell)
 {
-    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) || std::holds_alternative<std::monostate>(cell);
+    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) ||
+           std::holds_alternative<std::monostate>(cell);
 }
 
 std::string padded(const std::string& s, std::size_t to, bool right)
 {
     const std::string fill(to - std::min(to, width(s)), ' ');
     return right ? fill + s : s + fill;
+}
+
+using Line = std::vector<std::string>;
+
+/// Columns padded to their widest entry, a rule below the first `header` lines.
+std::string aligned(const std::vector<Line>& lines, std::size_t header, const std::vector<bool>& right)
+{
+    std::vector<std::size_t> widths(right.size(), 0);
+    for (const Line& line : lines)
+        for (std::size_t j = 0; j < line.size(); ++j) widths[j] = std::max(widths[j], width(line[j]));
+    std::string out;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::string line;
+        for (std::size_t j = 0; j < lines[i].size(); ++j)
+            line += (j ? "  " : "") + padded(lines[i][j], widths[j], right[j]);
+        while (!line.empty() && line.back() == ' ') line.pop_back();
+        out += line + "\n";
+        if (i + 1 != header) continue;
+        std::size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
+        for (const std::size_t w : widths) total += w;
+        for (std::size_t k = 0; k < total; ++k) out += "─";
+        out += "\n";
+    }
+    return out;
+}
+
+/// Title above, notes below.
+std::string framed(const Table& table, const std::string& body)
+{
+    std::string out = (table.title.empty() ? "" : table.title + "\n") + body;
+    for (const std::string& note : table.notes) out += "  " + note + "\n";
+    return out;
 }
 
 std::string csv_field(const Cell& cell)
@@ -75,40 +108,35 @@ std::string csv_field(const Cell& cell)
 std::string text(const Table& table)
 {
     const std::size_t n = table.columns.size();
-    std::vector<std::vector<std::string>> lines{std::vector<std::string>(n), std::vector<std::string>(n)};
+    std::vector<Line> lines(2, Line(n));
     std::vector<bool> right(n, true);
     for (std::size_t j = 0; j < n; ++j) {
         lines[0][j] = table.columns[j].heading;
         lines[1][j] = table.columns[j].unit;
-        right[j] = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return is_number(row[j]); });
+        right[j] =
+            std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return is_number(row[j]); });
     }
+    if (std::all_of(lines[1].begin(), lines[1].end(), [](const auto& s) { return s.empty(); })) lines.pop_back();
+    const std::size_t header = lines.size();
     for (const auto& row : table.rows) {
         lines.emplace_back(n);
         for (std::size_t j = 0; j < n; ++j) lines.back()[j] = cell_text(row[j], table.columns[j].digits);
     }
-    std::vector<std::size_t> widths(n, 0);
-    for (const auto& line : lines)
-        for (std::size_t j = 0; j < n; ++j) widths[j] = std::max(widths[j], width(line[j]));
+    return framed(table, aligned(lines, header, right));
+}
 
-    std::string out = table.title.empty() ? "" : table.title + "\n";
-    std::size_t total = 0;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        const bool units = i == 1;
-        if (units && std::all_of(lines[1].begin(), lines[1].end(), [](const auto& s) { return s.empty(); })) {
-        } else {
-            std::string line;
-            for (std::size_t j = 0; j < n; ++j) line += (j ? "  " : "") + padded(lines[i][j], widths[j], right[j]);
-            total = std::max(total, width(line));
-            while (!line.empty() && line.back() == ' ') line.pop_back();
-            out += line + "\n";
-        }
-        if (units) {
-            for (std::size_t k = 0; k < total; ++k) out += "─";
-            out += "\n";
-        }
+std::string text_by_columns(const Table& table, std::size_t labels)
+{
+    std::vector<Line> lines;
+    for (std::size_t j = 0; j < table.columns.size(); ++j) {
+        const Column& column = table.columns[j];
+        Line line{column.heading, column.unit};
+        for (const auto& row : table.rows) line.push_back(cell_text(row[j], column.digits));
+        lines.push_back(std::move(line));
     }
-    for (const std::string& note : table.notes) out += "  " + note + "\n";
-    return out;
+    std::vector<bool> right(2 + table.rows.size(), true);
+    right[0] = right[1] = false;
+    return framed(table, aligned(lines, labels, right));
 }
 
 std::string csv(const Table& table, const std::vector<std::string>& comments)
@@ -155,7 +183,8 @@ std::string markdown(const Table& table)
         out += "|";
         for (std::size_t j = 0; j < row.size(); ++j) {
             std::string cell = cell_text(row[j], table.columns[j].digits);
-            for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.replace(at, 1, "\\|");
+            for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2)
+                cell.replace(at, 1, "\\|");
             out += " " + cell + " |";
         }
         out += "\n";

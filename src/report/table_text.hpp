@@ -10,6 +10,10 @@ namespace damslip::report {
 /// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
 std::string text(const Table& table);
 
+/// The same turned by a quarter, for tables of many quantities and few rows: one line per column with its unit, one column per row;
+/// a rule below the first `labels` lines.
+std::string text_by_columns(const Table& table, std::size_t labels);
+
 /// Header row of keys, one row per line, numbers as shortest exact text, RFC 4180 quoting; `comments` become "# ..." lines on top.
 std::string csv(const Table& table, const std::vector<std::string>& comments = {});
 

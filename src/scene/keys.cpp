@@ -549,7 +549,7 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                            {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0),
                                    "none", "slip verdicts compare with this", "0.1", at(&Criteria::allowable_slip)),
                             word("document", "none", "shipped set of required safety factors",
-                                 "\"usace-em-1110-2-2100\"", at(&Criteria::document))}));
+                                 "\"cadam3d\"", at(&Criteria::document))}));
     groups.push_back(list_group<Combination>(
         "combination",
         "A load combination of the limit equilibrium. None given: usual, seismic and post-seismic are made from the "
