@@ -9,7 +9,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index columns_at_once = 16;
+constexpr Index columns_at_once = 16; // what the solver takes at a time; no dense copy of all of K_ic
 
 SparseMatrix part(const SparseMatrix& matrix, const std::vector<Index>& row_place, Index rows,
                   const std::vector<Index>& column_place, Index columns)
@@ -56,14 +56,14 @@ CondensedBody::CondensedBody(const SparseMatrix& stiffness, std::span<const Inde
 {
 }
 
-CondensedBody::CondensedBody(Partition partition) : parts_(std::move(partition)), factor_(parts_.k_ii)
+CondensedBody::CondensedBody(Partition partition) : parts_(std::move(partition))
 {
     stiffness_ = Eigen::MatrixXd(parts_.k_cc);
-    if (!factor_.regular()) return;
+    if (!factor_.factorise(parts_.k_ii).ok()) return;
     const SparseMatrix k_ic = parts_.k_ci.transpose();
     for (Index first = 0; first < k_ic.cols(); first += columns_at_once) {
         const Index count = std::min(columns_at_once, k_ic.cols() - first);
-        const Eigen::MatrixXd inner = factor_.solve_block(Eigen::MatrixXd(k_ic.middleCols(first, count)));
+        const Eigen::MatrixXd inner = factor_.solve(Eigen::MatrixXd(k_ic.middleCols(first, count)));
         stiffness_.middleCols(first, count) -= parts_.k_ci * inner;
     }
     stiffness_ = (0.5 * (stiffness_ + stiffness_.transpose())).eval();
@@ -80,7 +80,7 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd& kept_displacement,
     Eigen::VectorXd all(load.size());
     all(parts_.kept) = kept_displacement;
     const Eigen::VectorXd inner = load(parts_.inner);
-    all(parts_.inner) = factor_.solve(inner - parts_.k_ci.transpose() * kept_displacement);
+    all(parts_.inner) = factor_.solve(Eigen::VectorXd(inner - parts_.k_ci.transpose() * kept_displacement));
     return all;
 }
 

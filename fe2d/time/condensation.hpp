@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/linear_system.hpp"
-#include "fe2d/time/symmetric_factor.hpp"
 
 #include <span>
 
@@ -18,10 +18,8 @@ public:
     /// @param kept       unknowns c that stay, each once; the order of results
     CondensedBody(const SparseMatrix& stiffness, std::span<const Eigen::Index> kept);
 
-    bool regular() const
-    {
-        return factor_.regular();
-    } ///< false: the inner unknowns are not held, nothing below is valid
+    /// Of K_ii; when it is not ok() the inner unknowns are not held and nothing below is valid.
+    const SolverReport& report() const { return factor_.report(); }
     const Eigen::MatrixXd& stiffness() const { return stiffness_; } ///< K_c, symmetric
     Eigen::VectorXd
     condense_load(const Eigen::VectorXd& load) const; ///< f_c - K_ci K_ii⁻¹ f_i of a load on all n unknowns
@@ -37,7 +35,7 @@ private:
     explicit CondensedBody(Partition partition);
 
     Partition parts_;
-    SymmetricFactor factor_; ///< of K_ii
+    LinearSolver factor_; ///< of K_ii
     Eigen::MatrixXd stiffness_;
 };
 

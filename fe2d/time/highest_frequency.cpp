@@ -1,5 +1,5 @@
+#include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/linear_system.hpp"
-#include "fe2d/time/symmetric_factor.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -28,8 +28,8 @@ double highest_frequency(const LinearSystem& system)
     const std::vector<char> massless = massless_unknowns(system.mass);
     if (std::find(massless.begin(), massless.end(), 1) != massless.end())
         return std::numeric_limits<double>::infinity();
-    const SymmetricFactor mass(system.mass);
-    if (!mass.regular()) return std::numeric_limits<double>::infinity();
+    LinearSolver mass;
+    if (!mass.factorise(system.mass).ok()) return std::numeric_limits<double>::infinity();
     const Eigen::Index size = system.size(), most = std::min<Eigen::Index>(80, size);
     Eigen::MatrixXd basis(size, most), momenta(size, most);
     Eigen::VectorXd diagonal(most), off_diagonal(most);
@@ -39,7 +39,7 @@ double highest_frequency(const LinearSystem& system)
     while (steps < most && norm > 1e-10 * (steps > 0 ? diagonal[0] : 0.0)) {
         basis.col(steps) = next / norm;
         momenta.col(steps) = system.mass * basis.col(steps);
-        next = mass.solve(system.stiffness * basis.col(steps));
+        next = mass.solve(Eigen::VectorXd(system.stiffness * basis.col(steps)));
         diagonal[steps] = next.dot(momenta.col(steps));
         for (int twice = 0; twice < 2; ++twice)
             next -= basis.leftCols(steps + 1) * (momenta.leftCols(steps + 1).transpose() * next);

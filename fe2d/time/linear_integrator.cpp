@@ -25,15 +25,16 @@ VectorXd solve_mass(const SparseMatrix& mass, const std::vector<char>& massless,
         }
     SparseMatrix regular(mass.rows(), mass.cols());
     regular.setFromTriplets(entries.begin(), entries.end());
-    const SymmetricFactor factor(regular);
-    assert(factor.regular() && "mass matrix singular on unknowns that have mass");
+    LinearSolver factor;
+    factor.factorise(regular);
+    assert(factor.report().ok() && "mass matrix singular on unknowns that have mass");
     return factor.solve(right_hand_side);
 }
 
 } // namespace
 
-LinearIntegrator::LinearIntegrator(LinearSystem system, Scheme scheme)
-    : system_(std::move(system)), scheme_(scheme), massless_(massless_unknowns(system_.mass))
+LinearIntegrator::LinearIntegrator(LinearSystem system, Scheme scheme, const SolverOptions& solver)
+    : system_(std::move(system)), scheme_(scheme), solver_(solver), massless_(massless_unknowns(system_.mass))
 {
     assert(system_.mass.rows() == system_.size() && system_.damping.rows() == system_.size());
 }
@@ -79,7 +80,7 @@ double LinearIntegrator::massless_imbalance(const State& state) const
 const StepOperator& LinearIntegrator::step_operator(double dt)
 {
     auto& slot = operators_[dt];
-    if (!slot) slot = std::make_unique<StepOperator>(system_, step_constants(scheme_, dt));
+    if (!slot) slot = std::make_unique<StepOperator>(system_, step_constants(scheme_, dt), solver_);
     return *slot;
 }
 

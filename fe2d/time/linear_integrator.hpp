@@ -39,7 +39,7 @@ struct InterfaceForces {
 
 class LinearIntegrator {
 public:
-    LinearIntegrator(LinearSystem system, Scheme scheme);
+    LinearIntegrator(LinearSystem system, Scheme scheme, const SolverOptions& solver = {});
 
     const LinearSystem& system() const { return system_; }
     const Scheme& scheme() const { return scheme_; }
@@ -82,6 +82,7 @@ private:
 
     LinearSystem system_;
     Scheme scheme_;
+    SolverOptions solver_;
     std::vector<char> massless_;
     std::map<double, std::unique_ptr<StepOperator>> operators_; ///< by step size [s]
 };

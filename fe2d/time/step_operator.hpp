@@ -1,8 +1,8 @@
 #pragma once
 
+#include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/linear_system.hpp"
 #include "fe2d/time/scheme.hpp"
-#include "fe2d/time/symmetric_factor.hpp"
 
 namespace damslip::fe2d {
 
@@ -21,11 +21,11 @@ struct InterfaceFlexibility {
 class StepOperator {
 public:
     /// @param constants  of the step; step_constants() unless a test wants them wrong
-    /// Singular A (a floating, massless part) is an error of the model's maker: regular() is false.
-    StepOperator(const LinearSystem& system, const StepConstants& constants);
+    /// A singular A (a floating, massless part) shows in report(); nothing may be solved then.
+    StepOperator(const LinearSystem& system, const StepConstants& constants, const SolverOptions& solver = {});
 
     const StepConstants& constants() const { return constants_; }
-    bool regular() const { return factor_.regular(); }
+    const SolverReport& report() const { return factor_.report(); }
     Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;       ///< A⁻¹ b
     Eigen::MatrixXd solve_columns(const SparseMatrix& right_hand_sides) const; ///< A⁻¹ of n x m columns, 16 at a time
     InterfaceFlexibility flexibility(const SparseMatrix& interface_map) const; ///< B is m x n
@@ -34,7 +34,7 @@ private:
     void correct_low_rank(Eigen::MatrixXd& solutions) const;
 
     StepConstants constants_;
-    SymmetricFactor factor_;
+    LinearSolver factor_;
     Eigen::MatrixXd columns_;  ///< U
     Eigen::MatrixXd response_; ///< Z = A_s⁻¹ U
     Eigen::MatrixXd small_;    ///< (I + S'UᵀZ)⁻¹ S', k x k
