@@ -11,5 +11,6 @@ void add_empirical_cases(Registry& registry);
 void add_load_cases(Registry& registry);
 void add_equilibrium_cases(Registry& registry);
 void add_fe_time_cases(Registry& registry);
+void add_fe_seepage_cases(Registry& registry);
 
 } // namespace damslip::verification

@@ -34,6 +34,7 @@ Registry all_cases()
     add_load_cases(registry);
     add_equilibrium_cases(registry);
     add_fe_time_cases(registry);
+    add_fe_seepage_cases(registry);
     return registry;
 }
 

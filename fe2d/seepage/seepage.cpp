@@ -1,0 +1,191 @@
+#include "fe2d/seepage/seepage.hpp"
+
+#include "scene/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace damslip::fe2d {
+
+namespace {
+
+/// Rock nodes straight below the base node nearest to a distance, down to a depth.
+std::vector<int> nodes_below(const Mesh& mesh, double distance, double depth)
+{
+    const auto& distances = mesh.contact.distance;
+    const auto nearest = std::min_element(distances.begin(), distances.end(), [&](double a, double b) {
+        return std::abs(a - distance) < std::abs(b - distance);
+    });
+    const Point top = mesh.nodes[mesh.contact.rock_nodes[nearest - distances.begin()]];
+    const double tolerance = 1e-6 * distances.back();
+    std::vector<int> nodes;
+    for (int n = mesh.dam_node_count; n < mesh.node_count(); ++n)
+        if (std::abs(mesh.nodes[n].x - top.x) < tolerance && mesh.nodes[n].y > top.y - depth - tolerance)
+            nodes.push_back(n);
+    return nodes;
+}
+
+/// Head of free water standing on a surface point, or of the point itself where it is dry.
+double surface_head(const std::optional<double>& level, double elevation)
+{
+    return std::max(level.value_or(elevation), elevation);
+}
+
+std::vector<NodeHead> boundary_heads(const Mesh& mesh, const SeepageState& state,
+                                     const std::optional<DrainLine>& drains)
+{
+    std::vector<NodeHead> heads;
+    if (drains)
+        for (const int n : nodes_below(mesh, drains->distance, drains->depth)) heads.push_back({n, drains->head});
+    for (const int n : mesh.floor) heads.push_back({n, surface_head(state.reservoir_level, mesh.nodes[n].y)});
+    for (const int n : mesh.ground) heads.push_back({n, surface_head(state.tailwater_level, mesh.nodes[n].y)});
+    return heads;
+}
+
+double total(const Eigen::VectorXd& inflow, const std::vector<int>& nodes)
+{
+    double sum = 0.0;
+    for (const int n : nodes) sum += inflow[n];
+    return sum;
+}
+
+void fill_profile(SeepageResult& result)
+{
+    const auto& contact = result.mesh.contact;
+    result.lowest_pressure = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < contact.rock_nodes.size(); ++i) {
+        const int n = contact.rock_nodes[i];
+        const double p = result.unit_weight * (result.field.head[n] - result.mesh.nodes[n].y);
+        result.lowest_pressure = std::min(result.lowest_pressure, p);
+        result.profile.push_back({contact.distance[i], std::max(0.0, p)});
+    }
+    for (std::size_t i = 0; i + 1 < result.profile.size(); ++i)
+        result.uplift += 0.5 * (result.profile[i].pressure + result.profile[i + 1].pressure) *
+                         (result.profile[i + 1].distance - result.profile[i].distance);
+    const double scale = result.unit_weight * result.profile.back().distance;
+    if (result.lowest_pressure < -1e-9 * scale)
+        result.notes.push_back(
+            fmt::format("seepage: suction down to {:.3g} kPa under the base is taken as zero pressure",
+                        1e-3 * result.lowest_pressure));
+}
+
+double pressure_near(const SeepageResult& result, double distance)
+{
+    const auto nearest =
+        std::min_element(result.profile.begin(), result.profile.end(), [&](const auto& a, const auto& b) {
+            return std::abs(a.distance - distance) < std::abs(b.distance - distance);
+        });
+    return nearest->pressure;
+}
+
+void fill_curtain(SeepageResult& result, const Curtain& curtain, const Permeability& permeability)
+{
+    result.pressure_before_curtain = pressure_near(result, curtain.distance);
+    result.pressure_behind_curtain = pressure_near(result, curtain.distance + curtain.thickness);
+    const std::vector<int> line = nodes_below(result.mesh, curtain.distance, std::numeric_limits<double>::infinity());
+    const double x = result.mesh.nodes[line.front()].x;
+    const auto behind_line = [&](const Element& element, const Corners& points) {
+        double centre = 0.0;
+        for (int i = 0; i < element.size(); ++i) centre += points[i].x / element.size();
+        return centre > x;
+    };
+    const auto curtain_only = [](const Element& element, const Corners&) { return element.region == Region::curtain; };
+    const double all = flow_into(result.mesh, permeability, result.field, line, behind_line);
+    result.flow_through_curtain = flow_into(result.mesh, permeability, result.field, line, curtain_only);
+    result.flow_under_curtain = all - result.flow_through_curtain;
+}
+
+Permeability permeability_of(const Scene& scene, const SeepageState& state)
+{
+    Permeability k;
+    if (scene.foundation) k.rock = scene.foundation->permeability;
+    const bool works = scene.curtain && scene.curtain->intact && state.curtain == CurtainState::as_scene;
+    k.curtain = works ? scene.curtain->permeability : k.rock;
+    return k;
+}
+
+} // namespace
+
+double water_unit_weight(const Scene& scene)
+{
+    return (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity;
+}
+
+SeepageState seepage_state(const Scene& scene)
+{
+    SeepageState state;
+    if (scene.reservoir) state.reservoir_level = scene.reservoir->level;
+    if (scene.tailwater) state.tailwater_level = scene.tailwater->level;
+    return state;
+}
+
+std::optional<DrainLine> drain_line(const Scene& scene, const SeepageState& state)
+{
+    if (!scene.drains || state.drains == DrainState::ineffective) return std::nullopt;
+    const double length = base_length(scene.section), slope = std::sin(base_inclination(scene.section));
+    const Drains& drains = *scene.drains;
+    const double upstream = surface_head(state.reservoir_level, 0.0);
+    double low = surface_head(state.tailwater_level, -slope * length);
+    if (drains.gallery_level) low = std::max(low, *drains.gallery_level);
+    DrainLine line;
+    line.distance = drains.distance;
+    line.depth = state.drain_depth.value_or(scene.curtain ? 0.5 * scene.curtain->depth : 0.25 * length);
+    line.head = low + (1.0 - drains.efficiency) * (upstream - low) * (length - drains.distance) / length;
+    return line;
+}
+
+SeepageResult solve_seepage(const Scene& scene, const SeepageState& state, const SeepageMeshOptions& options)
+{
+    SeepageResult result = solve_seepage_on(seepage_mesh(scene, drain_line(scene, state), options), scene, state);
+    if (!scene.foundation) {
+        const SeepageBox box = seepage_box(scene);
+        result.notes.push_back(
+            fmt::format("seepage: no [foundation]; a box of {:.4g} m x {:.4g} m (300/45 x 100/45 base "
+                        "lengths) with permeability {:g} m/s is used",
+                        box.width, box.depth, permeability_of(scene, state).rock));
+    }
+    return result;
+}
+
+SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState& state)
+{
+    assert(mesh.has_rock());
+    const std::optional<DrainLine> drains = drain_line(scene, state);
+    const Permeability permeability = permeability_of(scene, state);
+    SeepageResult result;
+    result.mesh = std::move(mesh);
+    result.unit_weight = water_unit_weight(scene);
+    result.field = solve_darcy(result.mesh, permeability, boundary_heads(result.mesh, state, drains));
+    if (!result.field.solver.ok()) {
+        result.notes.push_back("seepage: " + result.field.solver.text());
+        return result;
+    }
+    fill_profile(result);
+    result.inflow = total(result.field.inflow, result.mesh.floor);
+    result.outflow = -total(result.field.inflow, result.mesh.ground);
+    if (drains) {
+        result.drain_flow = -total(result.field.inflow, nodes_below(result.mesh, drains->distance, drains->depth));
+        result.notes.push_back(
+            fmt::format("seepage: drains at {:.3g} m are a line {:.3g} m deep held at a head of {:.4g} m",
+                        drains->distance, drains->depth, drains->head));
+    }
+    if (scene.curtain) fill_curtain(result, *scene.curtain, permeability);
+    return result;
+}
+
+std::vector<Point> uplift_points(const SeepageResult& result, const Scene& scene, const SeepageState& state)
+{
+    const double at_heel = result.unit_weight * state.reservoir_level.value_or(0.0);
+    if (!(at_heel > 0.0)) return {};
+    std::vector<Point> points;
+    for (const BasePressure& p : result.profile) points.push_back({p.distance, p.pressure / at_heel});
+    points.front().x = 0.0;
+    points.back().x = base_length(scene.section);
+    return points;
+}
+
+} // namespace damslip::fe2d
