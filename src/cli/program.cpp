@@ -51,6 +51,9 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     } catch (const UsageError& error) {
         report_error(error.what(), error.diagnostics(), exit_usage, form, out, talk);
         return exit_usage;
+    } catch (const NotConverged& error) {
+        report_error(error.what(), error.diagnostics(), exit_no_convergence, form, out, talk);
+        return exit_no_convergence;
     } catch (const InputError& error) {
         report_error(error.what(), error.diagnostics(), exit_input, form, out, talk);
         return exit_input;

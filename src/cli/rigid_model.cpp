@@ -1,20 +1,12 @@
 #include "cli/rigid_model.hpp"
 
-#include "core/input_error.hpp"
-
 namespace damslip::cli {
 
-sliding::SeepageProfile seepage_profile(const Scene& scene)
-{
-    if (!scene.uplift || scene.uplift->model != UpliftModel::seepage) return {};
-    return {};
-}
-
-RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack)
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
 {
     sliding::BlockOptions options;
     options.crack = crack;
-    options.seepage = seepage_profile(scene);
+    options.seepage = seepage;
     RigidModel model;
     model.block = sliding::make_rigid_block(scene, options);
     model.stages = sliding::strength_stages(model.block, scene.contact);

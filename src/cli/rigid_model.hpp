@@ -7,9 +7,6 @@
 
 namespace damslip::cli {
 
-/// The uplift profile of uplift.model = "seepage" for a scene; empty function for other models.
-sliding::SeepageProfile seepage_profile(const Scene& scene);
-
 /// The rigid block of a scene, what it becomes with slip, and what holds it.
 struct RigidModel {
     sliding::RigidBlock block;  ///< before any slip
@@ -19,8 +16,10 @@ struct RigidModel {
     double critical_friction = 0.0; ///< [-]
 };
 
-/// @param crack  in place of the scene's uplift.crack, if given
-RigidModel make_rigid_model(const Scene& scene, std::optional<CrackRule> crack = std::nullopt);
+/// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
+/// @param crack    in place of the scene's uplift.crack, if given
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage,
+                            std::optional<CrackRule> crack = std::nullopt);
 
 /// Slip of the model under a motion with the scene's [sliding] options.
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,

@@ -1,5 +1,6 @@
 #include "cli/screening.hpp"
 
+#include "cli/seepage_source.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
@@ -97,11 +98,11 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
     return out;
 }
 
-void add_equilibrium(const Scene& scene, Screening& s)
+void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
 {
-    const sliding::SeepageProfile seepage = seepage_profile(scene);
     s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, 0.0}, seepage);
-    if (scene.reservoir || scene.tailwater) s.uplifts = sliding::compare_uplift(scene, seepage);
+    if (scene.reservoir || scene.tailwater)
+        s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
 }
 
 void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
@@ -146,15 +147,17 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
 {
     Screening s;
     s.plan = plan;
+    SeepageSource source;
+    const sliding::SeepageProfile seepage = source.profile_of(scene);
     s.bases.push_back(
-        {plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene)});
+        {plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene, seepage)});
     if (!plan.on(Effect::base_crack))
-        s.bases.push_back({"cracked under static loads", make_rigid_model(scene, CrackRule::fixed_static)});
+        s.bases.push_back({"cracked under static loads", make_rigid_model(scene, seepage, CrackRule::fixed_static)});
     else
-        s.bases.push_back({"uncracked", make_rigid_model(scene, CrackRule::none)});
+        s.bases.push_back({"uncracked", make_rigid_model(scene, seepage, CrackRule::none)});
     s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
     for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
-    add_equilibrium(scene, s);
+    add_equilibrium(scene, seepage, s);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     add_warnings(scene, s, s.warnings);
     return s;

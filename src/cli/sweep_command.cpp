@@ -3,6 +3,7 @@
 #include "cli/number_list.hpp"
 #include "cli/progress.hpp"
 #include "cli/rigid_model.hpp"
+#include "cli/seepage_source.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
@@ -226,6 +227,7 @@ struct Grid {
 Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
 {
     Grid grid{axes, {}, {}, {}};
+    SeepageSource source;
     grid.models.resize(axes.friction.size() * axes.level.size() * axes.uplift.size() * axes.reservoir.size());
     parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
         std::size_t rest = i;
@@ -236,7 +238,7 @@ Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPai
         Scene here = variant(scene, axes.level[rest % axes.level.size()], uplift, reservoir);
         const double friction = axes.friction[rest / axes.level.size()];
         if (friction != here.contact.friction) here = with_friction(std::move(here), friction);
-        grid.models[i] = make_rigid_model(here);
+        grid.models[i] = make_rigid_model(here, source.profile_of(here));
     });
     for (const RecordPair& pair : records) {
         grid.records.push_back(pair.files.name);
