@@ -86,7 +86,8 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
                            fmt::format("add  {} = {}  or a polygon_m to [section]", key, example));
         return value.has_value();
     };
-    if (!(need(in.height, "height_m", "62.5") & need(in.base, "base_m", "45"))) return {};
+    const bool has_height = need(in.height, "height_m", "62.5"), has_base = need(in.base, "base_m", "45");
+    if (!has_height || !has_base) return {};
     const double h = *in.height, b = *in.base, crest = in.crest.value_or(0), neck = in.neck.value_or(0);
     const double batter_height = std::min(in.upstream_slope_height.value_or(h), h);
     const double crest_from = in.upstream_slope.value_or(0) * batter_height; // x of the crest's upstream end

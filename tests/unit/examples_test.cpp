@@ -1,0 +1,57 @@
+// Every examples/*.toml is read and held against the figures it states under [expect].
+#include "cli/rigid_model.hpp"
+#include "cli/seepage_source.hpp"
+#include "core/units.hpp"
+#include "scene/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace {
+
+using namespace damslip;
+
+std::vector<std::filesystem::path> example_files()
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(DAMSLIP_SOURCE_DIR "/examples"))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// The quantities an example may state, from the rigid block.
+const std::map<std::string, std::function<double(const cli::RigidModel&)>> rigid_quantities{
+    {"yield_acceleration_m_s2", [](const cli::RigidModel& m) { return m.downstream.law.constant; }},
+    {"yield_acceleration_upstream_m_s2", [](const cli::RigidModel& m) { return m.upstream.law.constant; }},
+    {"yield_coefficient_g", [](const cli::RigidModel& m) { return m.downstream.law.constant / units::standard_gravity; }},
+    {"critical_friction", [](const cli::RigidModel& m) { return m.critical_friction; }},
+    {"uplift_N_m", [](const cli::RigidModel& m) { return m.block.uplift; }},
+};
+
+TEST(Examples, StateWhatTheProgramComputes)
+{
+    int figures = 0;
+    for (const auto& file : example_files()) {
+        SCOPED_TRACE(file.filename().string());
+        const Scene scene = read_scene(file);
+        cli::SeepageSource seepage;
+        const cli::RigidModel model = cli::make_rigid_model(scene, seepage.profile_of(scene));
+        for (const Expectation& e : scene.expectations) {
+            const auto quantity = rigid_quantities.find(e.quantity);
+            ASSERT_NE(quantity, rigid_quantities.end()) << e.quantity << " is not a quantity this test knows";
+            // Agreement to `digits` significant digits: half a unit in the last of them.
+            const double unit = std::pow(10.0, std::floor(std::log10(std::abs(e.value))) - e.digits + 1);
+            EXPECT_NEAR(quantity->second(model), e.value, 0.5 * unit) << e.quantity << ", " << e.source;
+            ++figures;
+        }
+    }
+    EXPECT_GE(figures, 5); // an examples folder without figures tests nothing
+}
+
+} // namespace
