@@ -2,6 +2,7 @@
 
 #include "cli/completion_command.hpp"
 #include "cli/explain_command.hpp"
+#include "cli/modes_command.hpp"
 #include "cli/schema_command.hpp"
 #include "cli/screen_command.hpp"
 #include "cli/sweep_command.hpp"
@@ -28,6 +29,7 @@ struct Parser {
     SweepArguments sweep;
     ExplainArguments explain;
     VerifyArguments verify;
+    ModesArguments modes;
     SchemaArguments schema;
     std::string shell;
 };
@@ -103,6 +105,17 @@ void add_explain(Parser& p)
     sub->callback([&p] { p.chosen = [a = p.explain](const Streams& s) { return explain(a, s); }; });
 }
 
+void add_modes(Parser& p)
+{
+    CLI::App* sub =
+        command(p, "modes", "natural frequencies, effective masses, Rayleigh and modified Rayleigh coefficients",
+                "damslip modes examples/reference_dam.toml --count 5");
+    add_run_inputs(sub, p.modes.inputs);
+    sub->add_option("-n,--count", p.modes.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
+    sub->add_option("--out", p.modes.out, "folder for the mode shapes as VTU files");
+    sub->callback([&p] { p.chosen = [a = p.modes](const Streams& s) { return modes(a, s); }; });
+}
+
 void add_small_commands(Parser& p)
 {
     CLI::App* check = command(p, "verify", "closed-form and published cases: expected, computed, error, pass",
@@ -130,6 +143,7 @@ void build(Parser& p)
                  exit_codes);
     add_screen(p);
     add_sweep(p);
+    add_modes(p);
     add_explain(p);
     add_small_commands(p);
 }

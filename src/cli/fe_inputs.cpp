@@ -1,0 +1,76 @@
+#include "cli/fe_inputs.hpp"
+
+#include "core/input_error.hpp"
+#include "fe2d/modes/natural_modes.hpp"
+#include "sliding/loads/added_mass.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+sliding::WaterColumn water_column(const Scene& scene)
+{
+    return {scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus};
+}
+
+double first_frequency(const Scene& scene)
+{
+    fe2d::ModelOptions options;
+    options.added_mass = added_mass_law(scene);
+    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(scene, options), 1);
+    return modes.frequency.size() ? modes.frequency[0] : std::nan("");
+}
+
+} // namespace
+
+fe2d::AddedMassLaw added_mass_law(const Scene& scene)
+{
+    if (!scene.reservoir || scene.reservoir->level <= 0 || scene.reservoir->model == ReservoirModel::hydrostatic ||
+        scene.reservoir->model == ReservoirModel::acoustic)
+        return {};
+    return [method = scene.added_mass, water = water_column(scene)](Point at, double face_angle) {
+        return sliding::added_mass_per_area(method, water, water.depth - at.y, face_angle);
+    };
+}
+
+DamPeriod resolve_dam_period(Scene& scene)
+{
+    DamPeriod result;
+    Scene trial = scene;
+    trial.added_mass.period_of_dam = false;
+    trial.added_mass.period.reset();
+    result.incompressible_frequency = first_frequency(trial);
+    const double reservoir_period = sliding::reservoir_period(water_column(scene));
+
+    // phi(T) = 1/f_1(T) - T is positive just above T_r, where the mass grows without bound, if a dam period exists, and falls with T.
+    const auto period_of = [&](double period) {
+        trial.added_mass.period = period;
+        ++result.iterations;
+        return 1.0 / first_frequency(trial);
+    };
+    double low = reservoir_period * (1 + 1e-6),
+           high = std::max(2.0 / result.incompressible_frequency, 2 * reservoir_period);
+    if (!(period_of(low) > low))
+        throw InputError(
+            Diagnostic{scene.file.string(), 0, 0,
+                       fmt::format("added_mass.period_s = \"dam\": the dam's period, {:.4g} s with incompressible "
+                                   "water, lies below the reservoir's own, 4 h/c = {:.4g} s.",
+                                   1 / result.incompressible_frequency, reservoir_period),
+                       "a dam slower than its reservoir: Westergaard's series (3-1) has no real value otherwise",
+                       "leave period_s out (incompressible water) or use reservoir.model = \"acoustic\""});
+    while (period_of(high) > high) high *= 2;
+    while (high - low > 1e-9 * high) {
+        const double middle = 0.5 * (low + high);
+        (period_of(middle) > middle ? low : high) = middle;
+        if (result.iterations > 100) break;
+    }
+    scene.added_mass.period = high;
+    scene.added_mass.period_of_dam = false;
+    result.frequency = 1.0 / high;
+    return result;
+}
+
+} // namespace damslip::cli

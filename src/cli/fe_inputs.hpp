@@ -1,0 +1,23 @@
+#pragma once
+
+#include "fe2d/model/model.hpp"
+#include "scene/scene.hpp"
+
+namespace damslip::cli {
+
+/// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
+fe2d::AddedMassLaw added_mass_law(const Scene& scene);
+
+/// How added_mass.period_s = "dam" came out.
+struct DamPeriod {
+    double frequency = 0.0; ///< f_1 with the added mass of its own period [Hz]
+    int iterations = 0;
+    double incompressible_frequency = 0.0; ///< f_1 with T = infinity [Hz]
+};
+
+/// Finds the period of the dam with the added mass that belongs to it: the root of T = 1/f_1(T), bracketed between the reservoir's own
+/// period, where the mass is infinite, and the incompressible answer. The scene gets the value as added_mass.period.
+/// @throws InputError where the dam is so stiff that its period lies below the reservoir's.
+DamPeriod resolve_dam_period(Scene& scene);
+
+} // namespace damslip::cli
