@@ -1,6 +1,5 @@
 #include "sliding/block/slide.hpp"
 
-#include "core/input_error.hpp"
 #include "core/number.hpp"
 #include "sliding/block/slammer.hpp"
 #include "sliding/block/slip_motion.hpp"
@@ -11,27 +10,6 @@
 
 namespace damslip::sliding {
 namespace {
-
-void check_motion(const GroundMotion& motion)
-{
-    Diagnostic wrong;
-    wrong.file = motion.name;
-    wrong.expected =
-        "a time step > 0 s and at least 2 finite samples, the vertical component as long as the horizontal one";
-    const auto finite = [](double a) { return std::isfinite(a); };
-    if (!(motion.dt > 0.0) || !std::isfinite(motion.dt))
-        wrong.problem = "ground motion: time step " + shortest(motion.dt) + " s is not allowed.";
-    else if (motion.accel_h.size() < 2)
-        wrong.problem = "ground motion: " + std::to_string(motion.accel_h.size()) + " samples are too few.";
-    else if (!motion.accel_v.empty() && motion.accel_v.size() != motion.accel_h.size())
-        wrong.problem = "ground motion: " + std::to_string(motion.accel_v.size()) + " vertical samples beside " +
-                        std::to_string(motion.accel_h.size()) + " horizontal ones.";
-    else if (!std::ranges::all_of(motion.accel_h, finite) || !std::ranges::all_of(motion.accel_v, finite))
-        wrong.problem = "ground motion: a sample is not a finite number.";
-    else
-        return;
-    throw InputError(wrong);
-}
 
 /// Zero ground acceleration in steps of dt until the block rests.
 void run_out(SlipMotion& block, double start, double dt, double longest, SlideHistory* history)
@@ -76,7 +54,9 @@ void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& 
                                                                                : "loss of resistance without flight."));
 }
 
-SlideResult slide_exact(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
+/// `blocks`: ranges of the motion's blocks of samples, for skipping; null: every interval is looked at.
+SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
+                        const SlideOptions& options)
 {
     const bool vertical = !motion.accel_v.empty();
     const double polarity = options.polarity;
@@ -88,7 +68,13 @@ SlideResult slide_exact(const GroundMotion& motion, const SlipStages& stages, co
     SlipMotion block(stages, options);
     if (history) block.add_sample(0.0, a_h(0), a_v(0), *history);
     const std::size_t last = motion.accel_h.size() - 1;
+    const auto rests = [&](const AccelRange& r) {
+        return options.polarity > 0 ? block.stays_at_rest(r.h_min, r.h_max, r.v_min, r.v_max)
+                                    : block.stays_at_rest(-r.h_max, -r.h_min, r.v_min, r.v_max);
+    };
     for (std::size_t k = 0; k < last && !block.unresolved(); ++k) {
+        if (blocks && !history && block.at_rest()) k = blocks->skip(k, rests);
+        if (k == last) break;
         block.cross(static_cast<double>(k) * motion.dt, motion.dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
         if (history) block.add_sample(static_cast<double>(k + 1) * motion.dt, a_h(k + 1), a_v(k + 1), *history);
     }
@@ -97,6 +83,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SlipStages& stages, co
         run_out(block, static_cast<double>(last) * motion.dt, motion.dt, options.sliding.run_out_max, history);
 
     block.write(result);
+    if (!block.unresolved()) result.end_time = std::max(result.end_time, static_cast<double>(last) * motion.dt);
     result.status = block.unresolved()              ? SlideStatus::unresolved
                     : state != StaticState::at_rest ? SlideStatus::static_sliding
                     : block.at_rest()               ? SlideStatus::at_rest
@@ -112,7 +99,14 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
     check_motion(motion);
     check_stages(stages);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
-    return slide_exact(motion, stages, options);
+    return slide_exact(motion, nullptr, stages, options);
+}
+
+SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)
+{
+    check_stages(stages);
+    if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion.motion(), stages, options);
+    return slide_exact(motion.motion(), &motion, stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options)

@@ -2,6 +2,7 @@
 
 #include "records/record.hpp"
 #include "scene/scene.hpp"
+#include "sliding/block/skipping_motion.hpp"
 #include "sliding/block/slip_stage.hpp"
 
 #include <limits>
@@ -83,6 +84,10 @@ struct SlideResult {
 /// @throws InputError for dt <= 0, fewer than 2 samples, components of unequal length, non-finite samples, and what
 /// check_stages refuses.
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options = {});
+
+/// The same bits sooner: while the block rests, whole stretches that cannot start it are skipped (unless a history is
+/// asked for).
+SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options = {});
 
 /// One block that does not change with slip.
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options = {});

@@ -1,0 +1,137 @@
+// The quick integrator for fixed yields and the batches: same bits with and without skipping, same slip as the general
+// integrator.
+#include "block_motions.hpp"
+#include "exact/block_slip.hpp"
+#include "sliding/block/slide_batch.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace damslip;
+using namespace damslip::sliding;
+using namespace damslip::test;
+
+namespace {
+
+constexpr double two_thirds[] = {0.02, 0.1, 0.3, 0.5, 0.7, 0.95}; // of the peak
+
+SlideOptions ways(bool two_way)
+{
+    SlideOptions options;
+    options.sliding.two_way = two_way;
+    return options;
+}
+
+} // namespace
+
+TEST(BlockFixedYield, skipping_gives_the_same_bits)
+{
+    for (const int n : {1, 5, 32, 33, 1023, 1024, 5000}) {
+        const SkippingMotion motion(wild_motion(6.0, 0.01, n));
+        for (const double ratio : two_thirds)
+            for (const int polarity : {1, -1})
+                for (const double up : {2.0, 1e9, FixedYield::never_slides}) {
+                    FixedYieldOptions options{polarity, 60.0, Scan::skip_blocks};
+                    const FixedYield yield = fixed_yield(6.0 * ratio, 6.0 * ratio * up);
+                    const SlipSummary quick = slide_fixed_yield(motion, yield, options);
+                    options.scan = Scan::every_sample;
+                    EXPECT_TRUE(quick == slide_fixed_yield(motion, yield, options)) << n << " " << ratio;
+                    EXPECT_TRUE(quick == slide_constant_yield(motion.motion().accel_h, 0.01, 6.0 * ratio,
+                                                              6.0 * ratio * up, options));
+                }
+    }
+}
+
+// Two independent codes for the same exact solution; the sums run in another order. 1e-12 of the path.
+TEST(BlockFixedYield, agrees_with_the_general_integrator)
+{
+    GroundMotion ground = wild_motion(6.0, 0.01, 4000);
+    for (const bool vertical : {false, true}) {
+        if (vertical) ground.accel_v = wild_motion(-3.0, 0.01, 4000).accel_h;
+        const SkippingMotion motion(ground);
+        for (const double ratio : two_thirds)
+            for (const bool two_way : {false, true})
+                for (const double inclination : {0.0, 0.08}) {
+                    RigidBlock block = block_with_yields(6.0 * ratio, 10.0 * ratio);
+                    block.base_inclination = inclination;
+                    block.friction += std::tan(inclination);
+                    block.added_mass.xx = 0.4;
+                    ASSERT_TRUE(never_opens(block, motion));
+                    const SlideResult general = slide(ground, block, ways(two_way));
+                    const SlipSummary quick = slide_fixed_yield(motion, fixed_yield(block, two_way));
+                    const double path = general.downstream_slip + general.upstream_slip;
+                    EXPECT_NEAR(quick.slip, general.slip, 1e-12 * path);
+                    EXPECT_NEAR(quick.upstream_slip, general.upstream_slip, 1e-12 * path);
+                    EXPECT_NEAR(quick.max_slip, general.max_slip, 1e-12 * path);
+                    EXPECT_NEAR(quick.peak_slip_rate, general.peak_slip_rate, 1e-12 * general.peak_slip_rate);
+                    EXPECT_EQ(quick.phases, general.phases);
+                    EXPECT_EQ(quick.status, general.status);
+                }
+    }
+}
+
+TEST(BlockFixedYield, general_integrator_skips_to_the_same_bits)
+{
+    GroundMotion ground = wild_motion(6.0, 0.01, 3000);
+    ground.accel_v = wild_motion(-12.0, 0.01, 3000).accel_h; // opens the base at times
+    const SkippingMotion motion(ground);
+    for (const LiftOff lift_off : {LiftOff::no_friction, LiftOff::ballistic})
+        for (const int polarity : {1, -1}) {
+            SlideOptions options;
+            options.sliding.lift_off = lift_off;
+            options.polarity = polarity;
+            const SlipStages stages{{0.0, block_with_yields(3.0, 4.0), 0.0}, {0.01, block_with_yields(2.0, 3.0), 0.0}};
+            const SlideResult plain = slide(ground, stages, options), quick = slide(motion, stages, options);
+            EXPECT_GT(plain.lift_offs, 0);
+            EXPECT_EQ(plain.slip, quick.slip);
+            EXPECT_EQ(plain.peak_slip_rate, quick.peak_slip_rate);
+            EXPECT_EQ(plain.phases, quick.phases);
+            EXPECT_EQ(plain.lift_offs, quick.lift_offs);
+            EXPECT_EQ(plain.end_time, quick.end_time);
+        }
+}
+
+TEST(BlockFixedYield, coasts_after_the_record_and_says_when_it_does_not_stop)
+{
+    const GroundMotion motion = steady(5.0, 1.0);
+    const SlipSummary rest = slide_constant_yield(motion.accel_h, motion.dt, 2.0);
+    EXPECT_LT(relative(rest.slip, exact::slip_under_rectangle(5.0, 1.0, 2.0)), 1e-14);
+    EXPECT_EQ(rest.status, SlideStatus::at_rest);
+    const SlipSummary cut =
+        slide_constant_yield(motion.accel_h, motion.dt, 2.0, FixedYield::never_slides, {1, 1.0, Scan::every_sample});
+    EXPECT_EQ(cut.status, SlideStatus::sliding_at_end);
+    EXPECT_LT(relative(cut.slip, 1.5 + 3.0 - 1.0), 1e-14);
+    const SlipSummary fixed = slide_constant_yield(motion.accel_h, motion.dt, -0.5);
+    EXPECT_EQ(fixed.status, SlideStatus::static_sliding);
+    EXPECT_LT(relative(fixed.slip, 0.5 * 5.5), 1e-14);
+}
+
+TEST(BlockFixedYield, batches_do_not_depend_on_the_number_of_threads)
+{
+    std::vector<SkippingMotion> motions;
+    for (const double peak : {2.0, 4.0, 7.0}) motions.emplace_back(wild_motion(peak, 0.01, 2000));
+    std::vector<FixedYield> yields;
+    std::vector<SlipStages> blocks;
+    for (int i = 1; i <= 13; ++i) {
+        yields.push_back(fixed_yield(0.4 * i, 0.7 * i));
+        blocks.push_back({{0.0, block_with_yields(0.4 * i, 0.7 * i), 0.0}});
+    }
+    const int polarities[] = {1, -1};
+    const auto one = slide_batch(motions, yields, polarities, FixedYieldOptions{}, 1);
+    ASSERT_EQ(one.size(), 3u * 13u * 2u);
+    EXPECT_TRUE(one == slide_batch(motions, yields, polarities, FixedYieldOptions{}, 2));
+    EXPECT_TRUE(one == slide_batch(motions, yields, polarities, FixedYieldOptions{}, 7));
+    const std::size_t m = 1, y = 4, p = 1;
+    EXPECT_TRUE(one[(m * 13 + y) * 2 + p] == slide_fixed_yield(motions[m], yields[y], {-1, 60.0, Scan::every_sample}));
+    const auto general = slide_batch(motions, blocks, polarities, SlideOptions{}, 3);
+    for (std::size_t i = 0; i < one.size(); ++i)
+        EXPECT_NEAR(general[i].slip, one[i].slip, 1e-12 * (one[i].downstream_slip + one[i].upstream_slip));
+}
+
+TEST(BlockFixedYield, batch_passes_on_the_first_error)
+{
+    const std::vector<SkippingMotion> motions(1, SkippingMotion(steady(1.0, 1.0)));
+    std::vector<SlipStages> blocks(5, SlipStages{{0.0, block_with_yield(0.5), 0.0}});
+    blocks[3].front().block.mass = -1.0;
+    const int polarities[] = {1};
+    EXPECT_ANY_THROW(slide_batch(motions, blocks, polarities, SlideOptions{}, 2));
+}
