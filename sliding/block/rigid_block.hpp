@@ -16,10 +16,10 @@ struct RigidBlock {
     AddedMassTensor added_mass; ///< moves with the block [kg/m]
     double gravity = 9.81;      ///< of the site [m/s^2]; the weight is mass * gravity
     double vertical_force =
-        0.0; ///< static downward force besides the block's weight: water on sloping faces, silt, user forces [N/m]
+        0.0; ///< static, downward, besides the weight: water on sloping faces, silt, user forces [N/m]
     double horizontal_force =
-        0.0; ///< static downstream force: hydrostatic thrust W_s minus tailwater, silt, ice, user forces [N/m]
-    double uplift = 0.0;           ///< U, normal to the base, lifts the block [N/m]
+        0.0;             ///< static, downstream: hydrostatic thrust less tailwater, silt, ice, user forces [N/m]
+    double uplift = 0.0; ///< U, normal to the base, lifts the block [N/m]
     double cohesion_force = 0.0;   ///< c A' [N/m]
     double friction = 0.0;         ///< mu [-]
     double base_inclination = 0.0; ///< theta [rad], positive: dips downstream

@@ -61,16 +61,24 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
     }
 }
 
-/// Contact or not, from the sign of N' just after now.
+/// Contact or not, from the sign of N' just after now. A block at rest touches when it presses its base as it lies;
+/// where a retained cohesion holds it, also when it would press its base once it moved (inclined base with added mass
+/// only: elsewhere both forces are one).
 void SlipMotion::settle_contact()
 {
-    contact_turned_ = false;
     if (airborne_) return;
-    const Line normal = normal_line();
+    const Line sliding = line(forms().free_normal);
     const bool was_touching = touching_;
-    touching_ = above_zero(normal);
+    touching_ = moving_ ? above_zero(sliding)
+                        : above_zero(line(forms().equations.normal)) || (bond_stays() && above_zero(sliding));
     if (was_touching && !touching_) ++lift_offs_;
-    if (options_.lift_off == LiftOff::ballistic && above_zero(-normal)) airborne_ = true;
+    if (options_.lift_off == LiftOff::ballistic && !touching_ && above_zero(-sliding)) airborne_ = true;
+}
+
+/// Cohesion that slip would not take away.
+bool SlipMotion::bond_stays() const
+{
+    return stage().block.cohesion_force > 0.0 && next_stage_path() > path_;
 }
 
 double SlipMotion::time_of_contact_change() const
@@ -81,9 +89,18 @@ double SlipMotion::time_of_contact_change() const
         const std::array<double, 4> gap{gap_, gap_rate_, accel.now / 2.0, (accel.end - accel.now) / (6.0 * span_)};
         return first_fall_to_zero(gap, span_);
     }
-    if (contact_turned_) return never;
-    const Line normal = normal_line();
-    return time_above_zero(touching_ ? -normal : normal, span_);
+    // The state says on which side of zero N' is now, whatever round-off says just after an event.
+    const auto change = [this](const GroundLinear& form) {
+        Line normal = line(form);
+        if (touching_) normal = -normal;
+        normal.now = std::min(normal.now, 0.0);
+        return time_above_zero(normal, span_);
+    };
+    if (moving_) return change(forms().free_normal);
+    const double at_rest = change(forms().equations.normal);
+    if (!bond_stays()) return at_rest;
+    const double sliding = change(forms().free_normal);
+    return touching_ ? std::max(at_rest, sliding) : std::min(at_rest, sliding);
 }
 
 void SlipMotion::turn_contact()
@@ -92,11 +109,12 @@ void SlipMotion::turn_contact()
         land();
         return;
     }
-    contact_turned_ = true;
     touching_ = !touching_;
     if (touching_) return;
     ++lift_offs_;
-    airborne_ = options_.lift_off == LiftOff::ballistic;
+    // At rest on an inclined base with added mass N' = 0 need not be where a sliding block leaves its base.
+    const bool leaves = moving_ || forms().equations.mass_tn == 0.0 || above_zero(-line(forms().free_normal));
+    airborne_ = leaves && options_.lift_off == LiftOff::ballistic;
 }
 
 /// Plastic landing: the gap rate vanishes; A (ds, |y'|) = (-I, J) with Coulomb's |I| <= mu J against the slip.

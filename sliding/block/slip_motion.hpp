@@ -43,6 +43,7 @@ private:
     void turn_contact();
     void land();
     void settle_contact();
+    bool bond_stays() const;
     bool enter_stages();
     void elapse(double h);
     void meet(double h, double h_stage, double h_stop, double h_contact);
@@ -54,7 +55,6 @@ private:
     const StageForms& forms() const { return forms_[stage_]; }
     double friction() const { return friction_at(stage(), path_); }
     Line line(const GroundLinear& form) const { return {form.at(a_h_.now, a_v_.now), form.at(a_h_.end, a_v_.end)}; }
-    Line normal_line() const { return line(moving_ ? forms().free_normal : forms().equations.normal); }
     Line slip_accel() const;
     double next_stage_path() const;
 
@@ -70,10 +70,9 @@ private:
     // The block. Its direction is only meaningful while it moves; rate and path are counted along it.
     std::size_t stage_ = 0;
     bool moving_ = false;
-    bool from_rest_ = false;      ///< the start was located just now: s'' >= 0 whatever round-off says
-    bool touching_ = true;        ///< N' > 0: there is resistance
-    bool airborne_ = false;       ///< in ballistic flight
-    bool contact_turned_ = false; ///< touching_ changed in this interval; N' is linear and does not change sign twice
+    bool from_rest_ = false; ///< the start was located just now: s'' >= 0 whatever round-off says
+    bool touching_ = true;   ///< N' > 0: there is resistance
+    bool airborne_ = false;  ///< in ballistic flight
     SlipDirection direction_ = SlipDirection::downstream;
     double rate_ = 0.0;                 ///< |slip rate| [m/s]
     double path_ = 0.0;                 ///< sum of |slip| [m]

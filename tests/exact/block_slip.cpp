@@ -113,6 +113,65 @@ double slip_with_softening(double A, double t0, double a_0, double kappa, double
     return s_r + v_r * rest + (A - a_r) * rest * rest / 2.0 + coasting(v_0, a_r);
 }
 
+// a_y = mu (g - q t) falls to A at t_0 = (g - A/mu)/q; from there s'' = mu q (t - t_0): v = mu q tau^2/2, s = mu q
+// tau^3/6 at tau = T - t_0.
+double slip_under_falling_vertical(double A, double q, double T, double mu, double g)
+{
+    const double tau = T - (g - A / mu) / q;
+    return mu * q * tau * tau * tau / 6.0 + coasting(mu * q * tau * tau / 2.0, mu * g);
+}
+
+// To the opening as above with tau = (A/mu)/q, s'' = A there; then s'' = A for the rest, then coasting.
+double slip_with_lift_off(double A, double q, double T, double mu, double g)
+{
+    const double tau = A / mu / q, v = mu * q * tau * tau / 2.0, rest = T - g / q, v_end = v + A * rest;
+    return mu * q * tau * tau * tau / 6.0 + v * rest + A * rest * rest / 2.0 + coasting(v_end, mu * g);
+}
+
+// Gap: y'' = q - g up to T, then -g: falls back to zero at t_f after T with the speed w, w^2 = y_T'^2 + 2 g y_T. Along
+// the base s'' = A up to T, then none in flight; landing takes off mu m w/(m + M_w) (at most all) of the rate, after
+// which s'' = -mu m g/(m + M_w).
+double slip_with_landing(double A, double q, double T, double mu, double g, double mass, double added_mass)
+{
+    const double y = (q - g) * T * T / 2.0, y_rate = (q - g) * T, w = std::sqrt(y_rate * y_rate + 2.0 * g * y);
+    const double share = mass / (mass + added_mass), v = A * T, flight = (y_rate + w) / g;
+    const double after = std::fmax(0.0, v - mu * share * w);
+    return A * T * T / 2.0 + v * flight + coasting(after, mu * share * g);
+}
+
+double slip_with_sloped_friction(double A, double mu, double slope, double g, double a_v0, double q, int steps)
+{
+    using Real = long double;
+    const auto accel = [&](Real t, Real s) { return A - (mu + slope * s) * (g + a_v0 + q * t); };
+    const auto advance = [&](Real t, Real& s, Real& v, Real h) {
+        const Real k1 = accel(t, s), s2 = s + h / 2 * v, v2 = v + h / 2 * k1, k2 = accel(t + h / 2, s2);
+        const Real s3 = s + h / 2 * v2, v3 = v + h / 2 * k2, k3 = accel(t + h / 2, s3);
+        const Real s4 = s + h * v3, v4 = v + h * k3, k4 = accel(t + h, s4);
+        s += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+        v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    };
+    Real s = 0, v = 0;
+    const Real h = 1.0L / steps;
+    for (int k = 0;; ++k) {
+        const Real t = k * h;
+        Real s_next = s, v_next = v;
+        advance(t, s_next, v_next, h);
+        if (v_next > 0) {
+            s = s_next;
+            v = v_next;
+            continue;
+        }
+        const auto rate_after = [&](Real x) {
+            Real s_x = s, v_x = v;
+            advance(t, s_x, v_x, x);
+            return v_x;
+        };
+        const Real x = bisect(rate_after, 0, h);
+        advance(t, s, v, x);
+        return static_cast<double>(s);
+    }
+}
+
 double slip_of_interpolant(std::span<const double> accel, double dt, double yield_down, double yield_up)
 {
     // Every interval is cut at the times where a crosses either yield, so that the relative acceleration keeps one sign

@@ -42,4 +42,19 @@ double slip_with_softening(double A, double t0, double a_0, double kappa, double
 /// slip, positive downstream
 double slip_of_interpolant(std::span<const double> accel, double dt, double yield_down, double yield_up);
 
+/// Ground accelerations A upstream and a_v = -q t up for the time T, then none; block of mass 1, friction mu, gravity
+/// g, horizontal base, no lift-off.
+double slip_under_falling_vertical(double A, double q, double T, double mu, double g);
+
+/// The same with q T > g: the base opens at t = g/q and stays open to T; without flight, zero resistance while open.
+double slip_with_lift_off(double A, double q, double T, double mu, double g);
+
+/// Steady A upstream and a_v = -q < -g for the time T, then none, ballistic: the block flies from t = 0 on, lands
+/// plastically and coasts. `mass` and `added_mass` (horizontal) [kg/m].
+double slip_with_landing(double A, double q, double T, double mu, double g, double mass, double added_mass);
+
+/// s'' = A - (mu + slope s)(g + a_v0 + q t) from rest at t = 0 to its first stop, by classical Runge-Kutta steps in
+/// extended precision (no closed form exists); the error, of order step^4, is what remains at `steps` per second.
+double slip_with_sloped_friction(double A, double mu, double slope, double g, double a_v0, double q, int steps);
+
 } // namespace damslip::exact
