@@ -1,0 +1,228 @@
+#include "sliding/empirical/regression.hpp"
+
+#include <array>
+#include <cmath>
+
+// One row per regression. A new one is a new row; nothing else knows their number.
+namespace damslip::sliding {
+namespace {
+
+using Input = RegressionInput;
+using Inputs = RegressionInputs;
+
+template <int per_mille>
+double constant_sigma(const Inputs&)
+{
+    return per_mille / 1000.0;
+}
+
+/// c0 + c1 r + c2 r^2 + c3 r^3 + c4 r^4, the common part of Saygili & Rathje's models.
+double quartic(double r, double c0, double c1, double c2, double c3, double c4)
+{
+    return c0 + r * (c1 + r * (c2 + r * (c3 + r * c4)));
+}
+
+/// log10[(1 - r)^a r^-b], the common part of the ratio models.
+double ratio_term(const Inputs& x, double a, double b)
+{
+    return a * std::log10(1.0 - x.ratio()) - b * std::log10(x.ratio());
+}
+
+constexpr std::string_view ambraseys_menu =
+    "Ambraseys, N.N. & Menu, J.M. (1988): Earthquake-induced ground displacements. Earthquake Engineering and "
+    "Structural Dynamics 16, 985-1006";
+constexpr std::string_view jibson_1993 =
+    "Jibson, R.W. (1993): Predicting earthquake-induced landslide displacements using Newmark's sliding "
+    "block analysis. Transportation Research Record 1411, 9-17";
+constexpr std::string_view jibson_1998 =
+    "Jibson, R.W., Harp, E.L. & Michael, J.A. (1998): A method for producing digital probabilistic seismic "
+    "landslide hazard maps. U.S. Geological Survey Open-File Report 98-113";
+constexpr std::string_view jibson_2007 =
+    "Jibson, R.W. (2007): Regression models for estimating coseismic landslide displacement. Engineering "
+    "Geology 91, 209-218";
+constexpr std::string_view saygili_rathje =
+    "Saygili, G. & Rathje, E.M. (2008): Empirical predictive models for earthquake-induced sliding "
+    "displacements of slopes. Journal of Geotechnical and Geoenvironmental Engineering 134, 790-803";
+constexpr std::string_view rathje_saygili =
+    "Rathje, E.M. & Saygili, G. (2009): Probabilistic assessment of earthquake-induced sliding "
+    "displacements of natural slopes. Bulletin of the New Zealand Society for Earthquake Engineering 42, "
+    "18-27";
+constexpr std::string_view records_2007 = "2,270 strong-motion components, 30 earthquakes";
+constexpr std::string_view records_arias_2007 = "875 strong-motion components";
+constexpr std::string_view records_2008 = "2,383 strong-motion components";
+
+std::vector<ValidityRange> jibson_range()
+{
+    return {{Input::yield_coefficient, 0.02, 0.40}};
+}
+std::vector<ValidityRange> saygili_range()
+{
+    return {{Input::yield_coefficient, 0.05, 0.30}};
+}
+
+const std::array<Regression, 13>& table()
+{
+    static const std::array<Regression, 13> rows{{
+        {"ambraseys-menu-1988",
+         "Ambraseys & Menu 1988",
+         "log10 D = 0.90 + log10[(1-r)^2.53 r^-1.09]",
+         Logarithm::decimal,
+         [](const Inputs& x) { return 0.90 + ratio_term(x, 2.53, 1.09); },
+         constant_sigma<300>,
+         {Input::yield_coefficient, Input::pga},
+         {},
+         "50 records, 11 earthquakes",
+         ambraseys_menu},
+        {"jibson-1993",
+         "Jibson 1993",
+         "log10 D = 1.460 log10 Ia - 6.642 ac + 1.546",
+         Logarithm::decimal,
+         [](const Inputs& x) { return 1.460 * std::log10(*x.arias_m_s) - 6.642 * x.yield_coefficient + 1.546; },
+         constant_sigma<409>,
+         {Input::yield_coefficient, Input::arias_intensity},
+         jibson_range(),
+         "11 records",
+         jibson_1993},
+        {"jibson-1998",
+         "Jibson et al. 1998",
+         "log10 D = 1.521 log10 Ia - 1.993 log10 ac - 1.546",
+         Logarithm::decimal,
+         [](const Inputs& x) {
+             return 1.521 * std::log10(*x.arias_m_s) - 1.993 * std::log10(x.yield_coefficient) - 1.546;
+         },
+         constant_sigma<375>,
+         {Input::yield_coefficient, Input::arias_intensity},
+         jibson_range(),
+         "555 records, 13 earthquakes",
+         jibson_1998},
+        {"jibson-2007-ratio",
+         "Jibson 2007 (6)",
+         "log10 D = 0.215 + log10[(1-r)^2.341 r^-1.438]",
+         Logarithm::decimal,
+         [](const Inputs& x) { return 0.215 + ratio_term(x, 2.341, 1.438); },
+         constant_sigma<510>,
+         {Input::yield_coefficient, Input::pga},
+         {},
+         records_2007,
+         jibson_2007},
+        {"jibson-2007-ratio-magnitude",
+         "Jibson 2007 (7)",
+         "log10 D = -2.710 + log10[(1-r)^2.335 r^-1.478] + 0.424 M",
+         Logarithm::decimal,
+         [](const Inputs& x) { return -2.710 + ratio_term(x, 2.335, 1.478) + 0.424 * *x.magnitude; },
+         constant_sigma<454>,
+         {Input::yield_coefficient, Input::pga, Input::magnitude},
+         {{Input::magnitude, 5.3, 7.6}},
+         records_2007,
+         jibson_2007},
+        {"jibson-2007-arias",
+         "Jibson 2007 (9)",
+         "log10 D = 2.401 log10 Ia - 3.481 log10 ac - 3.230",
+         Logarithm::decimal,
+         [](const Inputs& x) {
+             return 2.401 * std::log10(*x.arias_m_s) - 3.481 * std::log10(x.yield_coefficient) - 3.230;
+         },
+         constant_sigma<656>,
+         {Input::yield_coefficient, Input::arias_intensity},
+         {},
+         records_arias_2007,
+         jibson_2007},
+        {"jibson-2007-arias-ratio",
+         "Jibson 2007 (10)",
+         "log10 D = 0.561 log10 Ia - 3.833 log10 r - 1.474",
+         Logarithm::decimal,
+         [](const Inputs& x) { return 0.561 * std::log10(*x.arias_m_s) - 3.833 * std::log10(x.ratio()) - 1.474; },
+         constant_sigma<616>,
+         {Input::yield_coefficient, Input::pga, Input::arias_intensity},
+         {},
+         records_arias_2007,
+         jibson_2007},
+        {"saygili-rathje-2008-pga",
+         "Saygili & Rathje 2008, PGA",
+         "ln D = 5.52 - 4.43 r - 20.39 r^2 + 42.61 r^3 - 28.74 r^4 + 0.72 ln amax",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), 5.52, -4.43, -20.39, 42.61, -28.74) + 0.72 * std::log(x.pga_g);
+         },
+         constant_sigma<1130>,
+         {Input::yield_coefficient, Input::pga},
+         saygili_range(),
+         records_2008,
+         saygili_rathje},
+        {"saygili-rathje-2008-pga-pgv",
+         "Saygili & Rathje 2008, PGA, PGV",
+         "ln D = -1.56 - 4.58 r - 20.84 r^2 + 44.75 r^3 - 30.50 r^4 - 0.64 ln amax + 1.55 ln PGV",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), -1.56, -4.58, -20.84, 44.75, -30.50) - 0.64 * std::log(x.pga_g) +
+                    1.55 * std::log(*x.pgv_cm_s);
+         },
+         [](const Inputs& x) { return 0.41 + 0.52 * x.ratio(); },
+         {Input::yield_coefficient, Input::pga, Input::pgv},
+         saygili_range(),
+         records_2008,
+         saygili_rathje},
+        {"saygili-rathje-2008-pga-arias",
+         "Saygili & Rathje 2008, PGA, Ia",
+         "ln D = 2.39 - 5.24 r - 18.78 r^2 + 42.01 r^3 - 29.15 r^4 - 1.56 ln amax + 1.38 ln Ia",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), 2.39, -5.24, -18.78, 42.01, -29.15) - 1.56 * std::log(x.pga_g) +
+                    1.38 * std::log(*x.arias_m_s);
+         },
+         [](const Inputs& x) { return 0.46 + 0.56 * x.ratio(); },
+         {Input::yield_coefficient, Input::pga, Input::arias_intensity},
+         saygili_range(),
+         records_2008,
+         saygili_rathje},
+        {"saygili-rathje-2008-pga-pgv-arias",
+         "Saygili & Rathje 2008, PGA, PGV, Ia",
+         "ln D = -0.74 - 4.93 r - 19.91 r^2 + 43.75 r^3 - 30.12 r^4 - 1.30 ln amax + 1.04 ln PGV + 0.67 ln Ia",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), -0.74, -4.93, -19.91, 43.75, -30.12) - 1.30 * std::log(x.pga_g) +
+                    1.04 * std::log(*x.pgv_cm_s) + 0.67 * std::log(*x.arias_m_s);
+         },
+         [](const Inputs& x) { return 0.20 + 0.79 * x.ratio(); },
+         {Input::yield_coefficient, Input::pga, Input::pgv, Input::arias_intensity},
+         saygili_range(),
+         records_2008,
+         saygili_rathje},
+        {"saygili-rathje-2008-pga-period",
+         "Saygili & Rathje 2008, PGA, Tm",
+         "ln D = 6.62 - 3.93 r - 23.71 r^2 + 49.37 r^3 - 32.94 r^4 - 0.93 ln amax + 1.79 ln Tm",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), 6.62, -3.93, -23.71, 49.37, -32.94) - 0.93 * std::log(x.pga_g) +
+                    1.79 * std::log(*x.mean_period_s);
+         },
+         [](const Inputs& x) { return 0.60 + 0.26 * x.ratio(); },
+         {Input::yield_coefficient, Input::pga, Input::mean_period},
+         saygili_range(),
+         records_2008,
+         saygili_rathje},
+        {"rathje-saygili-2009",
+         "Rathje & Saygili 2009, PGA, M",
+         "ln D = 4.89 - 4.85 r - 19.64 r^2 + 42.49 r^3 - 29.06 r^4 + 0.72 ln amax + 0.89 (M - 6)",
+         Logarithm::natural,
+         [](const Inputs& x) {
+             return quartic(x.ratio(), 4.89, -4.85, -19.64, 42.49, -29.06) + 0.72 * std::log(x.pga_g) +
+                    0.89 * (*x.magnitude - 6.0);
+         },
+         [](const Inputs& x) { return 0.73 + x.ratio() * (0.789 - 0.539 * x.ratio()); },
+         {Input::yield_coefficient, Input::pga, Input::magnitude},
+         {},
+         "more than 2,000 strong-motion components",
+         rathje_saygili},
+    }};
+    return rows;
+}
+
+} // namespace
+
+std::span<const Regression> regressions()
+{
+    return table();
+}
+
+} // namespace damslip::sliding
