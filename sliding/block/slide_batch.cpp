@@ -1,10 +1,8 @@
 #include "sliding/block/slide_batch.hpp"
 
+#include "core/parallel.hpp"
+
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 namespace damslip::sliding {
 namespace {
@@ -28,42 +26,15 @@ SlipSummary run_one(const SkippingMotion& motion, const SlipStages& stages, int 
 
 } // namespace
 
-void for_each_index(std::size_t count, unsigned jobs, const std::function<void(std::size_t)>& work)
-{
-    if (jobs == 0) jobs = std::max(1u, std::thread::hardware_concurrency());
-    std::atomic<std::size_t> next{0};
-    std::mutex guard;
-    std::size_t failed = count;
-    std::exception_ptr failure;
-    const auto take = [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
-                work(i);
-            } catch (...) {
-                const std::scoped_lock lock(guard);
-                if (i < failed) {
-                    failed = i;
-                    failure = std::current_exception();
-                }
-            }
-        }
-    };
-    std::vector<std::thread> threads;
-    for (unsigned t = 1; t < std::min<std::size_t>(jobs, count); ++t) threads.emplace_back(take);
-    take();
-    for (std::thread& thread : threads) thread.join();
-    if (failure) std::rethrow_exception(failure);
-}
-
 std::vector<SlipSummary> slide_batch(std::span<const SkippingMotion> motions, std::span<const FixedYield> yields,
-                                     std::span<const int> polarities, const FixedYieldOptions& options, unsigned jobs)
+                                     std::span<const int> polarities, const FixedYieldOptions& options, int jobs)
 {
     const std::size_t per_motion = yields.size() * polarities.size();
     std::vector<SlipSummary> results(motions.size() * per_motion);
     // One piece of work is one motion with a few yields: long enough to be worth a thread's while, and its samples stay
     // in the cache.
     const std::size_t chunk = 8, chunks = (per_motion + chunk - 1) / chunk;
-    for_each_index(motions.size() * chunks, jobs, [&](std::size_t piece) {
+    parallel_for(motions.size() * chunks, jobs, [&](std::size_t piece) {
         const std::size_t m = piece / chunks, first = piece % chunks * chunk;
         for (std::size_t i = first; i < std::min(first + chunk, per_motion); ++i) {
             FixedYieldOptions run = options;
@@ -75,11 +46,11 @@ std::vector<SlipSummary> slide_batch(std::span<const SkippingMotion> motions, st
 }
 
 std::vector<SlipSummary> slide_batch(std::span<const SkippingMotion> motions, std::span<const SlipStages> blocks,
-                                     std::span<const int> polarities, const SlideOptions& options, unsigned jobs)
+                                     std::span<const int> polarities, const SlideOptions& options, int jobs)
 {
     const std::size_t per_motion = blocks.size() * polarities.size();
     std::vector<SlipSummary> results(motions.size() * per_motion);
-    for_each_index(results.size(), jobs, [&](std::size_t i) {
+    parallel_for(results.size(), jobs, [&](std::size_t i) {
         const std::size_t m = i / per_motion, b = i % per_motion / polarities.size(), p = i % polarities.size();
         results[i] = run_one(motions[m], blocks[b], polarities[p], options);
     });

@@ -3,6 +3,7 @@
 // Runs every record with yields from 0.05 to 0.95 of its peak, one-way, and prints the best of several repetitions, with the ratio to the plain
 // exact integrator of the same run. Without arguments the records are artificial: white noise through a ground filter under an envelope, seeded.
 //   sliding_bench [FILE DT]...   text files of samples, lines with # skipped; the unit does not matter, yields follow the peak
+#include "core/parallel.hpp"
 #include "sliding/block/slammer.hpp"
 #include "sliding/block/slide_batch.hpp"
 
@@ -15,7 +16,6 @@
 #include <numbers>
 #include <random>
 #include <sstream>
-#include <thread>
 
 namespace {
 
@@ -34,7 +34,8 @@ GroundMotion artificial(unsigned seed, double dt, double duration, double strong
         const double noise = uniform() + uniform() + uniform() + uniform();
         v += dt * (noise / std::sqrt(dt) - 2.0 * zeta * w * v - w * w * u);
         u += dt * v;
-        const double envelope = t < strong_from ? t * t / (strong_from * strong_from) : std::exp(-decay * (t - strong_from));
+        const double envelope =
+            t < strong_from ? t * t / (strong_from * strong_from) : std::exp(-decay * (t - strong_from));
         motion.accel_h.push_back(envelope * (2.0 * zeta * w * v + w * w * u));
     }
     motion.accel_h.push_back(0.0);
@@ -99,7 +100,9 @@ void print_speed(std::vector<SkippingMotion>& motions)
     const auto fixed = [&](Scan scan, bool two_way) {
         return seconds_per_call([&] {
             each([&](const SkippingMotion& m, double a_y) {
-                return slide_fixed_yield(m, fixed_yield(a_y, two_way ? a_y : FixedYield::never_slides), {polarity, 60.0, scan}).slip;
+                return slide_fixed_yield(m, fixed_yield(a_y, two_way ? a_y : FixedYield::never_slides),
+                                         {polarity, 60.0, scan})
+                    .slip;
             });
         });
     };
@@ -107,14 +110,17 @@ void print_speed(std::vector<SkippingMotion>& motions)
     const auto print = [&](const char* name, double seconds) {
         std::printf("%-44s %8.3f %10.2f\n", name, 1e9 * seconds / runs, plain / seconds);
     };
-    std::printf("%zu records, %zu samples, %zu yields of 0.05 to 0.95 of the peak\n\n", motions.size(), samples, std::size(ratios));
+    std::printf("%zu records, %zu samples, %zu yields of 0.05 to 0.95 of the peak\n\n", motions.size(), samples,
+                std::size(ratios));
     std::printf("%-44s %8s %10s\n", "integrator", "ns", "x plain");
     print("exact, every sample (plain)", plain);
     print("exact, skipping blocks", fixed(Scan::skip_blocks, false));
     print("exact, every sample, two-way", fixed(Scan::every_sample, true));
     print("exact, skipping blocks, two-way", fixed(Scan::skip_blocks, true));
     print("SLAMMER's scheme", seconds_per_call([&] {
-              each([&](const SkippingMotion& m, double a_y) { return slammer_slip(m.motion().accel_h, m.motion().dt, a_y); });
+              each([&](const SkippingMotion& m, double a_y) {
+                  return slammer_slip(m.motion().accel_h, m.motion().dt, a_y);
+              });
           }));
     const auto general = [&](bool skipping) {
         return seconds_per_call([&] {
@@ -137,9 +143,10 @@ void print_speed(std::vector<SkippingMotion>& motions)
     for (const double ratio : ratios) yields.push_back(fixed_yield(ratio * mean_peak));
     std::vector<SkippingMotion> many; // enough work for starting threads not to count
     for (int i = 0; i < 50; ++i) many.insert(many.end(), motions.begin(), motions.end());
-    for (const unsigned jobs : {1u, std::max(1u, std::thread::hardware_concurrency())}) {
+    for (const int jobs : {1, thread_count(0)}) {
         const std::string name = "batch, skipping blocks, threads: " + std::to_string(jobs);
-        print(name.c_str(), seconds_per_call([&] {
+        print(name.c_str(),
+              seconds_per_call([&] {
                   sink += slide_batch(many, yields, std::span(&polarity, 1), FixedYieldOptions{}, jobs)[0].slip;
               }) / 50.0);
     }
@@ -149,7 +156,9 @@ void print_speed(std::vector<SkippingMotion>& motions)
 /// Relative slip error of SLAMMER's scheme, mean of the absolute values over the records.
 void print_bias(const std::vector<SkippingMotion>& motions)
 {
-    std::printf("\nSLAMMER's scheme: |slip error| in %% of the exact slip, mean over the records; the record and its subdivisions\n%8s", "a_y/peak");
+    std::printf("\nSLAMMER's scheme: |slip error| in %% of the exact slip, mean over the records; the record and its "
+                "subdivisions\n%8s",
+                "a_y/peak");
     for (const int parts : {1, 2, 4, 8}) std::printf("   dt/%d     ", parts);
     std::printf("\n");
     for (const double ratio : {0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95}) {
