@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <numbers>
 #include <random>
@@ -61,14 +62,20 @@ double peak(const GroundMotion& motion)
     return largest;
 }
 
-/// Best of the repetitions, each of at least 50 ms [s per call].
+struct Cost {
+    double cpu = 1e300;  ///< of all threads [s per call]
+    double wall = 1e300; ///< [s per call]
+};
+
+/// Best of the repetitions, each of at least 50 ms.
 template <typename Work>
-double seconds_per_call(Work&& work)
+Cost cost_per_call(Work&& work)
 {
     using Clock = std::chrono::steady_clock;
-    double best = 1e300;
-    for (int repetition = 0; repetition < 7; ++repetition) {
+    Cost best;
+    for (int repetition = 0; repetition < 9; ++repetition) {
         const auto start = Clock::now();
+        const std::clock_t cpu_start = std::clock();
         int calls = 0;
         double elapsed = 0.0;
         do {
@@ -76,7 +83,8 @@ double seconds_per_call(Work&& work)
             ++calls;
             elapsed = std::chrono::duration<double>(Clock::now() - start).count();
         } while (elapsed < 0.05);
-        best = std::min(best, elapsed / calls);
+        best.wall = std::min(best.wall, elapsed / calls);
+        best.cpu = std::min(best.cpu, static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC / calls);
     }
     return best;
 }
@@ -98,7 +106,7 @@ void print_speed(std::vector<SkippingMotion>& motions)
         }
     };
     const auto fixed = [&](Scan scan, bool two_way) {
-        return seconds_per_call([&] {
+        return cost_per_call([&] {
             each([&](const SkippingMotion& m, double a_y) {
                 return slide_fixed_yield(m, fixed_yield(a_y, two_way ? a_y : FixedYield::never_slides),
                                          {polarity, 60.0, scan})
@@ -106,24 +114,25 @@ void print_speed(std::vector<SkippingMotion>& motions)
             });
         });
     };
-    const double plain = fixed(Scan::every_sample, false);
-    const auto print = [&](const char* name, double seconds) {
-        std::printf("%-44s %8.3f %10.2f\n", name, 1e9 * seconds / runs, plain / seconds);
+    const Cost plain = fixed(Scan::every_sample, false);
+    const auto print = [&](const char* name, const Cost& cost, double times = 1.0) {
+        std::printf("%-44s %8.3f %8.3f %8.2f\n", name, 1e9 * cost.cpu / (runs * times),
+                    1e9 * cost.wall / (runs * times), plain.wall / cost.wall * times);
     };
-    std::printf("%zu records, %zu samples, %zu yields of 0.05 to 0.95 of the peak\n\n", motions.size(), samples,
-                std::size(ratios));
-    std::printf("%-44s %8s %10s\n", "integrator", "ns", "x plain");
+    std::printf("%zu records, %zu samples, %zu yields of 0.05 to 0.95 of the peak; ns per sample and yield\n\n",
+                motions.size(), samples, std::size(ratios));
+    std::printf("%-44s %8s %8s %8s\n", "integrator", "CPU", "wall", "x plain");
     print("exact, every sample (plain)", plain);
     print("exact, skipping blocks", fixed(Scan::skip_blocks, false));
     print("exact, every sample, two-way", fixed(Scan::every_sample, true));
     print("exact, skipping blocks, two-way", fixed(Scan::skip_blocks, true));
-    print("SLAMMER's scheme", seconds_per_call([&] {
+    print("SLAMMER's scheme", cost_per_call([&] {
               each([&](const SkippingMotion& m, double a_y) {
                   return slammer_slip(m.motion().accel_h, m.motion().dt, a_y);
               });
           }));
     const auto general = [&](bool skipping) {
-        return seconds_per_call([&] {
+        return cost_per_call([&] {
             each([&](const SkippingMotion& m, double a_y) {
                 RigidBlock block;
                 block.mass = 1.0;
@@ -145,10 +154,10 @@ void print_speed(std::vector<SkippingMotion>& motions)
     for (int i = 0; i < 50; ++i) many.insert(many.end(), motions.begin(), motions.end());
     for (const int jobs : {1, thread_count(0)}) {
         const std::string name = "batch, skipping blocks, threads: " + std::to_string(jobs);
-        print(name.c_str(),
-              seconds_per_call([&] {
-                  sink += slide_batch(many, yields, std::span(&polarity, 1), FixedYieldOptions{}, jobs)[0].slip;
-              }) / 50.0);
+        const auto batch = [&] {
+            sink += slide_batch(many, yields, std::span(&polarity, 1), FixedYieldOptions{}, jobs)[0].slip;
+        };
+        print(name.c_str(), cost_per_call(batch), 50.0);
     }
     if (sink == 0.123) std::printf("\n");
 }
