@@ -53,7 +53,10 @@ std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const
     if (!scene.reservoir) return stations;
     const double s = faces.parameter_of_level(scene.reservoir->level);
     if (!(s > 0.0 && s < 1.0)) return stations;
-    const double sliver = 0.3 * heights.size_at(s * faces.height()) / faces.height();
+    // A water that is meshed itself must have its surface on a row; loads alone do not need one.
+    const bool meshed_water =
+        scene.reservoir->model == ReservoirModel::acoustic || scene.reservoir->model == ReservoirModel::automatic;
+    const double sliver = (meshed_water ? 0.02 : 0.3) * heights.size_at(s * faces.height()) / faces.height();
     const auto next = std::lower_bound(stations.begin(), stations.end(), s);
     if (*next - s > sliver && s - *(next - 1) > sliver) stations.insert(next, s);
     return stations;

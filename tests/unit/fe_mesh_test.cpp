@@ -3,6 +3,7 @@
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/mesh/grading.hpp"
 #include "fe2d/mesh/quality.hpp"
+#include "fe2d/mesh/reservoir_mesh.hpp"
 #include "fe_scenes.hpp"
 #include "scene/section.hpp"
 
@@ -205,6 +206,84 @@ TEST(FeMesh, grading_is_geometric_and_its_inverse_is_exact)
     const auto positions = graded_positions({0.0, 7.0, 30.0}, grading);
     EXPECT_EQ(std::count(positions.begin(), positions.end(), 7.0), 1);
     EXPECT_EQ(positions.back(), 30.0);
+}
+
+// The water's nodes on the face lie on the dam's, the chains close the outline with the water on their left, the area is that of the
+// polygon: level x length plus the triangle over an inclined face.
+TEST(FeMesh, reservoir_block_sits_on_the_face)
+{
+    for (const double lean : {0.0, 6.0}) {
+        Scene scene = test::reference_dam();
+        scene.section.polygon[4].x = lean;
+        scene.reservoir = Reservoir{};
+        scene.reservoir->level = 57.3;
+        scene.reservoir->length = 150.0;
+        const Mesh structure = build_mesh(scene);
+        const ReservoirMesh water = build_reservoir_mesh(scene, structure);
+        EXPECT_NEAR(water.depth, 57.3, 1e-9);
+        ASSERT_EQ(water.dam_face.size(), water.face.size());
+        for (std::size_t i = 0; i < water.face.size(); ++i)
+            EXPECT_EQ(water.mesh.nodes[water.face[i]], structure.nodes[water.dam_face[i]]);
+        EXPECT_NEAR(region_area(water.mesh, Region::reservoir), 57.3 * 150.0 + 0.5 * 57.3 * lean * 57.3 / 62.5, 1e-8);
+        const auto open = open_edges(water.mesh);
+        std::size_t found = 0;
+        for (const NodeChain& chain : {water.face, water.surface, water.far_end, water.bottom})
+            found += static_cast<std::size_t>(chain_edges_found(chain, open));
+        EXPECT_EQ(found, open.size());
+    }
+}
+
+TEST(FeMesh, water_above_the_crest_stands_over_its_upstream_end)
+{
+    Scene scene = test::reference_dam();
+    scene.reservoir = Reservoir{};
+    scene.reservoir->level = 66.0;
+    const Mesh structure = build_mesh(scene);
+    const ReservoirMesh water = build_reservoir_mesh(scene, structure);
+    EXPECT_NEAR(water.depth, 66.0, 1e-9);
+    EXPECT_EQ(water.dam_face.size(), structure.upstream_face.size());
+    EXPECT_LT(water.dam_face.size(), water.face.size());
+    EXPECT_NEAR(region_area(water.mesh, Region::reservoir), 66.0 * 2.4 * 66.0, 1e-8);
+}
+
+// A sweep over sections nobody picked by hand: kinks on both faces, batter, inclined base, pointed and wide crests, curtains, levels.
+// Each mesh must conform, fill its section and hold every vertex as a node.
+TEST(FeMesh, many_sections)
+{
+    std::uint32_t state = 12345;
+    const auto between = [&](double low, double high) {
+        state = 1664525u * state + 1013904223u;
+        return low + (high - low) * (state >> 8) / 16777216.0;
+    };
+    for (int k = 0; k < 60; ++k) {
+        Scene scene = test::reference_dam();
+        const double height = between(5, 200), base = height * between(0.5, 1.2),
+                     batter = k % 2 ? base * between(0, 0.2) : 0.0;
+        const double crest = k % 5 ? base * between(0.05, 0.3) : 0.0, toe_y = k % 3 ? 0.0 : height * between(-0.1, 0.1);
+        const double kink = between(0.2, 0.9), upstream_kink = between(0.2, 0.8), bulge = between(0.9, 1.1);
+        const double crest_end = batter + crest;
+        scene.section.polygon = {
+            {0, 0}, {base, toe_y}, {base + (crest_end - base) * kink * bulge, toe_y + kink * (height - toe_y)}};
+        if (crest > 0.0) scene.section.polygon.push_back({crest_end, height});
+        scene.section.polygon.push_back({batter, height});
+        if (batter > 0.0)
+            scene.section.polygon.push_back({batter * std::min(1.0, 1.2 * upstream_kink), upstream_kink * height});
+        if (k % 4 < 2) {
+            scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 4.0 * base, .depth = 1.5 * height};
+            if (k % 4 == 1)
+                scene.curtain = Curtain{.distance = between(0, 0.3) * base,
+                                        .depth = between(0.1, 0.6) * height,
+                                        .thickness = between(0.3, 2),
+                                        .young_modulus = {}};
+        }
+        SCOPED_TRACE(k);
+        const Mesh mesh = build_mesh(scene, {.upstream = between(0, 2), .downstream = between(0, 5)});
+        expect_conforming(mesh);
+        EXPECT_NEAR(region_area(mesh, Region::dam), area(scene.section), 1e-10 * area(scene.section));
+        for (const Point v : scene.section.polygon)
+            EXPECT_TRUE(std::any_of(mesh.nodes.begin(), mesh.nodes.end(),
+                                    [&](Point p) { return std::hypot(p.x - v.x, p.y - v.y) < 1e-9 * height; }));
+    }
 }
 
 } // namespace
