@@ -1,5 +1,8 @@
 #include "cli/rigid_model.hpp"
 
+#include "core/units.hpp"
+#include "records/measure/measures.hpp"
+
 namespace damslip::cli {
 
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
@@ -31,6 +34,22 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
     options.polarity = polarity;
     options.history = history;
     return sliding::slide(motion, model.stages, options);
+}
+
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model)
+{
+    Record horizontal;
+    horizontal.dt = motion.dt;
+    horizontal.acceleration = motion.accel_h;
+    const records::Measures m = records::measure(horizontal);
+    sliding::RegressionInputs inputs;
+    inputs.yield_coefficient = model.downstream.law.constant / units::standard_gravity;
+    inputs.pga_g = m.pga / units::standard_gravity;
+    inputs.arias_m_s = m.arias_intensity;
+    inputs.pgv_cm_s = m.pgv / units::cm;
+    inputs.mean_period_s = m.mean_period;
+    inputs.magnitude = pair.files.magnitude;
+    return inputs;
 }
 
 GroundMotion horizontal_only(GroundMotion motion)

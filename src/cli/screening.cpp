@@ -47,6 +47,29 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, cons
     return rows;
 }
 
+std::string joined(const std::vector<std::string>& sentences)
+{
+    std::string out;
+    for (const std::string& sentence : sentences) out += (out.empty() ? "" : "; ") + sentence;
+    return out;
+}
+
+std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
+                                           const std::vector<RecordPair>& records)
+{
+    std::vector<RegressionRow> rows;
+    const auto metres = [](const std::optional<double>& value_cm) {
+        return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
+    };
+    for (const RecordPair& pair : records)
+        for (const sliding::RegressionResult& r :
+             sliding::evaluate_all(regression_inputs(pair, ground_motion(scene, pair), model)))
+            if (r.status != sliding::RegressionStatus::missing_input)
+                rows.push_back({pair.files.name, std::string(r.regression->name), metres(r.median_cm),
+                                metres(r.minus_sd_cm), metres(r.plus_sd_cm), joined(r.warnings)});
+    return rows;
+}
+
 SetStatistics statistics_of(const std::string& quantity, const std::vector<std::pair<std::string, double>>& slip,
                             const std::optional<double>& allowable)
 {
@@ -158,6 +181,7 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
     s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
     for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
     add_equilibrium(scene, seepage, s);
+    s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     add_warnings(scene, s, s.warnings);
     return s;

@@ -212,6 +212,7 @@ struct Grid {
     Axes axes;
     std::vector<RigidModel> models;
     std::vector<GroundMotion> motions;
+    std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
     std::vector<std::string> records;
 
     std::size_t size() const { return models.size() * motions.size() * axes.polarity.size() * axes.method.size(); }
@@ -221,12 +222,18 @@ struct Grid {
                           axes.reservoir.size() +
                       g.reservoir];
     }
+    sliding::RegressionInputs inputs_of(const GridIndex& g) const
+    {
+        sliding::RegressionInputs inputs = measured[g.record * axes.scale.size() + g.scale];
+        inputs.yield_coefficient = model(g).downstream.law.constant / units::standard_gravity;
+        return inputs;
+    }
     const GroundMotion& motion(const GridIndex& g) const { return motions[g.record * axes.scale.size() + g.scale]; }
 };
 
 Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
 {
-    Grid grid{axes, {}, {}, {}};
+    Grid grid{axes, {}, {}, {}, {}};
     SeepageSource source;
     grid.models.resize(axes.friction.size() * axes.level.size() * axes.uplift.size() * axes.reservoir.size());
     parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
@@ -242,7 +249,10 @@ Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPai
     });
     for (const RecordPair& pair : records) {
         grid.records.push_back(pair.files.name);
-        for (const double scale : axes.scale) grid.motions.push_back(ground_motion(scene, pair, scale));
+        for (const double scale : axes.scale) {
+            grid.motions.push_back(ground_motion(scene, pair, scale));
+            grid.measured.push_back(regression_inputs(pair, grid.motions.back(), grid.models.front()));
+        }
     }
     return grid;
 }
@@ -252,6 +262,18 @@ double peak(const std::vector<double>& a)
     double p = 0.0;
     for (const double x : a) p = std::max(p, std::abs(x));
     return p;
+}
+
+/// Median and band of a regression in the columns of a row.
+std::vector<Cell> regression_cells(const sliding::Regression& regression, const sliding::RegressionInputs& inputs)
+{
+    const sliding::RegressionResult r = sliding::evaluate(regression, inputs);
+    const auto metres = [](const std::optional<double>& value_cm) {
+        return value_cm ? Cell(*value_cm * units::cm) : Cell();
+    };
+    std::string status;
+    for (const std::string& warning : r.warnings) status += (status.empty() ? "" : "; ") + warning;
+    return {metres(r.median_cm), metres(r.median_cm), Cell{}, metres(r.minus_sd_cm), metres(r.plus_sd_cm), status};
 }
 
 std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)

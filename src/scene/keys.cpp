@@ -481,6 +481,8 @@ std::vector<KeyGroup> motion_groups()
          word("unit", "the file says", "unit of the samples where the file does not say: g, m/s2, cm/s2, gal, mg",
               "\"g\"", at(&R::unit)),
          number("dt", seconds, Range::above(0), "the file says", "time step of one-column files", "0.02", at(&R::dt)),
+         number("magnitude", none, Range::between(2, 10), "none",
+                "moment magnitude of the earthquake, for the regressions that ask for it", "6.9", at(&R::magnitude)),
          number("scale", none, Range::at_least(0), "1", "factor on this record, on top of motion.scale", "1.2",
                 at(&R::scale))}));
     groups.push_back(group(
@@ -545,11 +547,11 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          number("force_x", line_force, Range::any(), "0", "positive downstream", "50", at(&F::force_x)),
          number("force_y", line_force, Range::any(), "0", "positive up", "-200", at(&F::force_y))}));
     append(motion_groups());
-    groups.push_back(group("criteria", "What is allowed.", &Scene::criteria,
-                           {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0),
-                                   "none", "slip verdicts compare with this", "0.1", at(&Criteria::allowable_slip)),
-                            word("document", "none", "shipped set of required safety factors",
-                                 "\"cadam3d\"", at(&Criteria::document))}));
+    groups.push_back(group(
+        "criteria", "What is allowed.", &Scene::criteria,
+        {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0), "none",
+                "slip verdicts compare with this", "0.1", at(&Criteria::allowable_slip)),
+         word("document", "none", "shipped set of required safety factors", "\"cadam3d\"", at(&Criteria::document))}));
     groups.push_back(list_group<Combination>(
         "combination",
         "A load combination of the limit equilibrium. None given: usual, seismic and post-seismic are made from the "

@@ -131,9 +131,10 @@ struct RecordFiles {
     std::string name;
     std::filesystem::path horizontal; ///< resolved against the scene's folder
     std::optional<std::filesystem::path> vertical;
-    std::string unit;         ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
-    std::optional<double> dt; ///< of one-column files [s]
-    double scale = 1.0;       ///< of this pair, on top of motion.scale [-]
+    std::string unit;                ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
+    std::optional<double> dt;        ///< of one-column files [s]
+    std::optional<double> magnitude; ///< moment magnitude, for the regressions that ask for it [-]
+    double scale = 1.0;              ///< of this pair, on top of motion.scale [-]
 };
 
 struct Motion {
