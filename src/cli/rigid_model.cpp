@@ -26,14 +26,25 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     return model;
 }
 
+namespace {
+
+sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::HistoryOutput history)
+{
+    return {scene.sliding, polarity, history};
+}
+
+} // namespace
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history)
+{
+    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+}
+
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history)
 {
-    sliding::SlideOptions options;
-    options.sliding = scene.sliding;
-    options.polarity = polarity;
-    options.history = history;
-    return sliding::slide(motion, model.stages, options);
+    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
 }
 
 sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model)

@@ -2,6 +2,7 @@
 
 #include "cli/run_inputs.hpp"
 #include "scene/scene.hpp"
+#include "sliding/block/skipping_motion.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/empirical/regression.hpp"
@@ -24,11 +25,14 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
                             std::optional<CrackRule> crack = std::nullopt);
 
 /// Slip of the model under a motion with the scene's [sliding] options.
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history = sliding::HistoryOutput::none);
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history = sliding::HistoryOutput::none);
 
 /// What the regressions ask for, measured from the scaled horizontal component; magnitude as the scene gives it.
-sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model);
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion,
+                                            const RigidModel& model);
 
 /// The same motion without its vertical component.
 GroundMotion horizontal_only(GroundMotion motion);

@@ -211,7 +211,8 @@ GridIndex grid_index(const Axes& axes, std::size_t records, std::size_t id)
 struct Grid {
     Axes axes;
     std::vector<RigidModel> models;
-    std::vector<GroundMotion> motions;
+    std::vector<sliding::SkippingMotion> motions,
+        horizontal_motions;                          ///< of each record and scale, with and without the vertical
     std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
     std::vector<std::string> records;
 
@@ -228,7 +229,14 @@ struct Grid {
         inputs.yield_coefficient = model(g).downstream.law.constant / units::standard_gravity;
         return inputs;
     }
-    const GroundMotion& motion(const GridIndex& g) const { return motions[g.record * axes.scale.size() + g.scale]; }
+    const sliding::SkippingMotion& motion(const GridIndex& g) const
+    {
+        return motions[g.record * axes.scale.size() + g.scale];
+    }
+    const sliding::SkippingMotion& horizontal(const GridIndex& g) const
+    {
+        return horizontal_motions[g.record * axes.scale.size() + g.scale];
+    }
 };
 
 Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
@@ -250,18 +258,13 @@ Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPai
     for (const RecordPair& pair : records) {
         grid.records.push_back(pair.files.name);
         for (const double scale : axes.scale) {
-            grid.motions.push_back(ground_motion(scene, pair, scale));
-            grid.measured.push_back(regression_inputs(pair, grid.motions.back(), grid.models.front()));
+            const GroundMotion motion = ground_motion(scene, pair, scale);
+            grid.measured.push_back(regression_inputs(pair, motion, grid.models.front()));
+            grid.horizontal_motions.emplace_back(horizontal_only(motion));
+            grid.motions.emplace_back(motion);
         }
     }
     return grid;
-}
-
-double peak(const std::vector<double>& a)
-{
-    double p = 0.0;
-    for (const double x : a) p = std::max(p, std::abs(x));
-    return p;
 }
 
 /// Median and band of a regression in the columns of a row.
@@ -280,7 +283,6 @@ std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)
 {
     const GridIndex g = grid_index(grid.axes, grid.records.size(), id);
     const RigidModel& model = grid.model(g);
-    const GroundMotion& motion = grid.motion(g);
     const int polarity = grid.axes.polarity[g.polarity];
     const std::string& method = grid.axes.method[g.method];
     const double a_y = model.downstream.law.constant;
@@ -295,15 +297,17 @@ std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)
                           method,
                           a_y,
                           a_y / units::standard_gravity,
-                          peak(motion.accel_h)};
+                          grid.inputs_of(g).pga_g * units::standard_gravity};
     const auto rest = [&row](std::vector<Cell> cells) {
         row.insert(row.end(), cells.begin(), cells.end());
         return row;
     };
-    if (method == "rigid-v" && motion.accel_v.empty())
+    if (method == "rigid-v" && !grid.motion(g).has_vertical())
         return rest({Cell{}, Cell{}, Cell{}, Cell{}, Cell{}, std::string("no vertical component")});
+    if (const sliding::Regression* regression = sliding::find_regression(method))
+        return rest(regression_cells(*regression, grid.inputs_of(g)));
     const sliding::SlideResult r =
-        slide_model(scene, model, method == "rigid" ? horizontal_only(motion) : motion, polarity);
+        slide_model(scene, model, method == "rigid" ? grid.horizontal(g) : grid.motion(g), polarity);
     return rest({r.slip, r.max_slip, r.upstream_slip, Cell{}, Cell{}, status_word(r.status)});
 }
 
@@ -311,7 +315,9 @@ std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)
 
 std::vector<std::string> sweep_methods()
 {
-    return {"rigid", "rigid-v"};
+    std::vector<std::string> methods{"rigid", "rigid-v"};
+    for (const sliding::Regression& r : sliding::regressions()) methods.emplace_back(r.id);
+    return methods;
 }
 
 int sweep(const SweepArguments& arguments, const Streams& streams)
