@@ -29,6 +29,14 @@ TEST(FeDamping, rayleigh_constants_of_table_5_5_corrected)
     EXPECT_NEAR(c.stiffness, 0.0041555, 5e-8);
 }
 
+// Table 6-6 prints 0.777 for 1.54 and 6.25 Hz, 0.916 for 1.91 and 6.21 Hz, frequencies rounded to 0.01 Hz (half a percent).
+TEST(FeDamping, rayleigh_constants_of_table_6_6)
+{
+    EXPECT_NEAR(fe2d::rayleigh_constants(0.05, 1.54 * hz, 6.25 * hz).mass, 0.777, 0.004);
+    EXPECT_NEAR(fe2d::rayleigh_constants(0.05, 1.91 * hz, 6.21 * hz).mass, 0.916, 0.004);
+    EXPECT_NEAR(fe2d::rayleigh_constants(0.05, 1.54 * hz, 6.25 * hz).stiffness, 0.002, 5e-4);
+}
+
 TEST(FeDamping, ratio_is_met_at_both_frequencies_and_lowest_at_their_geometric_mean)
 {
     const double a = 3.6 * hz, b = 18.0 * hz, middle = std::sqrt(a * b);

@@ -3,9 +3,10 @@
 #include "exact/damped_oscillator.hpp"
 #include "exact/time_schemes.hpp"
 #include "fe2d/damping/deformation_only.hpp"
+#include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"
-#include "fe2d/time/condensation.hpp"
-#include "fe2d/time/energy.hpp"
+#include "fe2d/model/static_loads.hpp"
+#include "fe2d/time/integrate.hpp"
 #include "verification/fe_time_models.hpp"
 
 #include <Eigen/Cholesky>
@@ -152,8 +153,107 @@ std::vector<Check> energy_closure()
 std::vector<Check> rayleigh_table()
 {
     const auto c = fe2d::rayleigh_constants(0.05, 2.0 * pi * 1.54, 2.0 * pi * 2.29);
+    const auto modified = fe2d::rayleigh_constants(0.05, 2.0 * pi * 1.54, 2.0 * pi * 6.25);
     return {{"a_M, 5 % at 1.54 and 2.29 Hz", "1/s", 0.579, c.mass, 5e-4, Measure::absolute},
-            {"b_K, 5 % at 1.54 and 2.29 Hz", "s", 0.0042, c.stiffness, 5e-5, Measure::absolute}};
+            {"b_K, 5 % at 1.54 and 2.29 Hz", "s", 0.0042, c.stiffness, 5e-5, Measure::absolute},
+            {"a_M, 5 % at 1.54 and 6.25 Hz (table 6-6)", "1/s", 0.777, modified.mass, 2e-3, Measure::absolute},
+            {"b_K, 5 % at 1.54 and 6.25 Hz (table 6-6)", "s", 0.002, modified.stiffness, 5e-4, Measure::absolute}};
+}
+
+/// (2-58) written out on its own for steady harmonic ground motion of 3 Hz, whose spectrum is the transmissibility.
+std::vector<Check> modified_rayleigh_equation()
+{
+    const auto spectrum = [](double frequency, double ratio) {
+        return exact::DampedOscillator{frequency, ratio}.transmissibility(2.0 * pi * 3.0);
+    };
+    std::vector<fe2d::ModalMass> modes;
+    for (const auto& [hertz, mass] : {std::pair{3.6, 800e3}, {8.4, 450e3}, {10.6, 60e3}, {14.9, 190e3}, {15.9, 120e3}})
+        modes.push_back({2.0 * pi * hertz, mass});
+    const auto result = fe2d::modified_rayleigh(modes, spectrum, {.ratio = 0.05, .total_mass = 2e6});
+    const double wi = modes[0].frequency, wj = result.second_frequency;
+    double imbalance = 0.0, wanted = 0.0;
+    for (const auto& mode : modes) {
+        const double w = mode.frequency, ratio = 0.05 * (wi * wj / w + w) / (wi + wj);
+        imbalance += (spectrum(w, ratio) - spectrum(w, 0.05)) * mode.effective_mass_x;
+        wanted += spectrum(w, 0.05) * mode.effective_mass_x;
+    }
+    const std::vector<fe2d::ModalMass> two = {{5.0, 7.0}, {12.0, 2.0}};
+    return {{"base shear difference over base shear", "-", 0.0, imbalance / wanted, 1e-11, Measure::absolute},
+            {"two modes: second frequency", "rad/s", 12.0,
+             fe2d::modified_rayleigh(two, spectrum, {.ratio = 0.05, .total_mass = 9.0}).second_frequency, 1e-9,
+             Measure::relative}};
+}
+
+/// Two lattices, the lower one massless, standing apart: r, w of the upper one over the lower.
+std::vector<Check> deformation_only()
+{
+    const Index n_dam = 24, base = 4;
+    const fe2d::LinearSystem dam = lattice({.nx = base, .ny = 6}),
+                             rock = lattice({.nx = base, .ny = 3, .massless_rows = 3});
+    const Index n = n_dam + rock.size();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index k = 0; k < n_dam; ++k)
+        for (fe2d::SparseMatrix::InnerIterator entry(dam.mass, k); entry; ++entry)
+            entries.emplace_back(entry.row(), k, entry.value());
+    fe2d::SparseMatrix mass(n, n);
+    mass.setFromTriplets(entries.begin(), entries.end());
+    VectorXd rigid = VectorXd::Zero(n), weights = VectorXd::Zero(n), tied = VectorXd::Zero(n);
+    rigid.head(n_dam).setOnes();
+    weights.head(base).setConstant(0.25);
+    weights.tail(base).setConstant(-0.25);
+    tied = uneven_vector(n, 0.3);
+    tied.tail(base) = tied.head(base);
+    const fe2d::LowRank correction = fe2d::deformation_only_correction(1.8, mass, rigid, weights);
+    VectorXd slipping = 1.8 * (mass * rigid), deforming = 1.8 * (mass * tied);
+    const double full = slipping.norm(), work = tied.dot(deforming);
+    correction.add_product(rigid, 1.0, slipping);
+    correction.add_product(tied, 1.0, deforming);
+    return {{"force under uniform slip over that of a_M M", "-", 0.0, slipping.norm() / full, 1e-14, Measure::absolute},
+            {"dissipation of a tied motion over that of a_M M", "-", 1.0, tied.dot(deforming) / work, 1e-13,
+             Measure::absolute}};
+}
+
+/// The thesis' dam on its rock, coarsely meshed, full reservoir as added mass, both components.
+std::vector<Check> condensed_rock()
+{
+    Scene scene;
+    scene.section.polygon = {{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
+    scene.dam.density = 2500.0;
+    scene.dam.young_modulus = 25e9;
+    scene.foundation.emplace();
+    scene.foundation->material.young_modulus = 30e9;
+    scene.foundation->width = 300.0;
+    scene.foundation->depth = 100.0;
+    scene.reservoir.emplace();
+    scene.reservoir->level = 62.5;
+    scene.mesh.size = 6.0;
+    const fe2d::Model model = fe2d::build_model(
+        scene, {.added_mass = [](Point p, double) { return 875.0 * std::sqrt(62.5 * std::max(0.0, 62.5 - p.y)); }});
+    GroundMotion motion;
+    motion.dt = 0.01;
+    for (int k = 0; k <= 400; ++k) {
+        motion.accel_h.push_back(2.0 * std::sin(0.05 * k) * std::sin(0.21 * k));
+        motion.accel_v.push_back(1.0 * std::sin(0.04 * k) * std::sin(0.33 * k));
+    }
+    fe2d::RunOptions options;
+    options.damping.constants = {1.9, 0.00075};
+    const auto loads = fe2d::static_loads(scene, model);
+    options.static_load =
+        fe2d::sum_of(loads.gravity, model.dofs.count) + fe2d::sum_of(loads.impounding, model.dofs.count);
+    const auto condensed = fe2d::integrate(model, motion, options);
+    options.rock = fe2d::RockTreatment::whole;
+    const auto whole = fe2d::integrate(model, motion, options);
+    double difference = 0.0, largest = 0.0;
+    for (std::size_t k = 0; k < whole.rows.size(); ++k) {
+        difference = std::max(difference, std::abs(whole.rows[k].crest_x - condensed.rows[k].crest_x));
+        largest = std::max(largest, std::abs(whole.rows[k].crest_x));
+    }
+    return {{"largest difference of the crest's motion over its largest value", "-", 1e-12, difference / largest, 0.0,
+             Measure::upper_bound},
+            {"energy imbalance over the largest energy, rock condensed", "-", 1e-12, condensed.largest_imbalance, 0.0,
+             Measure::upper_bound},
+            {"unknowns, condensed over whole", "-", 1.0,
+             static_cast<double>(condensed.unknowns) / static_cast<double>(whole.unknowns), 0.0, Measure::upper_bound}};
 }
 
 } // namespace
@@ -178,7 +278,19 @@ void add_fe_time_cases(Registry& registry)
          "Identity derived in fe2d/time/energy.hpp", "Round-off of 500 steps", energy_closure});
     registry.push_back({"fe2d.damping.rayleigh",
                         "Rayleigh constants of thesis table 5-5, whose printed a_M = 0.422 is wrong",
-                        "(2-56), (2-57) by hand: 0.579 1/s and 0.0042 s", "Digits printed", rayleigh_table});
+                        "(2-56), (2-57) by hand: 0.579 1/s and 0.0042 s; table 6-6", "Digits printed", rayleigh_table});
+    registry.push_back(
+        {"fe2d.damping.modified-rayleigh", "Modified Rayleigh constants leave the base shear of all modes unchanged",
+         "Spears & Jensen (2012), (2-58), evaluated again; two modes must give ordinary Rayleigh damping",
+         "Root bisected to 1e-12", modified_rayleigh_equation});
+    registry.push_back({"fe2d.damping.deformation-only",
+                        "Damping of the deformation only does not feel uniform slip and damps a tied dam as a_M M does",
+                        "C_M = a_M (I - r wᵀ)ᵀ M (I - r wᵀ) with wᵀr = 1", "Round-off", deformation_only});
+    registry.push_back(
+        {"fe2d.time.condensed-rock",
+         "Massless rock condensed onto the base gives the run of the whole rock, stiffness damping included",
+         "K_c = K_cc - K_ci K_ii⁻¹ K_ic and b_K K_c, exact from equilibrium (fe2d/time/condensation.hpp)",
+         "Round-off of 400 steps", condensed_rock});
 }
 
 } // namespace damslip::verification

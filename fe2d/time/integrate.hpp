@@ -1,0 +1,44 @@
+#pragma once
+
+#include "fe2d/damping/damping_choice.hpp"
+#include "fe2d/model/model.hpp"
+#include "fe2d/time/history.hpp"
+#include "fe2d/time/structure_system.hpp"
+#include "records/record.hpp"
+
+#include <functional>
+
+namespace damslip::fe2d {
+
+/// Where a run stands, for a progress line.
+struct RunProgress {
+    double time = 0.0, end = 0.0; ///< [s]
+    std::int64_t step = 0, steps = 0;
+};
+
+enum class RunAnswer { go_on, stop };
+
+/// Options of a run on a tied base.
+struct RunOptions {
+    Scheme scheme = {-0.05, 0.55, 0.275625};    ///< hht(-0.05)
+    std::optional<double> dt;                   ///< [s], a whole part of the motion's step; default: that step
+    DampingChoice damping;                      ///< default: none
+    Eigen::VectorXd static_load;                ///< on the model's unknowns, constant [N/m]; empty: none
+    Eigen::Vector2d static_resultant{0.0, 0.0}; ///< of the static loads on the dam, fixed nodes included [N/m]
+    double free_vibration = 0.0;                ///< time after the motion's end without ground acceleration [s], >= 0
+    int keep_every = 1; ///< steps per kept row of the history, >= 1; peaks and energies see every step
+    RockTreatment rock = RockTreatment::condensed;
+    SolverOptions solver;
+    std::function<RunAnswer(const RunProgress&)> progress; ///< asked after every step; empty: none
+};
+
+/// Linear earthquake run of a dam tied to its base, from static equilibrium at rest.
+///
+/// The start is K u₀ = R_static, so nothing moves before the ground does. Motion relative to the ground; massless rock is
+/// condensed exactly. Every step is entered in the energy ledger.
+/// @param model  with Base::tied
+/// @throws InputError when dt is no whole part of the motion's step, or unstable for the scheme.
+///         Everything else that can go wrong is in History::status.
+History integrate(const Model& model, const GroundMotion& motion, const RunOptions& options);
+
+} // namespace damslip::fe2d
