@@ -1,0 +1,63 @@
+#pragma once
+
+#include "fe2d/contact/contact_state.hpp"
+
+#include <Eigen/Core>
+
+/// Contact with Coulomb friction between m pairs of nodes as a small dense problem: everything linear (structure, rock,
+/// inertia, damping) has been eliminated. Vectors of length 2m: the m normal components first, then the m tangential
+/// ones.
+namespace damslip::fe2d {
+
+enum class Separation {
+    allowed, ///< g_N >= 0, λ_n >= 0: the joint opens
+    none     ///< g_N = 0, λ_n of any sign; pairs in tension carry no shear. A modelling shortcut: it lowers the slip,
+             ///< because the compressed pairs then carry more than the resultant
+};
+
+/// Strength of the pairs.
+struct ContactLaw {
+    Eigen::VectorXd friction; ///< Coulomb mu of each pair [-], >= 0
+    Eigen::VectorXd cohesion; ///< c times the pair's area [N/m], >= 0
+    Separation separation = Separation::allowed;
+
+    Eigen::Index pairs() const { return friction.size(); }
+    /// c + mu λ_n, of a pair in compression [N/m].
+    double strength(Eigen::Index pair, double normal_force) const
+    {
+        return cohesion[pair] + friction[pair] * (normal_force > 0.0 ? normal_force : 0.0);
+    }
+};
+
+/// The law of m equal pairs.
+ContactLaw uniform_law(Eigen::Index pairs, double friction, double cohesion_force = 0.0);
+
+/// Contact forces follow the displacements across the plane:
+///
+///     λ = λ⁰ + V x,   x = (opening g_N, slip s of this step)
+///
+/// V is the stiffness of the structure seen from the plane, symmetric, positive semi-definite [N/m²]; λ⁰ are the forces
+/// that would hold all pairs shut and stuck. The Delassus form g = g* + W λ is the same with V = W⁻¹, λ⁰ = -V g*. This
+/// form also exists for a dam that nothing but contact holds (statics): V is then singular, W does not exist.
+struct ContactProblem {
+    const Eigen::MatrixXd& stiffness;   ///< V
+    const Eigen::VectorXd& stuck_force; ///< λ⁰ [N/m]
+    const ContactLaw& law;
+};
+
+/// A solution, or the state of an iteration.
+struct ContactSolution {
+    ContactStates states;         ///< m; on entry to a solver: where to start
+    Eigen::VectorXd displacement; ///< x [m]
+    Eigen::VectorXd force;        ///< λ [N/m]
+};
+
+/// How far a pair is from its state's inequalities, as a force [N/m]; displacements count with the pair's own stiffness
+/// V_ii. Zero when they hold.
+double violation(const ContactProblem& problem, const ContactSolution& solution, Eigen::Index pair);
+
+/// Largest violation of the contact conditions, whatever the states say (they are re-derived from force and
+/// displacement): the natural residual of g_N >= 0 ⟂ λ_n >= 0 and of Coulomb's law [N/m].
+double complementarity_residual(const ContactProblem& problem, const ContactSolution& solution);
+
+} // namespace damslip::fe2d

@@ -1,0 +1,145 @@
+#include "fe2d/contact/contact_solver.hpp"
+
+#include "fe2d/contact/gauss_seidel.hpp"
+#include "fe2d/contact/lemke.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+
+namespace {
+
+/// FNV-1a; equal states give equal numbers on every machine.
+std::uint64_t fingerprint(const ContactStates& states)
+{
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const ContactState state : states) hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
+    return hash;
+}
+
+/// Remembers which sets of states have been tried.
+class Visited {
+public:
+    bool seen_before(const ContactStates& states)
+    {
+        const std::uint64_t mark = fingerprint(states);
+        if (std::find(marks_.begin(), marks_.end(), mark) != marks_.end()) return true;
+        marks_.push_back(mark);
+        return false;
+    }
+
+private:
+    std::vector<std::uint64_t> marks_;
+};
+
+} // namespace
+
+ContactState next_state(const ContactProblem& problem, const ContactSolution& solution, Index pair, double tolerance)
+{
+    const ContactState now = solution.states[static_cast<std::size_t>(pair)];
+    if (!(violation(problem, solution, pair) > tolerance)) return now;
+    const double normal = solution.force[pair], shear = solution.force[problem.law.pairs() + pair];
+    if (now == ContactState::open || now == ContactState::pulled) return ContactState::stick;
+    if (normal < 0.0 && normal < -tolerance)
+        return problem.law.separation == Separation::allowed ? ContactState::open : ContactState::pulled;
+    if (is_slip(now)) return ContactState::stick; // it would slip against the direction of its friction
+    return shear < 0.0 ? ContactState::slip_downstream : ContactState::slip_upstream;
+}
+
+ContactSolver::ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options)
+    : stiffness_(std::move(stiffness)), options_(options), system_(stiffness_)
+{
+}
+
+bool ContactSolver::evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report)
+{
+    ++report.iterations;
+    if (system_.set(solution.states, problem.law) && system_.solve(problem.law, problem.stuck_force, solution))
+        return true;
+    report.mechanism = true;
+    return false;
+}
+
+bool ContactSolver::newton(const ContactProblem& problem, ContactSolution& solution, ContactReport& report,
+                           double tolerance)
+{
+    const Index m = problem.law.pairs();
+    Visited visited;
+    ContactStates next(solution.states);
+    for (int k = 0; k < options_.newton_iterations; ++k) {
+        if (visited.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
+        for (Index i = 0; i < m; ++i) next[static_cast<std::size_t>(i)] = next_state(problem, solution, i, tolerance);
+        if (next == solution.states) return true;
+        solution.states = next;
+    }
+    return false;
+}
+
+bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report,
+                               double tolerance)
+{
+    const Index m = problem.law.pairs();
+    Visited visited;
+    for (int k = 0; k < options_.switches_per_pair * static_cast<int>(m); ++k) {
+        if (visited.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
+        Index worst = -1;
+        double largest = tolerance;
+        for (Index i = 0; i < m; ++i) {
+            const double size = violation(problem, solution, i);
+            if (size <= largest) continue;
+            largest = size;
+            worst = i;
+        }
+        if (worst < 0) return true;
+        solution.states[static_cast<std::size_t>(worst)] = next_state(problem, solution, worst, tolerance);
+    }
+    return false;
+}
+
+ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution)
+{
+    const Index m = law.pairs();
+    assert(stiffness_.rows() == 2 * m && stuck_force.size() == 2 * m);
+    const ContactProblem problem{stiffness_, stuck_force, law};
+    const double scale = stuck_force.cwiseAbs().maxCoeff(), tolerance = options_.tolerance * scale;
+    const ContactStates stuck(static_cast<std::size_t>(m), ContactState::stick);
+    if (solution.states.size() != stuck.size()) solution.states = stuck;
+
+    ContactReport report;
+    const auto finish = [&](ContactPath path) {
+        report.path = path;
+        report.residual = scale > 0.0 ? complementarity_residual(problem, solution) / scale : 0.0;
+        return report;
+    };
+    const ContactStates start = solution.states;
+    if (newton(problem, solution, report, tolerance)) return finish(ContactPath::newton);
+    solution.states = report.mechanism ? stuck : start;
+    if (one_by_one(problem, solution, report, tolerance)) return finish(ContactPath::worst_violator);
+
+    solution.states = stuck;
+    solution.displacement.setZero(2 * m);
+    for (int restart = 0; restart < 4; ++restart) {
+        gauss_seidel(problem, solution, options_.gauss_seidel_sweeps << restart, tolerance);
+        ContactSolution trial = solution;
+        if (newton(problem, trial, report, tolerance) ||
+            (trial = solution, one_by_one(problem, trial, report, tolerance))) {
+            solution = std::move(trial);
+            return finish(ContactPath::gauss_seidel);
+        }
+    }
+    int pivots = 0;
+    ContactSolution last = solution;
+    if (law.separation == Separation::allowed && solve_by_lemke(problem, last, pivots)) {
+        ContactSolution polished = last;
+        solution = newton(problem, polished, report, tolerance) ? polished : last;
+        return finish(ContactPath::lemke);
+    }
+    return finish(ContactPath::unresolved);
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "fe2d/contact/released_system.hpp"
+
+#include <string>
+
+namespace damslip::fe2d {
+
+/// How a contact problem was solved.
+enum class ContactPath {
+    newton,         ///< all violated pairs switched at once
+    worst_violator, ///< one pair at a time
+    gauss_seidel,   ///< Newton's iteration after a restart
+    lemke,          ///< complementary pivoting
+    unresolved      ///< nothing ended within its limits: the best state found is returned
+};
+
+struct ContactOptions {
+    double tolerance = 1e-11;     ///< violations below this share of the largest stuck force are round-off [-]
+    int newton_iterations = 15;   ///< 1 ... ; more only when the states cycle, which is detected
+    int switches_per_pair = 8;    ///< limit of the one-at-a-time search
+    int gauss_seidel_sweeps = 60; ///< of one restart
+};
+
+struct ContactReport {
+    ContactPath path = ContactPath::newton;
+    int iterations = 0;     ///< linear solutions with one set of states
+    double residual = 0.0;  ///< complementarity residual over the largest stuck force [-]
+    bool mechanism = false; ///< some set of states on the way left the structure loose
+    bool resolved() const { return path != ContactPath::unresolved; }
+};
+
+/// Solves a sequence of contact problems with the same V: λ⁰ and strengths may change from one to the next. The inverse
+/// of the last active set is kept, so a step with the same states costs one small product.
+///
+/// Semismooth Newton on the states (Alart & Curnier 1991; Hüeber, Stadler & Wohlmuth 2008): solve with the states
+/// held, re-read the states from the result, until they repeat themselves. Pure Newton can cycle where the structure
+/// is stiff and undamped, so each repetition is noticed and leads to the next, slower and safer way: worst violator
+/// first, a Gauss-Seidel restart, Lemke's method.
+class ContactSolver {
+public:
+    explicit ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options = {});
+    ContactSolver(const ContactSolver&) = delete;
+    ContactSolver& operator=(const ContactSolver&) = delete;
+
+    const Eigen::MatrixXd& stiffness() const { return stiffness_; }
+
+    /// @param stuck_force  λ⁰, 2m [N/m]
+    /// @param solution     on entry its states are the start (those of the last step; empty: all stuck)
+    ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution);
+
+    const ReleasedSystem& system() const { return system_; }
+
+private:
+    bool newton(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
+    bool one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
+    bool evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report);
+
+    Eigen::MatrixXd stiffness_;
+    ContactOptions options_;
+    ReleasedSystem system_;
+};
+
+/// The state the result of a solution with states held asks for; the only place where states change.
+ContactState next_state(const ContactProblem& problem, const ContactSolution& solution, Eigen::Index pair,
+                        double tolerance);
+
+} // namespace damslip::fe2d

@@ -1,0 +1,141 @@
+#include "fe2d/contact/lemke.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double smallest_pivot = 1e-11;
+
+/// I w - M z - 1 z0 = q with the unknowns w: 0 ... n-1, z: n ... 2n-1, z0: 2n.
+class Tableau {
+public:
+    Tableau(const MatrixXd& matrix, const VectorXd& q)
+        : n_(matrix.rows()), body_(n_, 2 * n_ + 1), value_(q), basis_(static_cast<std::size_t>(n_))
+    {
+        body_ << MatrixXd::Identity(n_, n_), -matrix, -VectorXd::Ones(n_);
+        for (Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
+    }
+
+    Index artificial() const { return 2 * n_; }
+    Index complement(Index unknown) const { return unknown < n_ ? unknown + n_ : unknown - n_; }
+    Index basic(Index row) const { return basis_[static_cast<std::size_t>(row)]; }
+    double value(Index row) const { return value_[row]; }
+
+    /// Row that limits the growth of `entering`; the artificial one is preferred among equals. -1: a ray.
+    Index leaving_row(Index entering) const
+    {
+        Index row = -1;
+        double smallest = HUGE_VAL;
+        for (Index i = 0; i < n_; ++i) {
+            if (body_(i, entering) <= smallest_pivot) continue;
+            const double ratio = std::max(0.0, value_[i]) / body_(i, entering);
+            const double slack = 1e-13 * (1.0 + std::abs(smallest));
+            const bool better = row < 0 || ratio < smallest - slack;
+            const bool equal = !better && ratio <= smallest + slack;
+            if (better || (equal && (basic(i) == artificial() ||
+                                     (basic(row) != artificial() && body_(i, entering) > body_(row, entering))))) {
+                row = i;
+                smallest = std::min(ratio, smallest);
+            }
+        }
+        return row;
+    }
+
+    void pivot(Index row, Index entering)
+    {
+        const double scale = 1.0 / body_(row, entering);
+        body_.row(row) *= scale;
+        value_[row] *= scale;
+        const Eigen::RowVectorXd pivot_row = body_.row(row);
+        VectorXd column = body_.col(entering);
+        column[row] = 0.0;
+        body_.noalias() -= column * pivot_row;
+        value_ -= column * value_[row];
+        basis_[static_cast<std::size_t>(row)] = entering;
+    }
+
+private:
+    Index n_;
+    MatrixXd body_;
+    VectorXd value_;
+    std::vector<Index> basis_;
+};
+
+} // namespace
+
+LcpResult lemke(const MatrixXd& matrix, const VectorXd& q, int pivot_limit)
+{
+    const Index n = q.size();
+    LcpResult result{.solved = false, .pivots = 0, .z = VectorXd::Zero(n)};
+    Index row = 0;
+    if (n == 0 || q.minCoeff(&row) >= 0.0) {
+        result.solved = true;
+        return result;
+    }
+    Tableau tableau(matrix, q);
+    Index leaving = tableau.basic(row);
+    tableau.pivot(row, tableau.artificial());
+    for (result.pivots = 1; result.pivots < pivot_limit && !result.solved; ++result.pivots) {
+        const Index entering = tableau.complement(leaving);
+        row = tableau.leaving_row(entering);
+        if (row < 0) return result;
+        leaving = tableau.basic(row);
+        tableau.pivot(row, entering);
+        result.solved = leaving == tableau.artificial();
+    }
+    for (Index i = 0; i < n; ++i)
+        if (tableau.basic(i) >= n && tableau.basic(i) < 2 * n)
+            result.z[tableau.basic(i) - n] = std::max(0.0, tableau.value(i));
+    return result;
+}
+
+bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, int& pivots)
+{
+    assert(problem.law.separation == Separation::allowed);
+    const Index m = problem.law.pairs();
+    const double force = problem.stuck_force.cwiseAbs().maxCoeff();
+    const Eigen::LDLT<MatrixXd> factor(problem.stiffness);
+    const VectorXd pivot = factor.vectorD();
+    if (!(force > 0.0) || !(pivot.minCoeff() > smallest_pivot * pivot.maxCoeff())) return false;
+    MatrixXd w = factor.solve(MatrixXd::Identity(2 * m, 2 * m));
+    const double scale = w.diagonal().mean(); // [m²/N]; forces in units of `force`, displacements of scale * force
+    w = (0.5 / scale * (w + w.transpose())).eval();
+    const VectorXd free = -w * problem.stuck_force / force;
+
+    const MatrixXd one = MatrixXd::Identity(m, m), zero = MatrixXd::Zero(m, m);
+    const MatrixXd nn = w.topLeftCorner(m, m), nt = w.topRightCorner(m, m), tn = w.bottomLeftCorner(m, m),
+                   tt = w.bottomRightCorner(m, m), mu = problem.law.friction.asDiagonal();
+    MatrixXd matrix(4 * m, 4 * m);
+    matrix << nn, nt, -nt, zero, tn, tt, -tt, one, -tn, -tt, tt, one, mu, -one, -one, zero;
+    VectorXd q(4 * m);
+    q << free.head(m), free.tail(m), -free.tail(m), problem.law.cohesion / force;
+    const LcpResult result = lemke(matrix, q, static_cast<int>(80 * m + 100));
+    pivots = result.pivots;
+    if (!result.solved) return false;
+
+    VectorXd lambda(2 * m);
+    lambda << result.z.head(m), result.z.segment(m, m) - result.z.segment(2 * m, m);
+    solution.force = force * lambda;
+    solution.displacement = scale * force * (w * lambda + free);
+    const VectorXd sigma = result.z.tail(m);
+    for (Index i = 0; i < m; ++i) {
+        const double slip = solution.displacement[m + i];
+        solution.states[static_cast<std::size_t>(i)] = !(lambda[i] > 0.0) ? ContactState::open
+                                                       : sigma[i] == 0.0  ? ContactState::stick
+                                                       : slip > 0.0       ? ContactState::slip_downstream
+                                                                          : ContactState::slip_upstream;
+    }
+    return true;
+}
+
+} // namespace damslip::fe2d
