@@ -1,0 +1,64 @@
+#include "fe2d/run/block_products.hpp"
+
+namespace damslip::fe2d {
+
+BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass)
+{
+    // Symmetric matrices: the columns of node j hold its row of blocks, transposed.
+    const int nodes = static_cast<int>(stiffness.cols() / 2);
+    std::vector<int> place(nodes, -1);
+    begin_.push_back(0);
+    for (int j = 0; j < nodes; ++j) {
+        const std::size_t first = column_.size();
+        const auto add = [&](const SparseMatrix& matrix, double (Block::*values)[4]) {
+            for (const int c : {0, 1})
+                for (SparseMatrix::InnerIterator it(matrix, 2 * j + c); it; ++it) {
+                    const int other = static_cast<int>(it.row() / 2);
+                    if (place[other] < 0) {
+                        place[other] = static_cast<int>(column_.size());
+                        column_.push_back(other);
+                        block_.push_back({});
+                    }
+                    // entry (2 other + d, 2 j + c) = entry (2 j + c, 2 other + d)
+                    (block_[place[other]].*values)[2 * (it.row() % 2) + c] = it.value();
+                }
+        };
+        add(stiffness, &Block::k);
+        add(mass, &Block::m);
+        for (std::size_t k = first; k < column_.size(); ++k) place[column_[k]] = -1;
+        begin_.push_back(static_cast<int>(column_.size()));
+    }
+    gathered_.resize(static_cast<std::size_t>(8 * nodes));
+}
+
+void BlockProducts::multiply(const ProductVectors& in, Products& out)
+{
+    const int nodes = static_cast<int>(begin_.size()) - 1;
+    for (Eigen::VectorXd* y : {&out.stiffness_1, &out.stiffness_2, &out.mass_1, &out.mass_2}) y->resize(2 * nodes);
+    const Eigen::VectorXd* const x[4] = {&in.stiffness_1, &in.stiffness_2, &in.mass_1, &in.mass_2};
+    for (int j = 0; j < nodes; ++j)
+        for (int v = 0; v < 4; ++v) {
+            gathered_[8 * j + 2 * v] = (*x[v])[2 * j];
+            gathered_[8 * j + 2 * v + 1] = (*x[v])[2 * j + 1];
+        }
+    using Vector = Eigen::Vector2d;
+    using Map = Eigen::Map<const Vector>;
+    for (int j = 0; j < nodes; ++j) {
+        Vector k1 = Vector::Zero(), k2 = k1, m1 = k1, m2 = k1;
+        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
+            const Block& b = block_[e];
+            const double* const g = gathered_.data() + 8 * column_[e];
+            const Map kx(b.k), ky(b.k + 2), mx(b.m), my(b.m + 2);
+            k1 += g[0] * kx + g[1] * ky;
+            k2 += g[2] * kx + g[3] * ky;
+            m1 += g[4] * mx + g[5] * my;
+            m2 += g[6] * mx + g[7] * my;
+        }
+        out.stiffness_1.segment<2>(2 * j) = k1;
+        out.stiffness_2.segment<2>(2 * j) = k2;
+        out.mass_1.segment<2>(2 * j) = m1;
+        out.mass_2.segment<2>(2 * j) = m2;
+    }
+}
+
+} // namespace damslip::fe2d

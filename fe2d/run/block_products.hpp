@@ -1,0 +1,39 @@
+#pragma once
+
+#include "fe2d/run/node_order.hpp"
+
+#include <Eigen/Core>
+
+namespace damslip::fe2d {
+
+/// Vectors of one body that a step multiplies with K and M.
+struct ProductVectors {
+    const Eigen::VectorXd& stiffness_1;
+    const Eigen::VectorXd& stiffness_2;
+    const Eigen::VectorXd& mass_1;
+    const Eigen::VectorXd& mass_2;
+};
+
+struct Products {
+    Eigen::VectorXd stiffness_1, stiffness_2, mass_1, mass_2; ///< K x₁, K x₂, M x₃, M x₄
+};
+
+/// K and M of one body with two unknowns per node in common 2 x 2 blocks, so that the four products of a step read
+/// the matrices once.
+class BlockProducts {
+public:
+    BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass);
+
+    void multiply(const ProductVectors& in, Products& out);
+    std::size_t bytes() const { return block_.size() * sizeof(Block) + (column_.size() + begin_.size()) * sizeof(int); }
+
+private:
+    struct Block {
+        double k[4], m[4]; ///< xx, yx, xy, yy
+    };
+    std::vector<int> begin_, column_;
+    std::vector<Block> block_;
+    std::vector<double> gathered_; ///< the eight entries of each node side by side
+};
+
+} // namespace damslip::fe2d

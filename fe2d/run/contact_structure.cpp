@@ -1,0 +1,104 @@
+#include "fe2d/run/contact_structure.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <cassert>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+ContactStructure::ContactStructure(const Model& model) : model_(model), plane_(plane_of(model.mesh))
+{
+    const Mesh& mesh = model.mesh;
+    const Index dam = dam_dof_count(mesh, model.dofs);
+    assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
+    const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam);
+    order_ = interface_last(stiffness, mesh.contact.dam_nodes);
+    stiffness_ = order_.to_new(stiffness);
+    mass_ = order_.to_new(SparseMatrix(model.moving_mass().topLeftCorner(dam, dam)));
+    inertia_x_ = order_.to_new(VectorXd(model.inertia_x.head(dam)));
+    inertia_y_ = order_.to_new(VectorXd(model.inertia_y.head(dam)));
+    static_factor_.emplace(stiffness_, order_.inner);
+    if (mesh.has_rock()) condense_rock();
+    regular_ = static_factor_->regular() && (!has_rock() || (rock_factor_->regular() && rock_flexibility_.size() > 0));
+}
+
+void ContactStructure::condense_rock()
+{
+    // Two unknowns for every rock node; the fixed ones stand alone with a 1 of the size of the others.
+    const Mesh& mesh = model_.mesh;
+    const int first = mesh.dam_node_count, nodes = mesh.node_count() - first;
+    std::vector<int> unknown_of(model_.dofs.count, -1);
+    const double unit = model_.stiffness.diagonal().tail(model_.dofs.count - 2 * first).mean();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int node = 0; node < nodes; ++node)
+        for (const int c : {0, 1}) {
+            const int dof = model_.dofs(first + node, c);
+            if (dof == no_dof)
+                entries.emplace_back(2 * node + c, 2 * node + c, unit);
+            else
+                unknown_of[dof] = 2 * node + c;
+        }
+    for (int column = 2 * first; column < model_.stiffness.outerSize(); ++column)
+        for (SparseMatrix::InnerIterator it(model_.stiffness, column); it; ++it)
+            entries.emplace_back(unknown_of[it.row()], unknown_of[column], it.value());
+    SparseMatrix rock(2 * nodes, 2 * nodes);
+    rock.setFromTriplets(entries.begin(), entries.end());
+    std::vector<int> interface;
+    for (const int node : mesh.contact.rock_nodes) interface.push_back(node - first);
+    rock_order_ = interface_last(rock, interface);
+    rock_factor_.emplace(rock_order_.to_new(rock), rock_order_.inner);
+    if (!rock_factor_->regular()) return;
+    rock_stiffness_ = plane_.to_plane(rock_factor_->schur());
+    const Eigen::LLT<Eigen::MatrixXd> llt(rock_stiffness_);
+    if (llt.info() != Eigen::Success) return;
+    rock_flexibility_ = llt.solve(Eigen::MatrixXd::Identity(rock_stiffness_.rows(), rock_stiffness_.cols()));
+}
+
+namespace {
+
+/// Loads of the rock's nodes, two components each, the fixed ones zero.
+VectorXd rock_load(const Model& model, const VectorXd& load)
+{
+    const int first = model.mesh.dam_node_count, nodes = model.mesh.node_count() - first;
+    VectorXd all = VectorXd::Zero(2 * nodes);
+    for (int node = 0; node < nodes; ++node)
+        for (const int c : {0, 1})
+            if (const int dof = model.dofs(first + node, c); dof != no_dof) all[2 * node + c] = load[dof];
+    return all;
+}
+
+} // namespace
+
+SplitLoad ContactStructure::split(const VectorXd& load) const
+{
+    SplitLoad result;
+    result.dam = order_.to_new(VectorXd(load.head(dam_unknowns())));
+    result.rock = VectorXd::Zero(2 * plane_.pairs());
+    if (!has_rock()) return result;
+    VectorXd rock = rock_order_.to_new(rock_load(model_, load));
+    rock_factor_->forward(rock);
+    result.rock = plane_.to_plane(VectorXd(rock.tail(2 * plane_.pairs())));
+    return result;
+}
+
+VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, const VectorXd& load) const
+{
+    VectorXd all(model_.dofs.count);
+    all.head(dam_unknowns()) = order_.to_old(dam);
+    if (!has_rock()) return all;
+    VectorXd inner = rock_order_.to_new(rock_load(model_, load));
+    rock_factor_->forward(inner);
+    inner.tail(2 * plane_.pairs()) = plane_.to_interface(rock);
+    rock_factor_->backward(inner);
+    const VectorXd by_node = rock_order_.to_old(inner);
+    const int first = model_.mesh.dam_node_count, nodes = model_.mesh.node_count() - first;
+    for (int node = 0; node < nodes; ++node)
+        for (const int c : {0, 1})
+            if (const int dof = model_.dofs(first + node, c); dof != no_dof) all[dof] = by_node[2 * node + c];
+    return all;
+}
+
+} // namespace damslip::fe2d

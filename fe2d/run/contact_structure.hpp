@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fe2d/model/model.hpp"
+#include "fe2d/run/interface_factor.hpp"
+#include "fe2d/run/plane.hpp"
+
+#include <optional>
+
+namespace damslip::fe2d {
+
+/// Loads of the two sides of the plane [N/m]; those on the rock are condensed onto the plane (constant in time).
+struct SplitLoad {
+    Eigen::VectorXd dam;  ///< on the dam's unknowns, in its node order
+    Eigen::VectorXd rock; ///< condensed on the plane; zero for a rigid base
+};
+
+/// Dam and rock as two bodies that only contact joins: everything linear and independent of the step size.
+///
+/// The massless rock is condensed exactly onto its contact nodes (CondensedBody gives the reasons and the conditions);
+/// its damping is b_K K_c. Without a foundation the base is rigid.
+class ContactStructure {
+public:
+    /// @param model  built with Base::separate; kept by reference
+    explicit ContactStructure(const Model& model);
+
+    bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
+    const Model& model() const { return model_; }
+    const Plane& plane() const { return plane_; }
+    const NodeOrder& order() const { return order_; }
+    const SparseMatrix& stiffness() const { return stiffness_; } ///< of the dam, in its node order
+    const SparseMatrix& mass() const { return mass_; }           ///< of the dam with added mass, in its node order
+    const Eigen::VectorXd& inertia_x() const { return inertia_x_; }
+    const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
+    bool has_rock() const { return rock_factor_.has_value(); }
+    const Eigen::MatrixXd& rock_stiffness() const { return rock_stiffness_; }     ///< K_c on the plane
+    const Eigen::MatrixXd& rock_flexibility() const { return rock_flexibility_; } ///< K_c⁻¹
+    const InterfaceFactor& static_factor() const { return *static_factor_; }      ///< of the dam's K, floating
+
+    Eigen::Index dam_unknowns() const { return mass_.rows(); }
+    Eigen::Index inner_unknowns() const { return 2 * order_.inner; }
+    SplitLoad split(const Eigen::VectorXd& load) const; ///< of a load on all unknowns of the model
+    /// Displacements of all unknowns of the model from those of the dam (in its order) and of the rock's contact nodes
+    /// (plane), under a load on the rock's inside.
+    Eigen::VectorXd assemble(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock,
+                             const Eigen::VectorXd& load) const;
+
+private:
+    void condense_rock();
+
+    const Model& model_;
+    Plane plane_;
+    NodeOrder order_, rock_order_;
+    SparseMatrix stiffness_, mass_;
+    Eigen::VectorXd inertia_x_, inertia_y_;
+    std::optional<InterfaceFactor> static_factor_, rock_factor_;
+    Eigen::MatrixXd rock_stiffness_, rock_flexibility_;
+    bool regular_ = false;
+};
+
+} // namespace damslip::fe2d

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fe2d/run/node_order.hpp"
+
+#include <Eigen/Core>
+
+namespace damslip::fe2d {
+
+/// L D L^T of the inner nodes of one body in the order of interface_last, in 2 x 2 blocks, and the dense rest: the
+/// Schur complement on the interface. One forward and one backward pass solve the body with whatever happens on the
+/// interface in between, so a time step with contact costs no more than one without.
+///
+///     forward:   inner part becomes L⁻¹ b_i, interface part  b_c - A_ci A_ii⁻¹ b_i  (the condensed load)
+///     backward:  from that and the interface displacements u_c:  u_i = A_ii⁻¹ (b_i - A_ic u_c)
+class InterfaceFactor {
+public:
+    /// @param matrix  symmetric, in the order (NodeOrder::to_new), both triangles. The inner part must be positive
+    /// definite; the whole may be singular (a body held by nothing).
+    InterfaceFactor(const SparseMatrix& matrix, int inner_nodes);
+
+    bool regular() const { return regular_; }
+    const Eigen::MatrixXd& schur() const { return schur_; } ///< A_cc - A_ci A_ii⁻¹ A_ic, unknowns (x, y) by node
+
+    void forward(Eigen::VectorXd& b) const;
+    void backward(Eigen::VectorXd& b) const; ///< interface part: u_c on entry, kept
+    /// a_i^T A_ii⁻¹ b_i of two vectors after forward().
+    double inner_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+
+    Eigen::Index inner_unknowns() const { return 2 * inner_; }
+    std::size_t bytes() const;
+
+private:
+    struct Block {
+        double v[4]; ///< L(2i, 2j), L(2i+1, 2j), L(2i, 2j+1), L(2i+1, 2j+1): by columns
+    };
+    struct Pivot {
+        double xx, xy, yy; ///< inverse of the diagonal block
+    };
+
+    int inner_;
+    bool regular_ = false;
+    std::vector<int> begin_, row_; ///< blocks of column j: begin_[j] ... begin_[j+1]-1; row_: node
+    std::vector<Block> block_;
+    std::vector<Pivot> pivot_;
+    Eigen::MatrixXd schur_;
+};
+
+} // namespace damslip::fe2d

@@ -1,0 +1,67 @@
+#include "fe2d/run/static_contact.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options) : structure_(structure)
+{
+    MatrixXd stiffness = structure.plane().to_plane(structure.static_factor().schur());
+    if (structure.has_rock()) {
+        const MatrixXd& rock = structure.rock_stiffness();
+        const MatrixXd tied = stiffness + rock;
+        tied_flexibility_ = tied.llt().solve(MatrixXd::Identity(tied.rows(), tied.cols()));
+        tied_flexibility_ = (0.5 * (tied_flexibility_ + tied_flexibility_.transpose())).eval();
+        stiffness = rock - rock * tied_flexibility_ * rock;
+        stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    }
+    solver_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
+}
+
+VectorXd StaticContact::condensed(const SplitLoad& load) const
+{
+    VectorXd b = load.dam;
+    structure_.static_factor().forward(b);
+    return structure_.plane().to_plane(VectorXd(b.tail(2 * structure_.plane().pairs())));
+}
+
+ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory)
+{
+    const Index m = structure_.plane().pairs();
+    const VectorXd on_base = condensed(load);
+    VectorXd stuck = -on_base;
+    if (structure_.has_rock())
+        stuck = load.rock - structure_.rock_stiffness() * (tied_flexibility_ * (on_base + load.rock));
+    stuck += solver_->stiffness().rightCols(m) * memory.slip;
+    ContactSolution solution{memory.states, {}, {}};
+    const ContactReport report = solver_->solve(stuck, law, solution);
+    if (!report.resolved()) return report;
+    memory.states = solution.states;
+    memory.force = solution.force;
+    memory.opening = solution.displacement.head(m);
+    memory.slip += solution.displacement.tail(m);
+    return report;
+}
+
+StaticState StaticContact::displacements(const SplitLoad& load, const ContactMemory& memory) const
+{
+    const Index m = structure_.plane().pairs();
+    VectorXd gap(2 * m);
+    gap << memory.opening, memory.slip;
+    StaticState state;
+    VectorXd u = gap;
+    if (structure_.has_rock())
+        u = tied_flexibility_ * (condensed(load) + load.rock + structure_.rock_stiffness() * gap);
+    state.rock = u - gap;
+    state.dam = load.dam;
+    structure_.static_factor().forward(state.dam);
+    state.dam.tail(2 * m) = structure_.plane().to_interface(u);
+    structure_.static_factor().backward(state.dam);
+    return state;
+}
+
+} // namespace damslip::fe2d
