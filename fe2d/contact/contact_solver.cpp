@@ -43,12 +43,24 @@ ContactState next_state(const ContactProblem& problem, const ContactSolution& so
 {
     const ContactState now = solution.states[static_cast<std::size_t>(pair)];
     if (!(violation(problem, solution, pair) > tolerance)) return now;
-    const double normal = solution.force[pair], shear = solution.force[problem.law.pairs() + pair];
-    if (now == ContactState::open || now == ContactState::pulled) return ContactState::stick;
-    if (normal < 0.0 && normal < -tolerance)
+    const Index m = problem.law.pairs();
+    const double normal = solution.force[pair], shear = solution.force[m + pair];
+    const double opening = solution.displacement[pair], slip = solution.displacement[m + pair];
+    const double friction = problem.law.friction[pair];
+    const auto slipping = [](bool downstream) {
+        return downstream ? ContactState::slip_downstream : ContactState::slip_upstream;
+    };
+    // A pair that shuts does so where the trial force of a penalty lies: outside the friction cone it goes on
+    // slipping. Shutting it stuck instead makes it jump open again and the iteration cycle.
+    if (now == ContactState::open)
+        return std::abs(slip) > -friction * opening ? slipping(slip > 0.0) : ContactState::stick;
+    if (now == ContactState::pulled)
+        return std::abs(slip) * problem.stiffness(m + pair, m + pair) > friction * normal ? slipping(slip > 0.0)
+                                                                                          : ContactState::stick;
+    if (normal < 0.0)
         return problem.law.separation == Separation::allowed ? ContactState::open : ContactState::pulled;
     if (is_slip(now)) return ContactState::stick; // it would slip against the direction of its friction
-    return shear < 0.0 ? ContactState::slip_downstream : ContactState::slip_upstream;
+    return slipping(shear < 0.0);
 }
 
 ContactSolver::ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options)

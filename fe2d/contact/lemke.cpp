@@ -118,7 +118,10 @@ bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, in
     MatrixXd matrix(4 * m, 4 * m);
     matrix << nn, nt, -nt, zero, tn, tt, -tt, one, -tn, -tt, tt, one, mu, -one, -one, zero;
     VectorXd q(4 * m);
-    q << free.head(m), free.tail(m), -free.tail(m), problem.law.cohesion / force;
+    // Without cohesion the last m entries are zero and the ratio test is full of ties: a share of 1e-10 of the largest
+    // force, different for each pair, breaks them. The caller solves again with the states found.
+    const VectorXd tie_breaker = VectorXd::LinSpaced(m, 1e-10, 2e-10);
+    q << free.head(m), free.tail(m), -free.tail(m), problem.law.cohesion / force + tie_breaker;
     const LcpResult result = lemke(matrix, q, static_cast<int>(80 * m + 100));
     pivots = result.pivots;
     if (!result.solved) return false;
