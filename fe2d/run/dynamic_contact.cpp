@@ -40,7 +40,7 @@ DynamicContact::DynamicContact(const ContactStructure& structure, RunDamping dam
     }
     rate_t_ = accel_t_ = VectorXd::Zero(m);
     multiply(step_constants(scheme, 1.0)); // at rest the step size does not matter
-    energy_.strain = 0.5 * (state_.u.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
+    energy_.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
     energy_start_ = energy_;
     energy_scale_ = 0.0;
     gather_forces(forces_);
@@ -63,7 +63,13 @@ void DynamicContact::multiply(const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha, b = damping_.constants.stiffness;
     combined_ = (b * (c.scheme.alpha + w * c.a4)) * state_.v + (b * w * c.a5) * state_.a;
-    block_products_.multiply({state_.u, combined_, state_.v, state_.a}, products_);
+    // Elastic forces do not feel a translation; taken off, metres of slip cost no digits of them.
+    const Index first = structure_.inner_unknowns();
+    const Eigen::Vector2d shift = state_.u.segment<2>(first);
+    deformation_.resize(state_.u.size());
+    for (Index k = 0; k < deformation_.size(); k += 2)
+        deformation_.segment<2>(k) = state_.u.segment<2>(k) - shift;
+    block_products_.multiply({deformation_, combined_, state_.v, state_.a}, products_);
 }
 
 /// b_d on free_.dam, the rock's free gap and the known contact-like forces.
@@ -190,7 +196,7 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
 
     Energy& e = energy_;
     e.kinetic = 0.5 * v1.dot(products_.mass_1);
-    e.strain = 0.5 * (state_.u.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
+    e.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
     e.damping += 0.5 * a_m * du_.dot(products_.mass_1 + before_.mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
                  0.5 * b_k * k_dr.dot(forces_.rock_v + forces_before_.rock_v) +
                  slip_damping_.coefficient * (slip * (s_rate - m_rate) - mean * s_rate);

@@ -1,0 +1,338 @@
+#include "fe2d/run/earthquake_run.hpp"
+
+#include "fe2d/modes/natural_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+ModelOptions model_options(const RunOptions& options, Base base)
+{
+    ModelOptions result;
+    result.base = base;
+    result.added_mass = options.added_mass;
+    return result;
+}
+
+} // namespace
+
+EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
+{
+    const auto start = Clock::now();
+    model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
+    structure_ = std::make_unique<ContactStructure>(*model_);
+    stages_ = load_stages(scene_, *model_, options_.uplift);
+    usable_ = structure_->regular();
+    if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
+    find_damping();
+    seconds_ = seconds_since(start);
+}
+
+void EarthquakeRun::find_damping()
+{
+    const Damping& wanted = scene_.damping;
+    damping_.mass = wanted.mass;
+    if (wanted.method == DampingMethod::none && !options_.damping) return;
+    if (options_.damping) {
+        damping_.constants = *options_.damping;
+        return;
+    }
+    if (wanted.mass_coefficient || wanted.stiffness_coefficient) {
+        damping_.constants = {wanted.mass_coefficient.value_or(0.0), wanted.stiffness_coefficient.value_or(0.0)};
+        return;
+    }
+    const Model tied = build_model(scene_, model_options(options_, Base::tied));
+    const int modes = std::max(wanted.first_mode, wanted.second_mode);
+    const NaturalModes natural = natural_modes(tied, modes);
+    if (natural.frequency.size() < modes) {
+        usable_ = false;
+        why_not_ = fmt::format("Rayleigh damping needs mode {}, and {} were found.", modes, natural.frequency.size());
+        return;
+    }
+    const double to_omega = 2.0 * std::numbers::pi;
+    damping_.constants = rayleigh_constants(wanted.ratio, to_omega * natural.frequency[wanted.first_mode - 1],
+                                            to_omega * natural.frequency[wanted.second_mode - 1]);
+}
+
+std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength,
+                                                ContactMemory& memory) const
+{
+    std::vector<StageResult> results;
+    for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
+        results.push_back(
+            solve_stage(statics, *structure_, stages_.names[k], stages_.loads[k], strength, memory));
+        if (results.back().status != StageStatus::ok) break;
+    }
+    return results;
+}
+
+namespace {
+
+/// Acceleration between the samples is linear; beyond the record it is zero.
+class Ground {
+public:
+    Ground(const GroundMotion& motion, MassDamping damping, double mass_coefficient) : motion_(motion)
+    {
+        if (damping != MassDamping::total || mass_coefficient == 0.0) return;
+        // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
+        // acceleration a_g + a_M v_g.
+        add_velocity(motion_.accel_h, mass_coefficient);
+        add_velocity(motion_.accel_v, mass_coefficient);
+    }
+
+    double duration() const { return motion_.dt * static_cast<double>(motion_.accel_h.size() - 1); }
+
+    GroundAcceleration at(double time) const
+    {
+        const double place = time / motion_.dt, last = static_cast<double>(motion_.accel_h.size() - 1);
+        if (place > last * (1.0 + 1e-12)) return {};
+        const double clamped = std::clamp(place, 0.0, last);
+        const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
+        const double share = clamped - static_cast<double>(k);
+        const auto value = [&](const std::vector<double>& a) {
+            return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]);
+        };
+        return {value(motion_.accel_h), value(motion_.accel_v)};
+    }
+
+private:
+    void add_velocity(std::vector<double>& acceleration, double coefficient) const
+    {
+        double velocity = 0.0, before = acceleration.empty() ? 0.0 : acceleration.front();
+        for (double& a : acceleration) {
+            velocity += 0.5 * motion_.dt * (a + before);
+            before = a;
+            a += coefficient * velocity;
+        }
+    }
+
+    GroundMotion motion_;
+};
+
+/// Writes a row of the history.
+class Recorder {
+public:
+    Recorder(const DynamicContact& dynamics, RunHistory& history)
+        : dynamics_(dynamics), history_(history), weights_(dynamics.structure().plane().weights()),
+          start_(dynamics.state().contact.slip)
+    {
+        const Mesh& mesh = dynamics.structure().model().mesh;
+        crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.front()];
+        crest_start_ = dynamics.state().u[crest_];
+        history_ = {};
+    }
+
+    double slip() const { return weights_.dot(dynamics_.state().contact.slip - start_); }
+
+    void add()
+    {
+        const DynamicState& s = dynamics_.state();
+        const ContactMemory& c = s.contact;
+        const VectorXd& area = dynamics_.structure().plane().area;
+        const Index m = area.size();
+        double open = 0.0, slipping = 0.0;
+        for (Index i = 0; i < m; ++i) {
+            const ContactState state = c.states[static_cast<std::size_t>(i)];
+            if (state == ContactState::open) open += area[i];
+            if (is_slip(state)) slipping += area[i];
+        }
+        history_.time.push_back(s.time);
+        history_.ground_h.push_back(s.ground.h);
+        history_.ground_v.push_back(s.ground.v);
+        history_.slip.push_back(slip());
+        history_.slip_heel.push_back(c.slip[0] - start_[0]);
+        history_.slip_toe.push_back(c.slip[m - 1] - start_[m - 1]);
+        history_.crest_x.push_back(s.u[crest_] - crest_start_);
+        history_.normal_force.push_back(c.force.head(m).sum());
+        history_.shear_force.push_back(-c.force.tail(m).sum());
+        history_.open_length.push_back(open);
+        history_.slipping_length.push_back(slipping);
+        history_.largest_opening.push_back(c.opening.maxCoeff());
+        history_.energy.push_back(dynamics_.energy());
+        history_.imbalance.push_back(dynamics_.energy_imbalance());
+    }
+
+private:
+    const DynamicContact& dynamics_;
+    RunHistory& history_;
+    VectorXd weights_, start_;
+    Index crest_ = 0;
+    double crest_start_ = 0.0;
+};
+
+constexpr double rest_share = 1e-4; ///< change of the slip within the rest time that counts as rest [-]
+constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
+
+/// Has the mean slip stayed the same for the rest time?
+bool at_rest(const RunHistory& history, double rest_time)
+{
+    const double now = history.time.back(), slip = history.slip.back();
+    const double limit = std::max(rest_slip, rest_share * std::abs(slip));
+    for (std::size_t k = history.time.size(); k-- > 0;) {
+        if (std::abs(history.slip[k] - slip) > limit) return false;
+        if (now - history.time[k] >= rest_time - 1e-9) return true;
+    }
+    return false;
+}
+
+/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave.
+bool diverges(const Energy& energy)
+{
+    return !std::isfinite(energy.kinetic) ||
+           energy.contact_normal > 10.0 + 0.05 * (std::abs(energy.external) + energy.friction);
+}
+
+} // namespace
+
+void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Strength& strength_at_start,
+                          const ContactMemory& memory, const StaticState& start, RunResult& result) const
+{
+    const double dt = scene_.time.dt.value_or(motion.dt), duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    const int parts = 1 << halvings;
+    const double step = dt / parts;
+    Strength strength = strength_at_start;
+    const Ground ground(motion, damping_.mass, damping_.constants.mass);
+    DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), structure_->split(stages_.last()), start,
+                            memory, options_.contact);
+    Recorder recorder(dynamics, result.history);
+    recorder.add();
+    result.dt = step;
+    result.halvings = halvings;
+    result.max_slip = 0.0;
+    result.status = RunStatus::sliding_at_end;
+
+    const auto record_steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
+    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
+    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
+    for (long n = 0; n < all_steps; ++n) {
+        for (int part = 1; part <= parts; ++part) {
+            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
+            dynamics.advance(step, ground.at(time), strength.law());
+            strength.follow(dynamics.state().contact);
+        }
+        recorder.add();
+        result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
+        if (options_.progress && n % 100 == 0)
+            options_.progress(std::min(1.0, static_cast<double>(n) / static_cast<double>(record_steps)));
+        if (diverges(dynamics.energy())) {
+            result.status = RunStatus::diverged;
+            break;
+        }
+        if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
+            result.status = RunStatus::at_rest;
+            break;
+        }
+    }
+    const DynamicState& end = dynamics.state();
+    const Plane& plane = structure_->plane();
+    const Index m = plane.pairs();
+    result.slip = result.history.slip.back();
+    result.end_time = end.time;
+    result.counts = dynamics.counts();
+    result.energy_error = dynamics.energy_scale() > 0.0
+                              ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale()
+                              : 0.0;
+    result.pair_distance = plane.distance;
+    result.pair_area = plane.area;
+    result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
+    result.pair_shear = -end.contact.force.tail(m).cwiseQuotient(plane.area);
+    result.pair_slip = end.contact.slip - memory.slip;
+    result.pair_opening = end.contact.opening;
+    result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
+    result.bytes = dynamics.bytes();
+    result.seconds.contact += result.counts.contact_seconds;
+
+    VectorXd after = stages_.last();
+    if (!options_.uplift_after.empty()) {
+        after = stages_.loads[stages_.loads.size() - (options_.uplift.empty() ? 1 : 2)];
+        for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
+            after += uplift_load(model_->mesh, model_->dofs, options_.uplift_after, side);
+    }
+    ContactMemory memory_after = end.contact;
+    StaticContact statics(*structure_, options_.contact);
+    result.after = solve_stage(statics, *structure_, "after the earthquake", after, strength, memory_after);
+}
+
+void EarthquakeRun::judge(RunResult& result) const
+{
+    if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    switch (result.status) {
+    case RunStatus::at_rest:
+        result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
+        break;
+    case RunStatus::sliding_at_end:
+        result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
+                                     1e3 * result.slip, scene_.sliding.run_out_max);
+        break;
+    case RunStatus::unresolved:
+        result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
+                                     result.counts.unresolved, result.counts.steps, result.counts.largest_residual);
+        break;
+    case RunStatus::diverged:
+        result.message = fmt::format("Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller "
+                                     "step, damping, or a more negative time.alpha.",
+                                     result.end_time, result.history.energy.back().contact_normal);
+        break;
+    default:
+        break;
+    }
+}
+
+RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
+{
+    RunResult result;
+    result.seconds.model = seconds_;
+    result.damping = damping_.constants;
+    if (!usable_) {
+        result.message = why_not_;
+        return result;
+    }
+    auto clock = Clock::now();
+    StaticContact statics_solver(*structure_, options_.contact);
+    Strength strength(contact.value_or(scene_.contact), structure_->plane());
+    strength.set_separation(options_.separation);
+    ContactMemory memory(structure_->plane().pairs());
+    result.stages = statics(statics_solver, strength, memory);
+    result.seconds.statics = seconds_since(clock);
+    if (result.stages.back().status != StageStatus::ok) {
+        result.status = RunStatus::static_failure;
+        result.message = result.stages.back().text();
+        return result;
+    }
+    const StaticState start = statics_solver.displacements(structure_->split(stages_.last()), memory);
+
+    clock = Clock::now();
+    const int first = options_.halvings.value_or(0);
+    shake(motion, first, strength, memory, start, result);
+    result.slip_error = std::numeric_limits<double>::quiet_NaN();
+    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+        const double coarser = result.slip;
+        shake(motion, k, strength, memory, start, result);
+        // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
+        result.slip_error = std::abs(result.slip - coarser);
+        if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip)) break;
+    }
+    result.seconds.dynamics = seconds_since(clock);
+    judge(result);
+    return result;
+}
+
+} // namespace damslip::fe2d

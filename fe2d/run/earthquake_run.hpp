@@ -1,0 +1,123 @@
+#pragma once
+
+#include "fe2d/run/dynamic_contact.hpp"
+#include "fe2d/run/stages.hpp"
+#include "records/record.hpp"
+
+#include <functional>
+#include <optional>
+
+/// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
+namespace damslip::fe2d {
+
+/// What the caller brings from other modules, and what only a run needs.
+struct RunOptions {
+    AddedMassLaw added_mass;                  ///< of the upstream face (ModelOptions::added_mass); empty: none
+    Polyline uplift;                          ///< x = distance from the heel [m], y = pressure [Pa]; empty: none
+    Polyline uplift_after;                    ///< the same after the earthquake; empty: as before
+    std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
+    Separation separation = Separation::allowed;
+    double slip_tolerance = 0.01;  ///< of the time step: wanted error of the slip over its size, > 0 [-]
+    std::optional<int> halvings;   ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
+    int largest_halvings = 5;      ///< when chosen
+    double smallest_slip = 1e-6;   ///< errors below this share of slip_tolerance do not matter [m]
+    double rest_time = 0.5;        ///< the run-out ends when the dam has not slid for this long [s]
+    ContactOptions contact;
+    std::function<void(double share)> progress; ///< called now and then with the share done, 0 ... 1
+};
+
+/// Values at the record's steps (and in the run-out at the same interval), the start included. Slips are counted from
+/// the static state.
+struct RunHistory {
+    std::vector<double> time;           ///< [s]
+    std::vector<double> ground_h;       ///< positive upstream [m/s²]
+    std::vector<double> ground_v;       ///< positive up [m/s²]
+    std::vector<double> slip;           ///< area mean, positive downstream [m]
+    std::vector<double> slip_heel;      ///< of the first pair [m]
+    std::vector<double> slip_toe;       ///< of the last pair [m]
+    std::vector<double> crest_x;        ///< crest relative to the ground, since the static state, downstream [m]
+    std::vector<double> normal_force;   ///< Σλ_n [N/m]
+    std::vector<double> shear_force;    ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+    std::vector<double> open_length;    ///< [m]
+    std::vector<double> slipping_length;///< [m]
+    std::vector<double> largest_opening;///< [m]
+    std::vector<Energy> energy;         ///< [J/m]
+    std::vector<double> imbalance;      ///< [J/m]
+};
+
+enum class RunStatus {
+    at_rest,        ///< the dam has come to rest: the slip is final
+    sliding_at_end, ///< still sliding when the run-out ended
+    static_failure, ///< no equilibrium before the earthquake: see the last stage
+    unresolved,     ///< some steps' contact was not resolved (counts.unresolved)
+    diverged,       ///< energy grew beyond all that the ground put in: step too large for an undamped, stiff model
+    model_failed    ///< a matrix could not be factorised
+};
+
+/// Seconds of each part.
+struct RunSeconds {
+    double model = 0.0;    ///< mesh, matrices, modes for the damping, condensation
+    double statics = 0.0;
+    double dynamics = 0.0; ///< contact included
+    double contact = 0.0;  ///< of the dynamics
+};
+
+struct RunResult {
+    RunStatus status = RunStatus::model_failed;
+    std::string message;             ///< one sentence with the numbers
+    std::vector<StageResult> stages; ///< before the earthquake
+    StageResult after;               ///< after it, with residual strength and uplift_after
+    RunHistory history;
+    double slip = 0.0;       ///< final, area mean, since the static state [m]
+    double max_slip = 0.0;   ///< largest |slip| on the way [m]
+    double slip_error = 0.0; ///< estimate of what the time step leaves open [m]; NaN: not estimated
+    int halvings = 0;        ///< the step was dt / 2^halvings
+    double dt = 0.0;         ///< [s]
+    double end_time = 0.0;   ///< run-out included [s]
+    RayleighConstants damping;
+    DynamicCounts counts;    ///< of the run that is reported
+    double energy_error = 0.0; ///< |imbalance| at the end over the largest term [-]
+    Eigen::VectorXd pair_distance, pair_area;          ///< [m]
+    Eigen::VectorXd pair_pressure, pair_shear, pair_slip, pair_opening; ///< at the end [Pa, Pa, m, m]
+    Eigen::VectorXd displacement; ///< at the end, on all unknowns of the model [m]
+    RunSeconds seconds;
+    std::size_t bytes = 0;
+};
+
+/// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run;
+/// run() does not change it, so runs can go on in parallel.
+class EarthquakeRun {
+public:
+    /// @throws InputError for what the model cannot be made of
+    EarthquakeRun(const Scene& scene, RunOptions options);
+    EarthquakeRun(const EarthquakeRun&) = delete;
+    EarthquakeRun& operator=(const EarthquakeRun&) = delete;
+
+    const Model& model() const { return *model_; }
+    const ContactStructure& structure() const { return *structure_; }
+    const RayleighConstants& damping() const { return damping_.constants; }
+
+    /// @param contact  strength; default: the scene's
+    RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
+
+    /// The stages before the earthquake alone; `memory` ends in the last state of equilibrium.
+    std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;
+
+private:
+    void find_damping();
+    void shake(const GroundMotion& motion, int halvings, const Strength& strength, const ContactMemory& memory,
+               const StaticState& start, RunResult& result) const;
+    void judge(RunResult& result) const;
+
+    Scene scene_;
+    RunOptions options_;
+    std::unique_ptr<Model> model_;
+    std::unique_ptr<ContactStructure> structure_;
+    LoadStages stages_;
+    RunDamping damping_;
+    bool usable_ = false;
+    std::string why_not_;
+    double seconds_ = 0.0;
+};
+
+} // namespace damslip::fe2d

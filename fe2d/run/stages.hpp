@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fe2d/model/static_loads.hpp"
+#include "fe2d/run/static_contact.hpp"
+#include "fe2d/run/strength.hpp"
+
+#include <string>
+
+namespace damslip::fe2d {
+
+/// What all loads on the dam come to on the plane, from statics alone.
+struct BaseResultant {
+    double normal_force = 0.0; ///< N', effective, compression positive [N/m]
+    double shear_force = 0.0;  ///< T, drives the dam downstream [N/m]
+    double position = 0.0;     ///< of N' from the heel along the plane [m]
+};
+BaseResultant base_resultant(const ContactStructure& structure, const Eigen::VectorXd& dam_load);
+
+enum class StageStatus {
+    ok,
+    slides,      ///< |T| > mu N' + c A: no equilibrium whatever the elasticity
+    floats,      ///< N' <= 0
+    overturns,   ///< N' acts outside the base
+    not_resolved ///< resultants allow equilibrium, but the contact problem has none or was not solved: see the report
+};
+
+struct StageResult {
+    std::string name; ///< "gravity", "water", "uplift", "after the earthquake"
+    StageStatus status = StageStatus::ok;
+    BaseResultant resultant;
+    double friction_needed = 0.0; ///< (|T| - c A)/N', the least mu of equilibrium [-]
+    double sliding_factor = 0.0;  ///< (mu N' + c A)/|T| [-]; infinite without shear
+    double slip = 0.0;            ///< area mean so far, positive downstream [m]
+    double open_length = 0.0;     ///< area of open pairs [m]
+    double slipping_length = 0.0; ///< area of pairs at their strength [m]
+    ContactReport contact;
+
+    std::string text() const; ///< one sentence with the numbers
+};
+
+/// Static loads of a scene, one after the other; each holds all before it.
+struct LoadStages {
+    std::vector<std::string> names;
+    std::vector<Eigen::VectorXd> loads; ///< on all unknowns of the model [N/m]
+
+    const Eigen::VectorXd& last() const { return loads.back(); }
+};
+
+/// Gravity, water, uplift; stages without loads are left out.
+/// @param uplift  pressure profile under the base: x = distance from the heel [m], y = pressure [Pa]; empty: none. It
+/// acts on both sides of the joint, open or not, so contact forces are effective
+LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift);
+
+/// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
+StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
+                        const Eigen::VectorXd& load, Strength& strength, ContactMemory& memory);
+
+} // namespace damslip::fe2d
