@@ -10,7 +10,7 @@ BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& 
     begin_.push_back(0);
     for (int j = 0; j < nodes; ++j) {
         const std::size_t first = column_.size();
-        const auto add = [&](const SparseMatrix& matrix, double (Block::*values)[4]) {
+        const auto add = [&](const SparseMatrix& matrix, double(Block::*values)[4]) {
             for (const int c : {0, 1})
                 for (SparseMatrix::InnerIterator it(matrix, 2 * j + c); it; ++it) {
                     const int other = static_cast<int>(it.row() / 2);
@@ -41,23 +41,23 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out)
             gathered_[8 * j + 2 * v] = (*x[v])[2 * j];
             gathered_[8 * j + 2 * v + 1] = (*x[v])[2 * j + 1];
         }
-    using Vector = Eigen::Vector2d;
-    using Map = Eigen::Map<const Vector>;
+    using Pair = Eigen::Array2d;
+    using Values = Eigen::Map<const Pair>;
     for (int j = 0; j < nodes; ++j) {
-        Vector k1 = Vector::Zero(), k2 = k1, m1 = k1, m2 = k1;
+        Pair k1 = Pair::Zero(), k2 = k1, m1 = k1, m2 = k1;
         for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
             const Block& b = block_[e];
             const double* const g = gathered_.data() + 8 * column_[e];
-            const Map kx(b.k), ky(b.k + 2), mx(b.m), my(b.m + 2);
-            k1 += g[0] * kx + g[1] * ky;
-            k2 += g[2] * kx + g[3] * ky;
-            m1 += g[4] * mx + g[5] * my;
-            m2 += g[6] * mx + g[7] * my;
+            const Pair kx = Values(b.k), ky = Values(b.k + 2), mx = Values(b.m), my = Values(b.m + 2);
+            k1 += kx * g[0] + ky * g[1];
+            k2 += kx * g[2] + ky * g[3];
+            m1 += mx * g[4] + my * g[5];
+            m2 += mx * g[6] + my * g[7];
         }
-        out.stiffness_1.segment<2>(2 * j) = k1;
-        out.stiffness_2.segment<2>(2 * j) = k2;
-        out.mass_1.segment<2>(2 * j) = m1;
-        out.mass_2.segment<2>(2 * j) = m2;
+        out.stiffness_1.segment<2>(2 * j) = k1.matrix();
+        out.stiffness_2.segment<2>(2 * j) = k2.matrix();
+        out.mass_1.segment<2>(2 * j) = m1.matrix();
+        out.mass_2.segment<2>(2 * j) = m2.matrix();
     }
 }
 

@@ -67,8 +67,7 @@ void DynamicContact::multiply(const StepConstants& c)
     const Index first = structure_.inner_unknowns();
     const Eigen::Vector2d shift = state_.u.segment<2>(first);
     deformation_.resize(state_.u.size());
-    for (Index k = 0; k < deformation_.size(); k += 2)
-        deformation_.segment<2>(k) = state_.u.segment<2>(k) - shift;
+    for (Index k = 0; k < deformation_.size(); k += 2) deformation_.segment<2>(k) = state_.u.segment<2>(k) - shift;
     block_products_.multiply({deformation_, combined_, state_.v, state_.a}, products_);
 }
 
@@ -211,8 +210,8 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
     const double da_m_da = (state_.a - forces_before_.a).dot(products_.mass_2 - before_.mass_2);
     const double half_change = 0.5 * (state_.a.dot(products_.mass_2) - forces_before_.a.dot(before_.mass_2));
     const double half_beta = beta - 0.5 * gamma;
-    double numerical = -(gamma - 0.5) * du_m_da + (gamma - 0.5) * half_beta * dt * dt * da_m_da +
-                       half_beta * dt * dt * half_change;
+    double numerical =
+        -(gamma - 0.5) * du_m_da + (gamma - 0.5) * half_beta * dt * dt * da_m_da + half_beta * dt * dt * half_change;
     if (alpha != 0.0) {
         const auto work = [&](const Forces& f) {
             return du_.dot(f.dam) + b_k * (f.v.dot(k_du) + f.rock_v.dot(k_dr)) + dr_.dot(f.rock) -
@@ -222,8 +221,8 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
         numerical += 0.5 * alpha * (work(forces_) - work(forces_before2_));
     }
     e.numerical += numerical;
-    energy_scale_ = std::max({energy_scale_, e.kinetic, std::abs(e.damping), std::abs(e.friction),
-                              std::abs(e.external), std::abs(e.contact_normal), std::abs(e.numerical)});
+    energy_scale_ = std::max({energy_scale_, e.kinetic, std::abs(e.damping), std::abs(e.friction), std::abs(e.external),
+                              std::abs(e.contact_normal), std::abs(e.numerical)});
 }
 
 std::size_t DynamicContact::bytes() const

@@ -18,8 +18,8 @@ struct GroundAcceleration {
 
 /// Motion relative to the ground and contact at one instant.
 struct DynamicState {
-    double time = 0.0;                ///< [s]
-    Eigen::VectorXd u, v, a;          ///< of the dam, in its node order [m, m/s, m/s²]
+    double time = 0.0;                    ///< [s]
+    Eigen::VectorXd u, v, a;              ///< of the dam, in its node order [m, m/s, m/s²]
     Eigen::VectorXd rock, rock_v, rock_a; ///< of the rock's contact nodes, plane; zero for a rigid base
     ContactMemory contact;
     GroundAcceleration ground;
@@ -28,10 +28,10 @@ struct DynamicState {
 /// Figures of a run so far.
 struct DynamicCounts {
     int steps = 0, contact_iterations = 0, largest_iterations = 0, unresolved = 0;
-    int by_path[5] = {0, 0, 0, 0, 0};  ///< steps by ContactPath
-    double largest_residual = 0.0;     ///< complementarity residual over the static normal force N' [-]
-    int factorisations = 0;            ///< step sizes used
-    double contact_seconds = 0.0;      ///< in the contact solver
+    int by_path[5] = {0, 0, 0, 0, 0}; ///< steps by ContactPath
+    double largest_residual = 0.0;    ///< complementarity residual over the static normal force N' [-]
+    int factorisations = 0;           ///< step sizes used
+    double contact_seconds = 0.0;     ///< in the contact solver
 };
 
 /// HHT-α steps of dam, rock and contact (2-25), with the contact problem solved exactly in each. Equations:
@@ -70,7 +70,8 @@ private:
     DynamicOperator& operator_of(double dt);
     void multiply(const StepConstants& constants);
     void gather_forces(Forces& forces) const;
-    void add_energy(const StepConstants& constants, const Eigen::VectorXd& gap_step, const Eigen::VectorXd& force_before);
+    void add_energy(const StepConstants& constants, const Eigen::VectorXd& gap_step,
+                    const Eigen::VectorXd& force_before);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
 
     const ContactStructure& structure_;
@@ -86,14 +87,14 @@ private:
 
     DynamicState state_;
     BlockProducts block_products_;
-    Products products_;                   ///< K u, K y, M v, M a of the state, y = b_K (cv v + ca a)
-    Eigen::VectorXd rock_force_;          ///< K_c r
+    Products products_;          ///< K u, K y, M v, M a of the state, y = b_K (cv v + ca a)
+    Eigen::VectorXd rock_force_; ///< K_c r
     Eigen::VectorXd deformation_, combined_, known_, rock_gap_, stuck_, gap_, dam_interface_; ///< work space
-    Eigen::VectorXd rate_t_;              ///< tangential gap rates ġ_t
-    Eigen::VectorXd accel_t_;             ///< and accelerations
+    Eigen::VectorXd rate_t_;  ///< tangential gap rates ġ_t
+    Eigen::VectorXd accel_t_; ///< and accelerations
     DynamicOperator::Free free_;
     ContactSolution solution_;
-    Products before_;                     ///< products of the state before, for the energy
+    Products before_; ///< products of the state before, for the energy
     Eigen::VectorXd rock_force_before_, u_before_, du_, dr_;
     Forces forces_, forces_before_, forces_before2_;
     GroundAcceleration ground_before_;

@@ -78,8 +78,7 @@ void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
     free.on_base = structure_.plane().to_plane(VectorXd(free.dam.tail(2 * m)));
     free.dam_gap.noalias() = dam_flexibility_ * free.on_base;
     free.gap = free.dam_gap - rock_gap;
-    if (slip_damping_.active())
-        free.mean = factor_.inner_product(momentum_, free.dam) + on_base_.dot(free.dam_gap);
+    if (slip_damping_.active()) free.mean = factor_.inner_product(momentum_, free.dam) + on_base_.dot(free.dam_gap);
 }
 
 void DynamicOperator::stuck_force(const Free& free, const VectorXd& known, VectorXd& stuck) const
@@ -87,8 +86,7 @@ void DynamicOperator::stuck_force(const Free& free, const VectorXd& known, Vecto
     const double w = 1.0 + constants_.scheme.alpha;
     stuck.noalias() = to_stuck_ * free.gap;
     stuck += known / w;
-    if (slip_damping_.active())
-        stuck.tail(structure_.plane().pairs()) -= (k_ / w * free.mean) * slip_damping_.weights;
+    if (slip_damping_.active()) stuck.tail(structure_.plane().pairs()) -= (k_ / w * free.mean) * slip_damping_.weights;
 }
 
 void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,

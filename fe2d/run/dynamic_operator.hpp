@@ -75,9 +75,9 @@ private:
     Eigen::MatrixXd dam_flexibility_; ///< F_d
     Eigen::MatrixXd to_stuck_;        ///< -(1/w) EᵀW⁻¹
     double k_ = 0.0, zeta_ = 0.0;
-    Eigen::VectorXd momentum_;    ///< m̂ after the forward pass
-    Eigen::VectorXd on_base_;     ///< its interface part on the plane
-    Eigen::VectorXd z_;           ///< D A_d⁻¹ m̂
+    Eigen::VectorXd momentum_; ///< m̂ after the forward pass
+    Eigen::VectorXd on_base_;  ///< its interface part on the plane
+    Eigen::VectorXd z_;        ///< D A_d⁻¹ m̂
     std::unique_ptr<ContactSolver> contact_;
 };
 

@@ -72,13 +72,11 @@ void EarthquakeRun::find_damping()
                                             to_omega * natural.frequency[wanted.second_mode - 1]);
 }
 
-std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength,
-                                                ContactMemory& memory) const
+std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const
 {
     std::vector<StageResult> results;
     for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
-        results.push_back(
-            solve_stage(statics, *structure_, stages_.names[k], stages_.loads[k], strength, memory));
+        results.push_back(solve_stage(statics, *structure_, stages_.names[k], stages_.loads[k], strength, memory));
         if (results.back().status != StageStatus::ok) break;
     }
     return results;
@@ -205,7 +203,8 @@ bool diverges(const Energy& energy)
 void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Strength& strength_at_start,
                           const ContactMemory& memory, const StaticState& start, RunResult& result) const
 {
-    const double dt = scene_.time.dt.value_or(motion.dt), duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    const double dt = scene_.time.dt.value_or(motion.dt),
+                 duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
     const int parts = 1 << halvings;
     const double step = dt / parts;
     Strength strength = strength_at_start;
@@ -247,9 +246,8 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     result.slip = result.history.slip.back();
     result.end_time = end.time;
     result.counts = dynamics.counts();
-    result.energy_error = dynamics.energy_scale() > 0.0
-                              ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale()
-                              : 0.0;
+    result.energy_error =
+        dynamics.energy_scale() > 0.0 ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale() : 0.0;
     result.pair_distance = plane.distance;
     result.pair_area = plane.area;
     result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
@@ -328,7 +326,8 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
         shake(motion, k, strength, memory, start, result);
         // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
         result.slip_error = std::abs(result.slip - coarser);
-        if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip)) break;
+        if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
+            break;
     }
     result.seconds.dynamics = seconds_since(clock);
     judge(result);

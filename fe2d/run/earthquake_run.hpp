@@ -17,11 +17,11 @@ struct RunOptions {
     Polyline uplift_after;                    ///< the same after the earthquake; empty: as before
     std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
     Separation separation = Separation::allowed;
-    double slip_tolerance = 0.01;  ///< of the time step: wanted error of the slip over its size, > 0 [-]
-    std::optional<int> halvings;   ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
-    int largest_halvings = 5;      ///< when chosen
-    double smallest_slip = 1e-6;   ///< errors below this share of slip_tolerance do not matter [m]
-    double rest_time = 0.5;        ///< the run-out ends when the dam has not slid for this long [s]
+    double slip_tolerance = 0.01; ///< of the time step: wanted error of the slip over its size, > 0 [-]
+    std::optional<int> halvings;  ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
+    int largest_halvings = 5;     ///< when chosen
+    double smallest_slip = 1e-6;  ///< errors below this share of slip_tolerance do not matter [m]
+    double rest_time = 0.5;       ///< the run-out ends when the dam has not slid for this long [s]
     ContactOptions contact;
     std::function<void(double share)> progress; ///< called now and then with the share done, 0 ... 1
 };
@@ -29,20 +29,20 @@ struct RunOptions {
 /// Values at the record's steps (and in the run-out at the same interval), the start included. Slips are counted from
 /// the static state.
 struct RunHistory {
-    std::vector<double> time;           ///< [s]
-    std::vector<double> ground_h;       ///< positive upstream [m/s²]
-    std::vector<double> ground_v;       ///< positive up [m/s²]
-    std::vector<double> slip;           ///< area mean, positive downstream [m]
-    std::vector<double> slip_heel;      ///< of the first pair [m]
-    std::vector<double> slip_toe;       ///< of the last pair [m]
-    std::vector<double> crest_x;        ///< crest relative to the ground, since the static state, downstream [m]
-    std::vector<double> normal_force;   ///< Σλ_n [N/m]
-    std::vector<double> shear_force;    ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
-    std::vector<double> open_length;    ///< [m]
-    std::vector<double> slipping_length;///< [m]
-    std::vector<double> largest_opening;///< [m]
-    std::vector<Energy> energy;         ///< [J/m]
-    std::vector<double> imbalance;      ///< [J/m]
+    std::vector<double> time;            ///< [s]
+    std::vector<double> ground_h;        ///< positive upstream [m/s²]
+    std::vector<double> ground_v;        ///< positive up [m/s²]
+    std::vector<double> slip;            ///< area mean, positive downstream [m]
+    std::vector<double> slip_heel;       ///< of the first pair [m]
+    std::vector<double> slip_toe;        ///< of the last pair [m]
+    std::vector<double> crest_x;         ///< crest relative to the ground, since the static state, downstream [m]
+    std::vector<double> normal_force;    ///< Σλ_n [N/m]
+    std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+    std::vector<double> open_length;     ///< [m]
+    std::vector<double> slipping_length; ///< [m]
+    std::vector<double> largest_opening; ///< [m]
+    std::vector<Energy> energy;          ///< [J/m]
+    std::vector<double> imbalance;       ///< [J/m]
 };
 
 enum class RunStatus {
@@ -56,7 +56,7 @@ enum class RunStatus {
 
 /// Seconds of each part.
 struct RunSeconds {
-    double model = 0.0;    ///< mesh, matrices, modes for the damping, condensation
+    double model = 0.0; ///< mesh, matrices, modes for the damping, condensation
     double statics = 0.0;
     double dynamics = 0.0; ///< contact included
     double contact = 0.0;  ///< of the dynamics
@@ -75,9 +75,9 @@ struct RunResult {
     double dt = 0.0;         ///< [s]
     double end_time = 0.0;   ///< run-out included [s]
     RayleighConstants damping;
-    DynamicCounts counts;    ///< of the run that is reported
-    double energy_error = 0.0; ///< |imbalance| at the end over the largest term [-]
-    Eigen::VectorXd pair_distance, pair_area;          ///< [m]
+    DynamicCounts counts;                     ///< of the run that is reported
+    double energy_error = 0.0;                ///< |imbalance| at the end over the largest term [-]
+    Eigen::VectorXd pair_distance, pair_area; ///< [m]
     Eigen::VectorXd pair_pressure, pair_shear, pair_slip, pair_opening; ///< at the end [Pa, Pa, m, m]
     Eigen::VectorXd displacement; ///< at the end, on all unknowns of the model [m]
     RunSeconds seconds;

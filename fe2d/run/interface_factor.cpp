@@ -57,16 +57,22 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes) : 
     schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 
+namespace {
+
+using Pair = Eigen::Array2d; ///< both unknowns of a node; two at a time is what every x86-64 does in one operation
+using Values = Eigen::Map<const Pair>;
+
+} // namespace
+
 void InterfaceFactor::forward(Eigen::VectorXd& b) const
 {
     double* const x = b.data();
     for (int j = 0; j < inner_; ++j) {
         const double x0 = x[2 * j], x1 = x[2 * j + 1];
         for (int k = begin_[j]; k < begin_[j + 1]; ++k) {
-            const Block& l = block_[k];
-            double* const y = x + 2 * row_[k];
-            y[0] -= l.v[0] * x0 + l.v[2] * x1;
-            y[1] -= l.v[1] * x0 + l.v[3] * x1;
+            const double* const l = block_[k].v;
+            Eigen::Map<Pair> y(x + 2 * row_[k]);
+            y -= Values(l) * x0 + Values(l + 2) * x1;
         }
     }
 }
@@ -75,19 +81,27 @@ void InterfaceFactor::backward(Eigen::VectorXd& b) const
 {
     double* const x = b.data();
     for (int j = inner_ - 1; j >= 0; --j) {
-        double s0 = 0.0, s1 = 0.0, t0 = 0.0, t1 = 0.0;
-        for (int k = begin_[j]; k < begin_[j + 1]; ++k) {
-            const Block& l = block_[k];
-            const double* const y = x + 2 * row_[k];
-            s0 += l.v[0] * y[0];
-            t0 += l.v[1] * y[1];
-            s1 += l.v[2] * y[0];
-            t1 += l.v[3] * y[1];
+        Pair first = Pair::Zero(), second = first, first_odd = first, second_odd = first;
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
+            const double *const l = block_[k].v, *const m = block_[k + 1].v;
+            const Values y(x + 2 * row_[k]), z(x + 2 * row_[k + 1]);
+            first += Values(l) * y;
+            second += Values(l + 2) * y;
+            first_odd += Values(m) * z;
+            second_odd += Values(m + 2) * z;
         }
+        if (k < begin_[j + 1]) {
+            const Values y(x + 2 * row_[k]);
+            first += Values(block_[k].v) * y;
+            second += Values(block_[k].v + 2) * y;
+        }
+        first += first_odd;
+        second += second_odd;
         const double b0 = x[2 * j], b1 = x[2 * j + 1];
         const Pivot& p = pivot_[j];
-        x[2 * j] = p.xx * b0 + p.xy * b1 - (s0 + t0);
-        x[2 * j + 1] = p.xy * b0 + p.yy * b1 - (s1 + t1);
+        x[2 * j] = p.xx * b0 + p.xy * b1 - (first[0] + first[1]);
+        x[2 * j + 1] = p.xy * b0 + p.yy * b1 - (second[0] + second[1]);
     }
 }
 
@@ -96,16 +110,16 @@ double InterfaceFactor::inner_product(const Eigen::VectorXd& a, const Eigen::Vec
     double sum = 0.0;
     for (int j = 0; j < inner_; ++j) {
         const Pivot& p = pivot_[j];
-        sum += a[2 * j] * (p.xx * b[2 * j] + p.xy * b[2 * j + 1]) +
-               a[2 * j + 1] * (p.xy * b[2 * j] + p.yy * b[2 * j + 1]);
+        sum +=
+            a[2 * j] * (p.xx * b[2 * j] + p.xy * b[2 * j + 1]) + a[2 * j + 1] * (p.xy * b[2 * j] + p.yy * b[2 * j + 1]);
     }
     return sum;
 }
 
 std::size_t InterfaceFactor::bytes() const
 {
-    return block_.size() * sizeof(Block) + (row_.size() + begin_.size()) * sizeof(int) +
-           pivot_.size() * sizeof(Pivot) + static_cast<std::size_t>(schur_.size()) * sizeof(double);
+    return block_.size() * sizeof(Block) + (row_.size() + begin_.size()) * sizeof(int) + pivot_.size() * sizeof(Pivot) +
+           static_cast<std::size_t>(schur_.size()) * sizeof(double);
 }
 
 } // namespace damslip::fe2d

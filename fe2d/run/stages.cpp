@@ -103,12 +103,12 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
 
 std::string StageResult::text() const
 {
-    const std::string forces = fmt::format("N' = {:.5g} MN/m, T = {:.5g} MN/m", 1e-6 * resultant.normal_force,
-                                           1e-6 * resultant.shear_force);
+    const std::string forces =
+        fmt::format("N' = {:.5g} MN/m, T = {:.5g} MN/m", 1e-6 * resultant.normal_force, 1e-6 * resultant.shear_force);
     switch (status) {
     case StageStatus::ok:
-        return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.",
-                           name, forces, 1e3 * slip, open_length, friction_needed);
+        return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.", name,
+                           forces, 1e3 * slip, open_length, friction_needed);
     case StageStatus::slides:
         return fmt::format("{}: the dam slides without any earthquake, {}: it holds with mu >= {:.5f}.", name, forces,
                            friction_needed);

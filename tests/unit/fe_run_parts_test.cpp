@@ -1,0 +1,119 @@
+// Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
+#include "fe2d/run/block_products.hpp"
+#include "fe2d/time/condensation.hpp"
+#include "unit/fe_run_scenes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::fe2d;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Model small_model()
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, 9.0);
+    scene.mesh.size = 12.0;
+    scene.foundation->width = 150.0;
+    scene.foundation->depth = 60.0;
+    ModelOptions options;
+    options.base = Base::separate;
+    options.added_mass = fe2d::test::options_of(scene).added_mass;
+    return build_model(scene, options);
+}
+
+VectorXd uneven(Index n)
+{
+    VectorXd v(n);
+    for (Index i = 0; i < n; ++i) v[i] = std::sin(1.7 * static_cast<double>(i) + 0.3);
+    return v;
+}
+
+// A x = b with A = a M + K in two passes, against a dense solution; round-off times the condition (about 1e5).
+TEST(FeRunParts, factor_with_the_interface_last_solves_the_body)
+{
+    const Model model = small_model();
+    const ContactStructure structure(model);
+    ASSERT_TRUE(structure.regular());
+    const SparseMatrix a = 4e4 * structure.mass() + structure.stiffness();
+    const Index n = a.rows(), inner = structure.inner_unknowns(), rest = n - inner;
+    const InterfaceFactor factor(a, structure.order().inner);
+    ASSERT_TRUE(factor.regular());
+    const MatrixXd dense(a);
+    const MatrixXd schur = dense.bottomRightCorner(rest, rest) -
+                           dense.bottomLeftCorner(rest, inner) *
+                               dense.topLeftCorner(inner, inner).ldlt().solve(dense.topRightCorner(inner, rest));
+    EXPECT_LT((factor.schur() - schur).norm(), 1e-12 * schur.norm());
+
+    const VectorXd b = uneven(n), x = dense.ldlt().solve(b);
+    VectorXd y = b;
+    factor.forward(y);
+    const VectorXd u_c = schur.ldlt().solve(VectorXd(y.tail(rest)));
+    EXPECT_NEAR(factor.inner_product(y, y) + u_c.dot(y.tail(rest)), b.dot(x), 1e-10 * std::abs(b.dot(x)));
+    y.tail(rest) = u_c;
+    factor.backward(y);
+    EXPECT_LT((y - x).norm(), 1e-10 * x.norm());
+}
+
+// The floating dam: its inner part is regular, the Schur complement has exactly the three rigid motions as null space.
+TEST(FeRunParts, the_floating_dam_keeps_its_rigid_motions)
+{
+    const Model model = small_model();
+    const ContactStructure structure(model);
+    const MatrixXd& s = structure.static_factor().schur();
+    const auto& nodes = model.mesh.contact.dam_nodes;
+    VectorXd x = VectorXd::Zero(s.rows()), y = x, turn = x;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Point p = model.mesh.nodes[nodes[i]];
+        x[2 * static_cast<Index>(i)] = y[2 * static_cast<Index>(i) + 1] = 1.0;
+        turn[2 * static_cast<Index>(i)] = -p.y;
+        turn[2 * static_cast<Index>(i) + 1] = p.x;
+    }
+    for (const VectorXd& r : {x, y, turn}) EXPECT_LT((s * r).norm(), 1e-11 * s.norm() * r.norm());
+}
+
+// Two ways to condense the rock: Schur complement in the factor here, column solutions in CondensedBody.
+TEST(FeRunParts, condensed_rock_agrees_with_the_condensed_body)
+{
+    const Model model = small_model();
+    const ContactStructure structure(model);
+    const Index first = 2 * model.mesh.dam_node_count, n = model.dofs.count - first;
+    const SparseMatrix rock = model.stiffness.bottomRightCorner(n, n);
+    std::vector<Index> kept;
+    for (const int node : model.mesh.contact.rock_nodes)
+        for (const int c : {0, 1}) kept.push_back(model.dofs(node, c) - first);
+    const CondensedBody body(rock, kept);
+    const MatrixXd expected = structure.plane().to_plane(body.stiffness());
+    EXPECT_LT((structure.rock_stiffness() - expected).norm(), 1e-12 * expected.norm());
+
+    VectorXd load = VectorXd::Zero(model.dofs.count);
+    load.tail(n) = uneven(n);
+    const VectorXd on_plane = structure.split(load).rock;
+    const VectorXd expected_load = structure.plane().to_plane(body.condense_load(load.tail(n)));
+    EXPECT_LT((on_plane - expected_load).norm(), 1e-11 * expected_load.norm());
+    const VectorXd u = uneven(on_plane.size());
+    const VectorXd all = structure.assemble(VectorXd::Zero(first), u, load);
+    const VectorXd recovered = body.recover(structure.plane().to_interface(u), load.tail(n));
+    EXPECT_LT((all.tail(n) - recovered).norm(), 1e-11 * recovered.norm());
+}
+
+TEST(FeRunParts, four_products_at_once)
+{
+    const Model model = small_model();
+    const ContactStructure structure(model);
+    BlockProducts products(structure.stiffness(), structure.mass());
+    const VectorXd a = uneven(structure.dam_unknowns()), b = a.reverse(), c = a.cwiseAbs2(), d = a - 0.3 * b;
+    Products out;
+    products.multiply({a, b, c, d}, out);
+    EXPECT_LT((out.stiffness_1 - structure.stiffness() * a).norm(), 1e-14 * out.stiffness_1.norm());
+    EXPECT_LT((out.stiffness_2 - structure.stiffness() * b).norm(), 1e-14 * out.stiffness_2.norm());
+    EXPECT_LT((out.mass_1 - structure.mass() * c).norm(), 1e-14 * out.mass_1.norm());
+    EXPECT_LT((out.mass_2 - structure.mass() * d).norm(), 1e-14 * out.mass_2.norm());
+}
+
+} // namespace

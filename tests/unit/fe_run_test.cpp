@@ -1,0 +1,163 @@
+// The staged run as a whole.
+#include "unit/fe_run_scenes.hpp"
+
+#include "sliding/block/slide.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::fe2d;
+using Eigen::VectorXd;
+using fe2d::test::flipped;
+using fe2d::test::options_of;
+using fe2d::test::sines;
+using fe2d::test::sliding_dam;
+
+Contact with_friction(double friction)
+{
+    Contact contact;
+    contact.friction = friction;
+    return contact;
+}
+
+GroundMotion silence(double duration, double dt)
+{
+    GroundMotion motion;
+    motion.dt = dt;
+    motion.accel_h.assign(static_cast<std::size_t>(std::lround(duration / dt)) + 1, 0.0);
+    return motion;
+}
+
+GroundMotion scaled(GroundMotion motion, double factor)
+{
+    for (auto* a : {&motion.accel_h, &motion.accel_v})
+        for (double& value : *a) value *= factor;
+    return motion;
+}
+
+// Every stage carries exactly the loads: Σλ = resultants (round-off), and friction that holds = |T|/N' from the
+// resultants, which is also the mu at which the rigid block's yield acceleration is zero.
+TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
+{
+    const Scene scene = sliding_dam(0.77);
+    const EarthquakeRun run(scene, options_of(scene));
+    const RunResult result = run.run(silence(0.5, 0.01));
+    ASSERT_EQ(result.stages.size(), 3u);
+    for (const StageResult& stage : result.stages) {
+        EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
+        EXPECT_LT(stage.contact.residual, 1e-12);
+    }
+    const BaseResultant& base = result.stages.back().resultant;
+    EXPECT_NEAR(result.history.normal_force[0], base.normal_force, 1e-9 * base.normal_force);
+    EXPECT_NEAR(result.history.shear_force[0], base.shear_force, 1e-9 * base.normal_force);
+    const sliding::RigidBlock block = sliding::make_rigid_block(scene);
+    EXPECT_NEAR(base.shear_force, block.horizontal_force, 1e-10 * base.shear_force);
+    const double expected = block.horizontal_force / (block.mass * block.gravity + block.vertical_force - block.uplift);
+    EXPECT_NEAR(result.stages.back().friction_needed, expected, 1e-9);
+
+    const RunResult fails = run.run(silence(0.5, 0.01), with_friction(expected - 1e-5));
+    EXPECT_EQ(fails.status, RunStatus::static_failure);
+    EXPECT_NE(fails.message.find("slides without any earthquake"), std::string::npos) << fails.message;
+    EXPECT_TRUE(fails.history.time.empty());
+    EXPECT_NE(run.run(silence(0.5, 0.01), with_friction(expected + 1e-4)).status, RunStatus::static_failure);
+}
+
+// Nothing moves without shaking: 1000 s at 95 % of the static limit. A sticking pair keeps its slip to the last bit.
+TEST(FeRun, no_creep)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 7.5);
+    scene.mesh.size = 10.0;
+    scene.sliding.run_out_max = 1.0;
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    const EarthquakeRun run(scene, options);
+    const double needed = run.run(silence(0.2, 0.1)).stages.back().friction_needed;
+    const RunResult result = run.run(silence(1000.0, 0.1), with_friction(needed / 0.95));
+    EXPECT_EQ(result.counts.steps, 10005);
+    EXPECT_LT(result.max_slip, 1e-12);
+    EXPECT_EQ(result.counts.unresolved, 0);
+}
+
+// Rigid limit, a short cut of the verification case: E x 1e4, half a minute of the rigid block's slip.
+TEST(FeRun, stiff_dam_slides_as_the_rigid_block)
+{
+    const Scene scene = sliding_dam(0.70, 1e4, 5.0);
+    RunOptions options = options_of(scene);
+    options.halvings = 2;
+    const EarthquakeRun run(scene, options);
+    for (const GroundMotion& motion : {sines(1.0, 10.0), flipped(sines(1.0, 10.0))}) {
+        const RunResult result = run.run(motion);
+        ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+        const double rigid = sliding::slide(motion, sliding::make_rigid_block(scene)).slip;
+        EXPECT_GT(rigid, 0.02);
+        EXPECT_NEAR(result.slip, rigid, 0.01 * rigid);
+        EXPECT_EQ(result.counts.unresolved, 0);
+        EXPECT_LT(result.counts.largest_residual, 1e-8);
+    }
+}
+
+// The same pulse upstream and downstream: only the one that drives the dam downstream makes it slide.
+TEST(FeRun, positive_acceleration_drives_downstream)
+{
+    const Scene scene = sliding_dam(0.77);
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    const EarthquakeRun run(scene, options);
+    GroundMotion pulse = silence(2.0, 0.01);
+    for (int k = 0; k < 60; ++k)
+        pulse.accel_h[static_cast<std::size_t>(20 + k)] = 3.0 * std::sin(std::numbers::pi * k / 60.0);
+    const double downstream = run.run(pulse).slip, upstream = run.run(flipped(pulse)).slip;
+    EXPECT_GT(downstream, 0.05);
+    EXPECT_LT(std::abs(upstream), 0.3 * downstream);
+}
+
+// Energy closes to round-off of its largest term: all terms from states, in sliding with opening and damping.
+TEST(FeRun, energy_closes)
+{
+    Scene scene = sliding_dam(0.70);
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    for (const MassDamping mass : {MassDamping::deformation_only, MassDamping::relative, MassDamping::total}) {
+        scene.damping.mass = mass;
+        for (const double alpha : {0.0, -0.05, -1.0 / 3.0}) {
+            scene.time.alpha = alpha;
+            const RunResult result = EarthquakeRun(scene, options).run(sines(1.5, 6.0));
+            EXPECT_GT(result.slip, 1e-3);
+            EXPECT_LT(result.energy_error, 1e-10);
+            EXPECT_GT(result.history.energy.back().friction, 1e3);
+        }
+    }
+}
+
+// Small shaking: partly slipping pairs at heel and toe, slip in proportion to the record and of micrometres.
+TEST(FeRun, small_shaking_gives_small_slip)
+{
+    const Scene scene = sliding_dam(0.77, 1.0, 1.5);
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    const EarthquakeRun run(scene, options);
+    const GroundMotion motion = sines(1.0, 10.0);
+    const double thousandth = run.run(scaled(motion, 1e-3)).slip, tenth_of_it = run.run(scaled(motion, 1e-4)).slip;
+    EXPECT_LT(std::abs(thousandth), 5e-6);
+    EXPECT_GT(thousandth / tenth_of_it, 8.0);
+    EXPECT_LT(thousandth / tenth_of_it, 12.0);
+}
+
+// Sub-steps: the estimate of the error covers the distance to a much finer run.
+TEST(FeRun, sub_steps_reach_the_wanted_accuracy)
+{
+    const Scene scene = sliding_dam(0.70, 1.0, 5.0);
+    const EarthquakeRun chosen(scene, options_of(scene));
+    RunOptions fine_options = options_of(scene);
+    fine_options.halvings = 6;
+    const GroundMotion motion = sines(1.0, 8.0);
+    const RunResult result = chosen.run(motion), fine = EarthquakeRun(scene, fine_options).run(motion);
+    EXPECT_LE(result.slip_error, 0.01 * result.slip);
+    EXPECT_NEAR(result.slip, fine.slip, 0.01 * fine.slip);
+}
+
+} // namespace
