@@ -1,5 +1,5 @@
 // The staged run as a whole.
-#include "unit/fe_run_scenes.hpp"
+#include "fe_run_scenes.hpp"
 
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
