@@ -50,7 +50,7 @@ Table tabulate(const History& history)
         table.rows.push_back(std::move(cells));
     }
     table.notes = history.notes;
-    if (history.status != RunStatus::complete) table.notes.insert(table.notes.begin(), history.status_text);
+    if (history.status != TiedRunStatus::complete) table.notes.insert(table.notes.begin(), history.status_text);
     return table;
 }
 

@@ -8,7 +8,7 @@
 
 namespace damslip::fe2d {
 
-enum class RunStatus {
+enum class TiedRunStatus {
     complete,
     cancelled,     ///< stopped by the caller; everything up to there is valid
     solver_failed, ///< a matrix could not be factorised; no step was made
@@ -29,7 +29,7 @@ struct HistoryRow {
 
 /// What a run gives, and how it ended.
 struct History {
-    RunStatus status = RunStatus::complete;
+    TiedRunStatus status = TiedRunStatus::complete;
     std::string status_text;      ///< one sentence with the numbers
     std::vector<HistoryRow> rows; ///< the start and every step; thinned where asked for
     Eigen::VectorXd displacement; ///< of all model unknowns at the end [m]

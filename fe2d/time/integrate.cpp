@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-double step_of(const GroundMotion& motion, const RunOptions& options)
+double step_of(const GroundMotion& motion, const TiedRunOptions& options)
 {
     const double dt = options.dt.value_or(motion.dt);
     const double parts = std::round(motion.dt / dt);
@@ -69,7 +69,7 @@ BaseBalance base_balance(const Model& model, Eigen::Index size, double mass_coef
 /// Everything one run needs, made once.
 class Run {
 public:
-    Run(const Model& model, const GroundMotion& motion, const RunOptions& options);
+    Run(const Model& model, const GroundMotion& motion, const TiedRunOptions& options);
     History go();
 
 private:
@@ -81,7 +81,7 @@ private:
     void finish(const State& state, const EnergyLedger& ledger);
 
     const Model& model_;
-    const RunOptions& options_;
+    const TiedRunOptions& options_;
     GroundHistory ground_;
     double dt_;
     std::int64_t steps_;
@@ -94,7 +94,7 @@ private:
     double start_crest_x_ = 0.0;
 };
 
-Run::Run(const Model& model, const GroundMotion& motion, const RunOptions& options)
+Run::Run(const Model& model, const GroundMotion& motion, const TiedRunOptions& options)
     : model_(model), options_(options), ground_(motion), dt_(step_of(motion, options)),
       steps_(std::llround(std::ceil((ground_.duration() + options.free_vibration) / dt_ - 1e-6))),
       total_velocity_(options.damping.mass == MassDamping::total && options.damping.constants.mass != 0.0),
@@ -174,7 +174,7 @@ bool Run::stopped(std::int64_t step, double time)
     if (!options_.progress ||
         options_.progress({time, dt_ * static_cast<double>(steps_), step, steps_}) == RunAnswer::go_on)
         return false;
-    history_.status = RunStatus::cancelled;
+    history_.status = TiedRunStatus::cancelled;
     history_.status_text = fmt::format("stopped by the user at {:.4g} s of {:.4g} s; results up to there are kept",
                                        time, dt_ * static_cast<double>(steps_));
     return true;
@@ -187,7 +187,7 @@ void Run::finish(const State& state, const EnergyLedger& ledger)
     if (history_.energy_scale > 0.0) history_.largest_imbalance /= history_.energy_scale;
     const VectorXd load = options_.static_load.size() > 0 ? options_.static_load : VectorXd::Zero(structure_.full_size);
     history_.displacement = structure_.expand(state.displacement, load);
-    if (history_.status == RunStatus::complete)
+    if (history_.status == TiedRunStatus::complete)
         history_.status_text = fmt::format("{} steps of {:g} s, {} unknowns", history_.steps, dt_, history_.unknowns);
 }
 
@@ -196,7 +196,7 @@ History Run::go()
     VectorXd start_displacement;
     if (prepare()) start_displacement = static_displacement();
     if (!structure_.solver.ok()) {
-        history_.status = RunStatus::solver_failed;
+        history_.status = TiedRunStatus::solver_failed;
         history_.status_text = structure_.solver.text();
         return std::move(history_);
     }
@@ -219,7 +219,7 @@ History Run::go()
         after.time = time; // not summed up
         ledger.add_step(before, after, step.constants());
         if (!std::isfinite(ledger.imbalance())) {
-            history_.status = RunStatus::diverged;
+            history_.status = TiedRunStatus::diverged;
             history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
             break;
         }
@@ -234,7 +234,7 @@ History Run::go()
 
 } // namespace
 
-History integrate(const Model& model, const GroundMotion& motion, const RunOptions& options)
+History integrate(const Model& model, const GroundMotion& motion, const TiedRunOptions& options)
 {
     return Run(model, motion, options).go();
 }

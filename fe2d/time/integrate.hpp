@@ -19,7 +19,7 @@ struct RunProgress {
 enum class RunAnswer { go_on, stop };
 
 /// Options of a run on a tied base.
-struct RunOptions {
+struct TiedRunOptions {
     Scheme scheme = {-0.05, 0.55, 0.275625};    ///< hht(-0.05)
     std::optional<double> dt;                   ///< [s], a whole part of the motion's step; default: that step
     DampingChoice damping;                      ///< default: none
@@ -39,6 +39,6 @@ struct RunOptions {
 /// @param model  with Base::tied
 /// @throws InputError when dt is no whole part of the motion's step, or unstable for the scheme.
 ///         Everything else that can go wrong is in History::status.
-History integrate(const Model& model, const GroundMotion& motion, const RunOptions& options);
+History integrate(const Model& model, const GroundMotion& motion, const TiedRunOptions& options);
 
 } // namespace damslip::fe2d

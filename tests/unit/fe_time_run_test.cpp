@@ -43,10 +43,10 @@ GroundMotion pulses(double dt, int samples, bool vertical = true)
     return motion;
 }
 
-fe2d::RunOptions options_of(const Scene& scene, const fe2d::Model& model, const GroundMotion& motion)
+fe2d::TiedRunOptions options_of(const Scene& scene, const fe2d::Model& model, const GroundMotion& motion)
 {
     const auto loads = fe2d::static_loads(scene, model);
-    fe2d::RunOptions options;
+    fe2d::TiedRunOptions options;
     options.damping = fe2d::damping_of(scene, model, motion);
     options.static_load =
         fe2d::sum_of(loads.gravity, model.dofs.count) + fe2d::sum_of(loads.impounding, model.dofs.count);
@@ -64,7 +64,7 @@ Scene full_dam_on_rock()
 
 TEST(FeTimeRun, default_scheme_is_hht_with_a_twentieth)
 {
-    const fe2d::Scheme scheme = fe2d::RunOptions{}.scheme, expected = fe2d::hht(-0.05);
+    const fe2d::Scheme scheme = fe2d::TiedRunOptions{}.scheme, expected = fe2d::hht(-0.05);
     EXPECT_DOUBLE_EQ(scheme.alpha, expected.alpha);
     EXPECT_DOUBLE_EQ(scheme.gamma, expected.gamma);
     EXPECT_DOUBLE_EQ(scheme.beta, expected.beta);
@@ -79,7 +79,7 @@ TEST(FeTimeRun, zero_record_keeps_the_static_state)
     still.dt = 0.01;
     still.accel_h.assign(2001, 0.0);
     const auto history = fe2d::integrate(model, still, options_of(scene, model, still));
-    ASSERT_EQ(history.status, fe2d::RunStatus::complete) << history.status_text;
+    ASSERT_EQ(history.status, fe2d::TiedRunStatus::complete) << history.status_text;
     EXPECT_EQ(history.steps, 2000);
     EXPECT_LT(history.peak_crest_x, 1e-13);
     EXPECT_GT(std::abs(history.rows[0].crest_x), 1e-4);
@@ -96,7 +96,7 @@ TEST(FeTimeRun, condensed_rock_gives_the_run_of_the_whole_rock)
     const Scene scene = full_dam_on_rock();
     const fe2d::Model model = small_model(scene);
     const GroundMotion motion = pulses(0.01, 301);
-    fe2d::RunOptions options = options_of(scene, model, motion);
+    fe2d::TiedRunOptions options = options_of(scene, model, motion);
     const auto condensed = fe2d::integrate(model, motion, options);
     options.rock = fe2d::RockTreatment::whole;
     const auto whole = fe2d::integrate(model, motion, options);
@@ -115,7 +115,7 @@ TEST(FeTimeRun, energy_closes_for_every_scheme_with_rock_water_and_both_componen
     const Scene scene = full_dam_on_rock();
     const fe2d::Model model = small_model(scene);
     const GroundMotion motion = pulses(0.01, 401);
-    fe2d::RunOptions options = options_of(scene, model, motion);
+    fe2d::TiedRunOptions options = options_of(scene, model, motion);
     for (const auto& scheme : {fe2d::average_acceleration(), fe2d::hht(-0.05), fe2d::hht(-1.0 / 3.0)}) {
         options.scheme = scheme;
         const auto history = fe2d::integrate(model, motion, options);
@@ -133,7 +133,7 @@ TEST(FeTimeRun, rigid_dam_hands_the_inertia_to_its_base)
     scene.reservoir = Reservoir{.level = 62.5};
     const fe2d::Model model = small_model(scene);
     const GroundMotion motion = pulses(0.01, 201);
-    fe2d::RunOptions options = options_of(scene, model, motion);
+    fe2d::TiedRunOptions options = options_of(scene, model, motion);
     options.damping = {};
     options.damping.constants.stiffness = 1e-3;
     const auto history = fe2d::integrate(model, motion, options);
@@ -206,7 +206,7 @@ TEST(FeTimeRun, converges_to_the_exact_modal_solution)
             exact[k + 1] += shape[x] * q;
         }
     }
-    fe2d::RunOptions options;
+    fe2d::TiedRunOptions options;
     options.damping.constants = constants;
     for (const auto& scheme : {fe2d::average_acceleration(), fe2d::hht(-0.05), fe2d::hht(-0.3)}) {
         options.scheme = scheme;
@@ -256,7 +256,7 @@ TEST(FeTimeRun, cancelling_keeps_what_was_done)
     const Scene scene = fe2d::test::reference_dam();
     const fe2d::Model model = small_model(scene);
     const GroundMotion motion = pulses(0.01, 201);
-    fe2d::RunOptions options;
+    fe2d::TiedRunOptions options;
     options.keep_every = 10;
     const auto complete = fe2d::integrate(model, motion, options);
     EXPECT_EQ(complete.rows.size(), 21u);
@@ -264,7 +264,7 @@ TEST(FeTimeRun, cancelling_keeps_what_was_done)
         return progress.step < 55 ? fe2d::RunAnswer::go_on : fe2d::RunAnswer::stop;
     };
     const auto part = fe2d::integrate(model, motion, options);
-    EXPECT_EQ(part.status, fe2d::RunStatus::cancelled);
+    EXPECT_EQ(part.status, fe2d::TiedRunStatus::cancelled);
     EXPECT_EQ(part.steps, 55);
     ASSERT_EQ(part.rows.size(), 6u);
     EXPECT_EQ(part.rows.back().crest_x, complete.rows[5].crest_x); // same bits
@@ -278,7 +278,7 @@ TEST(FeTimeRun, steps_that_do_not_fit_are_refused)
 {
     const fe2d::Model model = small_model(fe2d::test::reference_dam());
     const GroundMotion motion = pulses(0.01, 21);
-    fe2d::RunOptions options;
+    fe2d::TiedRunOptions options;
     for (double dt : {0.003, 0.02, 0.0, -0.01}) {
         options.dt = dt;
         EXPECT_THROW(fe2d::integrate(model, motion, options), InputError) << dt;
@@ -287,7 +287,7 @@ TEST(FeTimeRun, steps_that_do_not_fit_are_refused)
     options.scheme = fe2d::linear_acceleration();
     EXPECT_THROW(fe2d::integrate(model, motion, options), InputError); // highest frequency some kHz
     options.dt = 0.01 / 64;
-    EXPECT_EQ(fe2d::integrate(model, motion, options).status, fe2d::RunStatus::complete);
+    EXPECT_EQ(fe2d::integrate(model, motion, options).status, fe2d::TiedRunStatus::complete);
 }
 
 } // namespace

@@ -235,7 +235,7 @@ std::vector<Check> condensed_rock()
         motion.accel_h.push_back(2.0 * std::sin(0.05 * k) * std::sin(0.21 * k));
         motion.accel_v.push_back(1.0 * std::sin(0.04 * k) * std::sin(0.33 * k));
     }
-    fe2d::RunOptions options;
+    fe2d::TiedRunOptions options;
     options.damping.constants = {1.9, 0.00075};
     const auto loads = fe2d::static_loads(scene, model);
     options.static_load =
