@@ -1,6 +1,7 @@
 #include "cli/screen_command.hpp"
 
 #include "cli/explain_command.hpp"
+#include "cli/screen_report.hpp"
 #include "cli/screen_tables.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
@@ -123,9 +124,11 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                    report::csv(slip_table(s, scene.criteria.allowable_slip),
                                {"damslip " + program_version(), "scene " + scene_hash(scene)}));
         write_file(arguments.out / "scene.resolved.toml", resolved_toml(given));
+        const std::filesystem::path page = arguments.out / "report.html";
+        write_file(page, screen_report({given, scene, s, records, arguments.jobs}));
         if (!streams.quiet)
             streams.talk << "written: " << (arguments.out / "summary.json").string()
-                         << ", displacements.csv, scene.resolved.toml\n";
+                         << ", displacements.csv, scene.resolved.toml\nreport: " << page.string() << "\n";
     }
     return exit_code(s);
 }

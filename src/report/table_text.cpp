@@ -28,25 +28,6 @@ std::string number_text(double value, int digits)
     return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
-std::string cell_text(const Cell& cell, int digits)
-{
-    struct Show {
-        int digits;
-        std::string operator()(std::monostate) const { return "–"; }
-        std::string operator()(double v) const { return number_text(v, digits); }
-        std::string operator()(std::int64_t v) const { return std::to_string(v); }
-        std::string operator()(const std::string& v) const { return v; }
-        std::string operator()(bool v) const { return v ? "yes" : "no"; }
-    };
-    return std::visit(Show{digits}, cell);
-}
-
-bool is_number(const Cell& cell)
-{
-    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) ||
-           std::holds_alternative<std::monostate>(cell);
-}
-
 std::string padded(const std::string& s, std::size_t to, bool right)
 {
     const std::string fill(to - std::min(to, width(s)), ' ');
@@ -104,6 +85,25 @@ std::string csv_field(const Cell& cell)
 }
 
 } // namespace
+
+std::string cell_text(const Cell& cell, int digits)
+{
+    struct Show {
+        int digits;
+        std::string operator()(std::monostate) const { return "–"; }
+        std::string operator()(double v) const { return number_text(v, digits); }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(const std::string& v) const { return v; }
+        std::string operator()(bool v) const { return v ? "yes" : "no"; }
+    };
+    return std::visit(Show{digits}, cell);
+}
+
+bool is_number(const Cell& cell)
+{
+    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) ||
+           std::holds_alternative<std::monostate>(cell);
+}
 
 std::string text(const Table& table)
 {

@@ -7,6 +7,12 @@
 
 namespace damslip::report {
 
+/// One value for people: significant digits, "–" for nothing, "yes" and "no".
+std::string cell_text(const Cell& cell, int digits);
+
+/// A number or nothing: right-aligned.
+bool is_number(const Cell& cell);
+
 /// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
 std::string text(const Table& table);
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "report/page.hpp"
+#include "scene/scene.hpp"
+#include "sliding/uplift/uplift_profile.hpp"
+
+namespace damslip::cli {
+
+/// The section to scale: concrete, water and its levels, silt, ice, forces, curtain, drains, the uplift pressure below
+/// the base, dimensions, axes and the sign convention.
+/// @param uplift  along the base, as the yield acceleration uses it
+report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift);
+
+} // namespace damslip::cli

@@ -1,0 +1,16 @@
+/* Files of this folder as bytes in the program; lengths by the difference of two labels. */
+        .section .rodata
+        .macro embed name, file
+        .global damslip_\name, damslip_\name\()_end
+damslip_\name:
+        .incbin "\file"
+damslip_\name\()_end:
+        .byte 0
+        .endm
+
+        embed uplot_js, "report/vendor/uplot/uPlot.iife.min.js"
+        embed uplot_css, "report/vendor/uplot/uPlot.min.css"
+        embed page_js, "report/page.js"
+        embed page_css, "report/page.css"
+
+        .section .note.GNU-stack, "", %progbits

@@ -1,0 +1,32 @@
+#include "report/assets.hpp"
+
+extern "C" {
+extern const char damslip_uplot_js[], damslip_uplot_js_end[];
+extern const char damslip_uplot_css[], damslip_uplot_css_end[];
+extern const char damslip_page_js[], damslip_page_js_end[];
+extern const char damslip_page_css[], damslip_page_css_end[];
+}
+
+namespace damslip::report {
+
+std::string_view uplot_script()
+{
+    return {damslip_uplot_js, damslip_uplot_js_end};
+}
+
+std::string_view uplot_style()
+{
+    return {damslip_uplot_css, damslip_uplot_css_end};
+}
+
+std::string_view page_script()
+{
+    return {damslip_page_js, damslip_page_js_end};
+}
+
+std::string_view page_style()
+{
+    return {damslip_page_css, damslip_page_css_end};
+}
+
+} // namespace damslip::report

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+/// Script and style that every page carries, embedded at build (assets.S).
+namespace damslip::report {
+
+std::string_view uplot_script(); ///< uPlot 1.6.32 (MIT), minified; readable twin and checksums: vendor/uplot
+std::string_view uplot_style();
+std::string_view page_script(); ///< page.js
+std::string_view page_style();  ///< page.css
+
+} // namespace damslip::report

@@ -1,0 +1,420 @@
+// Draws the charts of a report page. Each figure.chart holds its data as JSON (chart_data.cpp) and a place to draw in.
+"use strict";
+(() => {
+    const errors = [];
+    window.addEventListener("error", e => { errors.push(e.message); mark(); });
+
+    // Canvases are drawn at twice the screen's pixels at least, so that they print sharply.
+    if (window.devicePixelRatio < 2) {
+        Object.defineProperty(window, "devicePixelRatio", {value: 2, configurable: true});
+        window.dispatchEvent(new Event("resize"));
+    }
+
+    const root = document.documentElement;
+    const dark_wanted = matchMedia("(prefers-color-scheme: dark)");
+    const print_wanted = matchMedia("print");
+    let chosen = null; // "dark" or "light" once the reader has pressed the button
+
+    function set_theme() {
+        root.classList.toggle("dark", !printing && (chosen ? chosen === "dark" : dark_wanted.matches));
+    }
+    let printing = false;
+    set_theme();
+
+    const css = name => getComputedStyle(root).getPropertyValue(name).trim();
+    const colour = k => css("--c" + (k % 8));
+
+    // ---- numbers -------------------------------------------------------------------------------------------------
+    function number(v, digits = 5) {
+        if (v == null || !isFinite(v)) return "–";
+        if (v === 0) return "0";
+        const a = Math.abs(v);
+        const s = a >= 1e7 || a < 1e-4 ? v.toExponential(digits - 1) : String(Number(v.toPrecision(digits)));
+        return s.replace("-", "−");
+    }
+
+    function tick_text(v, step) {
+        if (v == null) return "";
+        if (v === 0) return "0";
+        const a = Math.abs(v);
+        if (a >= 1e6 || a < 1e-4) return v.toExponential(2).replace(/\.?0+e/, "e").replace("-", "−").replace("e+", "e");
+        const decimals = step ? Math.max(0, Math.min(8, -Math.floor(Math.log10(step) + 1e-9))) : undefined;
+        return (decimals === undefined ? String(Number(v.toPrecision(3))) : v.toFixed(decimals)).replace("-", "−");
+    }
+
+    const with_unit = axis => axis.label + (axis.unit && axis.unit !== "–" ? " (" + axis.unit + ")" : "");
+
+    // ---- scales and ticks -------------------------------------------------------------------------------------------
+    // Ticks at 0 and 1, 2, 5 times powers of ten where there is room; evenly spaced ones in a narrow part of a scale.
+    function decades(low, high, from, most) {
+        const first = Math.floor(Math.log10(from)), last = Math.ceil(Math.log10(Math.max(Math.abs(low), Math.abs(high), from)));
+        const all = steps => {
+            const found = [];
+            for (const sign of [-1, 1])
+                for (let e = first; e <= last; ++e)
+                    for (const m of steps) {
+                        const v = sign * Number((m * Math.pow(10, e)).toPrecision(3));
+                        if (v >= low && v <= high) found.push(v);
+                    }
+            return found;
+        };
+        let ticks = all([1, 2, 5]);
+        if (ticks.length > most) ticks = all([1]);
+        if (low <= 0 && high >= 0) ticks.push(0);
+        ticks.sort((a, b) => a - b);
+        return ticks.length >= 2 ? ticks : even(low, high, 4);
+    }
+    function even(low, high, n) {
+        const raw = (high - low) / n, power = Math.pow(10, Math.floor(Math.log10(raw)));
+        const step = power * [1, 2, 5, 10].find(m => m * power >= raw * 0.999);
+        const ticks = [];
+        for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push(Number((k * step).toPrecision(12)));
+        return ticks;
+    }
+
+    function value_range(axis, extra) {
+        return (u, low, high) => {
+            if (low == null) { low = 0; high = 1; }
+            for (const v of extra) { low = Math.min(low, v); high = Math.max(high, v); }
+            if (axis.scale === "log") {
+                if (!(low > 0)) low = high > 0 ? high / 10 : 0.1;
+                low = Math.pow(10, Math.floor(Math.log10(low) * 5 - 0.2) / 5);
+                high = Math.pow(10, Math.ceil(Math.log10(Math.max(high, low * 1.5)) * 5 + 0.2) / 5);
+            } else if (axis.scale === "asinh") {
+                const t = axis.linear_below, out = v => t * Math.sinh(Math.asinh(v / t) * 1.08);
+                high = high > 0 ? Math.max(out(high), 2 * t) : t;
+                low = low < 0 ? out(low) : -t * Math.sinh(0.02 * Math.asinh(high / t)); // a curve at zero stays clear of the edge
+            } else {
+                if (low === 0 && high === 0) high = 1;
+                const pad = (high - low || Math.abs(high)) * 0.06;
+                low -= low === 0 ? pad / 3 : pad;
+                high += high === 0 ? pad / 3 : pad;
+            }
+            return [axis.low ?? low, axis.high ?? high];
+        };
+    }
+
+    // ---- one chart ----------------------------------------------------------------------------------------------------
+    function abscissae(x) {
+        if (Array.isArray(x)) return x;
+        return Array.from({length: x.n}, (_, i) => Number((x.from + i * x.step).toPrecision(9)));
+    }
+
+    // Lines across the chart with their labels, and the bars around points.
+    function draw_extras(chart, helpers) {
+        return u => {
+            const ctx = u.ctx, r = uPlot.pxRatio, box = u.bbox;
+            ctx.save();
+            ctx.beginPath();
+            ctx.rect(box.left, box.top, box.width, box.height);
+            ctx.clip();
+            ctx.font = 12 * r + "px system-ui, sans-serif";
+            ctx.lineWidth = 1.3 * r;
+            ctx.strokeStyle = ctx.fillStyle = css("--mark");
+            ctx.setLineDash([6 * r, 4 * r]);
+            const text = (s, x, y, align) => {
+                ctx.textAlign = align;
+                ctx.lineWidth = 4 * r; ctx.strokeStyle = css("--paper"); ctx.setLineDash([]);
+                ctx.strokeText(s, x, y);
+                ctx.fillText(s, x, y);
+                ctx.lineWidth = 1.3 * r; ctx.strokeStyle = css("--mark"); ctx.setLineDash([6 * r, 4 * r]);
+            };
+            for (const line of chart.horizontal) {
+                const y = u.valToPos(line.at, "y", true);
+                ctx.beginPath(); ctx.moveTo(box.left, y); ctx.lineTo(box.left + box.width, y); ctx.stroke();
+                const above = y - 6 * r > box.top + 14 * r;
+                ctx.textBaseline = above ? "bottom" : "top";
+                text(line.label, box.left + box.width - 6 * r, above ? y - 3 * r : y + 3 * r, "right");
+            }
+            chart.vertical.forEach((line, i) => {
+                const x = u.valToPos(line.at, "x", true);
+                if (x < box.left || x > box.left + box.width) return;
+                ctx.beginPath(); ctx.moveTo(x, box.top); ctx.lineTo(x, box.top + box.height); ctx.stroke();
+                const left = x > box.left + box.width / 2;
+                ctx.textBaseline = "top";
+                text(line.label, left ? x - 5 * r : x + 5 * r, box.top + (4 + 16 * i) * r, left ? "right" : "left");
+            });
+            ctx.setLineDash([]);
+            for (const h of helpers) {
+                if (!h.bars || !u.series[h.main].show) continue;
+                ctx.strokeStyle = colour(h.colour);
+                ctx.lineWidth = 1.5 * r;
+                u.data[0].forEach((x, i) => {
+                    const low = u.data[h.low][i], high = u.data[h.high][i];
+                    if (low == null || high == null) return;
+                    const px = u.valToPos(x, "x", true), a = u.valToPos(low, "y", true), b = u.valToPos(high, "y", true);
+                    ctx.beginPath();
+                    ctx.moveTo(px, a); ctx.lineTo(px, b);
+                    ctx.moveTo(px - 4 * r, a); ctx.lineTo(px + 4 * r, a);
+                    ctx.moveTo(px - 4 * r, b); ctx.lineTo(px + 4 * r, b);
+                    ctx.stroke();
+                });
+            }
+            ctx.restore();
+        };
+    }
+
+    function options(chart, data, width) {
+        const names = chart.xaxis.categories;
+        const ink = css("--axis"), grid = {stroke: css("--grid"), width: 1};
+        const font = "12px system-ui, sans-serif";
+        const series = [{label: names.length ? chart.xaxis.label || "case" : with_unit(chart.xaxis),
+                         value: (u, v) => v == null ? "" : names.length ? names[Math.round(v)] ?? "" : number(v)}];
+        const bands = [], helpers = [];
+        for (const c of chart.curves) {
+            const stroke = colour(c.colour);
+            const points = c.mark === "points" || c.mark === "line_and_points";
+            const main = series.length;
+            series.push({
+                label: c.name + (chart.yaxis.unit && chart.yaxis.unit !== "–" ? " (" + chart.yaxis.unit + ")" : ""),
+                stroke: c.mark === "points" ? (points ? stroke : undefined) : stroke,
+                width: c.weight === "strong" ? 2.5 : c.weight === "faint" ? 0.8 : 1.5,
+                alpha: c.weight === "faint" ? 0.7 : 1,
+                dash: c.mark === "dashed" ? [7, 4] : undefined,
+                paths: c.mark === "points" ? () => null : undefined,
+                points: points ? {show: true, size: 7, fill: stroke, stroke} : {show: false},
+                spanGaps: chart.joined,
+                pxAlign: 0,
+                value: (u, v) => v == null ? "" : number(v),
+            });
+            data.push(c.y);
+            if (!c.low) continue;
+            for (const side of ["high", "low"]) {
+                data.push(c[side]);
+                series.push({label: c.name + " " + side, class: "helper", paths: () => null, points: {show: false}, spanGaps: chart.joined});
+            }
+            const bars = c.mark === "points";
+            helpers.push({main, high: main + 1, low: main + 2, bars, colour: c.colour});
+            if (!bars) {
+                const line = {paths: undefined, stroke: "transparent", width: 0};
+                Object.assign(series[main + 1], line); Object.assign(series[main + 2], line);
+                bands.push({series: [main + 1, main + 2], fill: stroke + "30"});
+            }
+        }
+        const x_distr = chart.xaxis.scale === "log" ? 3 : chart.xaxis.scale === "asinh" ? 4 : 1;
+        const y_distr = chart.yaxis.scale === "log" ? 3 : chart.yaxis.scale === "asinh" ? 4 : 1;
+        const x_low = chart.xaxis.low, x_high = chart.xaxis.high;
+        const ticks = (axis, key) => (u, i, low, high) => {
+            const pixels = (key === "x" ? u.bbox.width : u.bbox.height) / uPlot.pxRatio;
+            if (axis.scale === "log") return decades(low, high, low, pixels / (key === "x" ? 45 : 24));
+            if (axis.scale === "asinh") return decades(low, high, axis.linear_below, pixels / (key === "x" ? 45 : 24));
+            return even(low, high, Math.max(2, Math.min(10, pixels / (key === "x" ? 55 : 32))));
+        };
+        const labels = axis => (u, splits) => {
+            const step = axis.scale === "linear" && splits.length > 1 ? splits[1] - splits[0] : 0;
+            return splits.map(v => tick_text(v, step));
+        };
+        const short_names = names.map(s => s.length > 24 ? s.slice(0, 23) + "…" : s); // the legend has the whole name
+        const longest = short_names.reduce((n, s) => Math.max(n, s.length), 0);
+        const tilted = names.length > 0 && longest * 7 * names.length > width - 70;
+        const x_axis = {
+            stroke: ink, font, labelFont: font, grid, ticks: grid, filter: (u, splits) => splits,
+            label: names.length ? undefined : with_unit(chart.xaxis), labelSize: 20, size: 32,
+            splits: names.length ? () => names.map((_, i) => i) : ticks(chart.xaxis, "x"),
+            values: names.length ? () => short_names : labels(chart.xaxis),
+        };
+        if (tilted) {
+            x_axis.rotate = 40;
+            x_axis.size = Math.min(190, 18 + longest * 7 * 0.66);
+        }
+        const y_axis = {
+            stroke: ink, font, labelFont: font, grid, ticks: grid, filter: (u, splits) => splits,
+            label: with_unit(chart.yaxis), labelSize: 22,
+            splits: ticks(chart.yaxis, "y"), values: labels(chart.yaxis),
+            size: (u, values) => 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length)),
+        };
+        return {
+            width, height: chart.height + (tilted ? x_axis.size - 32 : 0),
+            scales: {
+                x: {time: false, distr: x_distr, asinh: chart.xaxis.linear_below,
+                    range: (u, low, high) => names.length ? [Math.max(-0.5, low - 0.5), Math.min(names.length - 0.5, high + 0.5)]
+                                           : low == null ? [x_low ?? 0, x_high ?? 1]
+                                           : low === high ? [low - Math.abs(low || 1) / 2, high + Math.abs(high || 1) / 2]
+                                           : low === data[0][0] && high === data[0][data[0].length - 1] ? [x_low ?? low, x_high ?? high] : [low, high]},
+                y: {distr: y_distr, asinh: chart.yaxis.linear_below, range: value_range(chart.yaxis, chart.horizontal.map(l => l.at))},
+            },
+            series, bands, axes: [x_axis, y_axis],
+            cursor: {sync: chart.together ? {key: chart.together, scales: ["x", null]} : undefined,
+                     points: {size: 7, show: (u, i) => u.series[i].class !== "helper" && document.createElement("div")}, drag: {x: true, y: false}},
+            legend: {live: true},
+            hooks: {draw: [draw_extras(chart, helpers)],
+                    setLegend: [u => { if (u.legend.idx == null) u.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; }); }]},
+        };
+    }
+
+    const charts = []; // {figure, chart, plot}
+
+    function draw(entry) {
+        const place = entry.figure.querySelector(".plot");
+        const width = Math.floor(place.clientWidth);
+        if (!width) return; // inside a folded part: drawn when it is opened
+        if (entry.plot) entry.plot.destroy();
+        place.textContent = "";
+        const data = [entry.x];
+        const opts = options(entry.chart, data, width);
+        entry.plot = new uPlot(opts, data, place);
+        entry.width = width;
+        entry.plot.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; });
+    }
+
+    // uPlot draws after the current task, so the marks are set after the next one.
+    const mark_soon = () => setTimeout(mark, 0);
+    const draw_all = () => { charts.forEach(draw); mark_soon(); };
+
+    // ---- tools --------------------------------------------------------------------------------------------------------
+    function save(name, blob) {
+        const a = document.createElement("a");
+        a.href = URL.createObjectURL(blob);
+        a.download = name;
+        a.click();
+        setTimeout(() => URL.revokeObjectURL(a.href), 1000);
+    }
+    const file_name = chart => chart.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "chart";
+
+    function csv(entry) {
+        const quote = s => /[",\n\r]/.test(s) ? '"' + s.replace(/"/g, '""') + '"' : s;
+        const {chart, x} = entry, names = chart.xaxis.categories;
+        const head = [with_unit(chart.xaxis)], columns = [x.map(v => names.length ? quote(names[v] ?? "") : v)];
+        for (const c of chart.curves) {
+            const unit = chart.yaxis.unit && chart.yaxis.unit !== "–" ? " (" + chart.yaxis.unit + ")" : "";
+            head.push(c.name + unit); columns.push(c.y);
+            if (c.low) { head.push(c.name + ", low" + unit, c.name + ", high" + unit); columns.push(c.low, c.high); }
+        }
+        const rows = x.map((_, i) => columns.map(col => col[i] ?? "").join(","));
+        return head.map(quote).join(",") + "\n" + rows.join("\n") + "\n";
+    }
+
+    function picture(entry) {
+        const from = entry.plot.ctx.canvas, to = document.createElement("canvas");
+        to.width = from.width; to.height = from.height;
+        const ctx = to.getContext("2d");
+        ctx.fillStyle = css("--paper");
+        ctx.fillRect(0, 0, to.width, to.height);
+        ctx.drawImage(from, 0, 0);
+        to.toBlob(blob => save(file_name(entry.chart) + ".png", blob));
+    }
+
+    function show_all(entry) {
+        for (const e of charts)
+            if (e.plot && (e === entry || (entry.chart.together && e.chart.together === entry.chart.together)))
+                e.plot.setData(e.plot.data);
+    }
+
+    function tools(entry) {
+        const bar = document.createElement("div");
+        bar.className = "chart-tools";
+        const add = (label, title, action) => {
+            const b = document.createElement("button");
+            b.type = "button"; b.textContent = label; b.title = title;
+            b.setAttribute("aria-label", title + ": " + entry.chart.title);
+            b.addEventListener("click", action);
+            bar.append(b);
+        };
+        add("Whole range", "Undo the zoom (or double-click; drag in the chart to zoom)", () => show_all(entry));
+        add("CSV", "Save the values", () => save(file_name(entry.chart) + ".csv", new Blob([csv(entry)], {type: "text/csv"})));
+        add("PNG", "Save the picture", () => picture(entry));
+        entry.figure.querySelector("figcaption").append(bar);
+    }
+
+    // Keys: arrows move the cursor by a sample (with shift by a twentieth), plus and minus zoom around it, 0 shows all.
+    function keys(entry) {
+        entry.figure.querySelector(".plot").addEventListener("keydown", event => {
+            const u = entry.plot;
+            if (!u) return;
+            const x = entry.x, low = u.scales.x.min, high = u.scales.x.max;
+            let at = u.cursor.idx ?? x.findIndex(v => v >= (low + high) / 2);
+            const stride = event.shiftKey ? Math.max(1, Math.round(x.length / 20)) : 1;
+            if (event.key === "ArrowLeft") at = Math.max(0, at - stride);
+            else if (event.key === "ArrowRight") at = Math.min(x.length - 1, at + stride);
+            else if (event.key === "+" || event.key === "-") {
+                const half = (high - low) / (event.key === "+" ? 4 : 1), middle = x[at];
+                const a = Math.max(x[0], middle - half), b = Math.min(x[x.length - 1], middle + half);
+                if (b > a) u.setScale("x", {min: a, max: b});
+            } else if (event.key === "0" || event.key === "Escape") show_all(entry);
+            else return;
+            event.preventDefault();
+            u.setCursor({left: u.valToPos(x[at], "x"), top: u.over.clientHeight / 2});
+            const names = entry.chart.xaxis.categories;
+            entry.figure.querySelector(".readout").textContent = with_unit(entry.chart.xaxis) + " " +
+                (names.length ? names[x[at]] : number(x[at])) + ": " +
+                entry.chart.curves.map(c => c.name + " " + number(c.y[at])).join(", ") + " " + entry.chart.yaxis.unit;
+        });
+    }
+
+    // ---- what a test reads ----------------------------------------------------------------------------------------------
+    // With #check in the address the canvases are searched for the colour of at least one curve.
+    function is_empty(entry) {
+        if (!entry.plot) return false;
+        const box = entry.plot.bbox;
+        const wanted = entry.chart.curves.map(c => [1, 3, 5].map(i => parseInt(colour(c.colour).slice(i, i + 2), 16)));
+        const copy = document.createElement("canvas");
+        copy.width = box.width; copy.height = box.height;
+        const ctx = copy.getContext("2d", {willReadFrequently: true});
+        ctx.drawImage(entry.plot.ctx.canvas, -box.left, -box.top);
+        const pixels = ctx.getImageData(0, 0, copy.width, copy.height).data;
+        for (let i = 0; i < pixels.length; i += 4)
+            if (pixels[i + 3] > 200 && wanted.some(w => Math.abs(w[0] - pixels[i]) + Math.abs(w[1] - pixels[i + 1]) + Math.abs(w[2] - pixels[i + 2]) < 24))
+                return false;
+        return true;
+    }
+
+    let finished = false;
+    function mark() {
+        const d = document.getElementById("drawn");
+        if (!d) return;
+        d.dataset.charts = String(charts.length);
+        d.dataset.drawn = String(charts.filter(e => e.plot).length);
+        d.dataset.errors = errors.join(" | ");
+        if (location.hash === "#check") d.dataset.empty = charts.filter(is_empty).map(e => e.chart.title).join(" | ");
+        d.dataset.state = errors.length ? "failed" : finished ? "drawn" : "drawing";
+    }
+
+    // ---- start ----------------------------------------------------------------------------------------------------------
+    document.querySelectorAll("figure.chart").forEach(figure => {
+        const chart = JSON.parse(figure.querySelector("script").textContent);
+        const entry = {figure, chart, x: abscissae(chart.x), plot: null, width: 0};
+        charts.push(entry);
+        tools(entry);
+        keys(entry);
+    });
+    const check = location.hash === "#check";
+    const unfold = open => document.querySelectorAll("details").forEach(d => { d.open = open; });
+    if (check) unfold(true);
+    finished = true;
+    draw_all();
+
+    document.getElementById("theme").addEventListener("click", () => {
+        chosen = root.classList.contains("dark") ? "light" : "dark";
+        set_theme();
+        draw_all();
+    });
+    const all = document.getElementById("unfold");
+    if (!document.querySelector("details")) all.hidden = true;
+    all.addEventListener("click", () => {
+        const open = all.textContent === "Open all";
+        unfold(open);
+        all.textContent = open ? "Fold all" : "Open all";
+    });
+    dark_wanted.addEventListener("change", () => { set_theme(); draw_all(); });
+    document.addEventListener("toggle", event => {
+        charts.filter(e => !e.plot && event.target.contains(e.figure)).forEach(draw);
+        mark_soon();
+    }, true);
+    let wait = 0;
+    new ResizeObserver(() => {
+        clearTimeout(wait);
+        wait = setTimeout(() => { if (!printing) charts.filter(e => e.width !== Math.floor(e.figure.querySelector(".plot").clientWidth)).forEach(draw); }, 150);
+    }).observe(document.querySelector("main"));
+
+    // Paper is white and 180 mm wide: charts are drawn anew for it and back again.
+    function paper(on) {
+        if (printing === on) return;
+        printing = on;
+        set_theme();
+        document.querySelectorAll(".plot").forEach(p => { p.style.width = on ? "660px" : ""; });
+        draw_all();
+    }
+    window.addEventListener("beforeprint", () => paper(true));
+    window.addEventListener("afterprint", () => paper(false));
+    print_wanted.addEventListener("change", e => paper(e.matches));
+})();
