@@ -103,10 +103,10 @@ std::string metres_per_second2(double a)
     return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / g);
 }
 
-Section section_part(const Scene& scene)
+Section section_part(const Scene& scene, const Screening& s)
 {
-    const sliding::BaseState state =
-        sliding::base_state(scene, sliding::scene_static_case(scene), seepage_profile(scene));
+    const Scene solved = with_solved_uplift(scene, s);
+    const sliding::BaseState state = sliding::base_state(solved, sliding::scene_static_case(solved));
     return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
 }
 
@@ -134,9 +134,8 @@ Section yield_section(const Scene& scene, const Screening& s)
 {
     Section section{"Yield acceleration", {}, Fold::open};
     section.parts.push_back(TablePart{yield_table(s), Layout::rows, 1, Fold::open});
-    const Scene solved = with_solved_uplift(scene);
-    section.parts.push_back(yield_over_friction(solved, s));
-    if (scene.reservoir) section.parts.push_back(yield_over_level(solved, s));
+    section.parts.push_back(yield_over_friction(scene, s));
+    if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
     if (!s.uplifts.empty())
         section.parts.push_back(TablePart{sliding::uplift_comparison_table(s.uplifts), Layout::rows, 1, Fold::open});
     return section;
@@ -151,12 +150,11 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
         section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
         section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     }
-    if (auto chart = slip_over_friction(with_solved_uplift(in.scene), s, motions, in.jobs))
-        section.parts.push_back(std::move(*chart));
+    if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
     if (motions.size() > 2) section.parts.push_back(slip_over_ratio(s));
     if (!s.regressions.empty())
         section.parts.push_back(
-            TablePart{regression_table(s), Layout::rows, 1, motions.size() > open_records ? Fold::folded : Fold::open});
+            TablePart{regression_table(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
     return section;
 }
 
@@ -268,7 +266,7 @@ report::Page screen_page(const ScreenReportInput& in)
     page.headline = screen_headline(in.scene, in.screening);
     page.key_figures = key_figures(in.scene, in.screening);
     page.warnings = all_warnings(in);
-    page.sections.push_back(section_part(in.scene));
+    page.sections.push_back(section_part(in.scene, in.screening));
     if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
     page.sections.push_back(yield_section(in.scene, in.screening));
     page.sections.push_back(equilibrium_section(in.screening));

@@ -159,8 +159,8 @@ void draw_uplift(Sketch& sketch, const Scene& scene, const Frame& f, const slidi
     if (points.back().pressure > 0.005 * largest)
         sketch.text(at(length, points.back().pressure), words(points.back().pressure), Align::start, 6, 6,
                     "small halo");
-    sketch.text(at(0.55 * length, largest), fmt::format("uplift U = {:.4g} kN/m", resultant(profile).force / 1e3),
-                Align::start, 0, 0);
+    sketch.text(at(length, 0.8 * largest), fmt::format("uplift U = {:.4g} kN/m", resultant(profile).force / 1e3),
+                Align::start, 6, 0);
 }
 
 void draw_curtain_and_drains(Sketch& sketch, const Scene& scene, const Frame& f)

@@ -40,18 +40,35 @@ std::vector<double> friction_values(const RigidModel& own)
     return values;
 }
 
+/// The model with another peak friction; forces, uplift and what they become with slip stay.
+RigidModel at_friction(const Scene& scene, RigidModel model, double friction)
+{
+    const Contact contact = with_friction(scene, friction).contact;
+    const sliding::SlipStage last = model.stages.back();
+    model.block.friction = friction;
+    model.stages = sliding::strength_stages(model.block, contact);
+    if (scene.drains && scene.drains->lost_at_slip)
+        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip, last.block);
+    model.downstream = sliding::yield_downstream(model.block);
+    model.upstream = sliding::yield_upstream(model.block);
+    model.state = sliding::static_state(model.block);
+    return model;
+}
+
 /// Largest slip [mm] for each friction (rows) and record (columns), the worse polarity.
-std::vector<std::vector<double>> slip_grid(const Scene& scene, const std::vector<double>& friction,
+std::vector<std::vector<double>> slip_grid(const Scene& scene, const RigidModel& own,
+                                           const std::vector<double>& friction,
                                            const std::vector<GroundMotion>& motions, int jobs)
 {
     std::vector<RigidModel> models;
-    for (const double mu : friction) models.push_back(make_rigid_model(with_friction(scene, mu)));
+    for (const double mu : friction) models.push_back(at_friction(scene, own, mu));
+    std::vector<sliding::SkippingMotion> prepared(motions.begin(), motions.end());
     std::vector<std::vector<double>> slip(friction.size(), std::vector<double>(motions.size(), nothing));
     parallel_for(friction.size() * motions.size(), jobs, [&](std::size_t task) {
         const std::size_t i = task / motions.size(), j = task % motions.size();
         double worst = 0.0;
         for (const int polarity : {1, -1}) {
-            const sliding::SlideResult r = slide_model(scene, models[i], motions[j], polarity);
+            const sliding::SlideResult r = slide_model(scene, models[i], prepared[j], polarity);
             if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::unresolved)
                 return; // no figure to draw
             worst = std::max(worst, r.max_slip);
@@ -123,7 +140,7 @@ std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screen
     const RigidModel& own = s.bases.front().model;
     if (motions.empty() || !scene.contact.friction_table.empty() || !(own.block.friction > 0)) return std::nullopt;
     const std::vector<double> friction = friction_values(own);
-    const auto grid = slip_grid(scene, friction, motions, jobs);
+    const auto grid = slip_grid(scene, own, friction, motions, jobs);
     report::Chart chart;
     chart.title = "Slip over friction";
     chart.x = {"friction μ", "–", Scale::linear, 0.1, {}, {}, {}};
@@ -218,7 +235,7 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
         curve.low.push_back(row.low.value_or(nothing) / mm);
         curve.high.push_back(row.high.value_or(nothing) / mm);
     }
-    if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); })) return std::nullopt;
+    if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return v > 0; })) return std::nullopt;
     chart.curves.push_back(std::move(curve));
     chart.horizontal.push_back({worse_horizontal(s, number).horizontal.max_slip / mm, "rigid block, horizontal"});
     if (const SlipRow* row = worse_with_vertical(s, number))

@@ -14,7 +14,7 @@ const SlipRow* worse_with_vertical(const Screening& s, std::size_t number);
 
 /// Largest slip over friction, worse polarity, with the vertical component where a record has one: each record up to 6,
 /// beyond that median, 16/84 % and largest.
-/// @param scene  with its uplift solved (yield_charts.hpp)  @param jobs  threads, 0: all cores
+/// @param jobs  threads, 0: all cores
 /// @returns nothing without records, or for a scene whose friction is a table over slip
 std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screening& s,
                                                 const std::vector<GroundMotion>& motions, int jobs);
@@ -25,7 +25,7 @@ report::Chart slip_by_record(const Screening& s, const std::optional<double>& al
 /// Largest slip of each record over a_y/PGA.
 report::Chart slip_over_ratio(const Screening& s);
 
-/// The regressions of record `number` with their bands beside its rigorous slip; nothing where there are none.
+/// The regressions of record `number` with their bands beside its rigorous slip; nothing where none gives a slip.
 std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t number);
 
 } // namespace damslip::cli

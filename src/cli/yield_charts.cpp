@@ -27,14 +27,15 @@ Scene with_uplift(Scene scene, UpliftModel model)
 }
 
 /// The scene's own uplift first, then the other models it has the data for.
-std::vector<std::pair<std::string, Scene>> uplift_variants(const Scene& scene, const Screening& s)
+std::vector<std::pair<std::string, Scene>> uplift_variants(const Scene& given, const Screening& s)
 {
-    const UpliftModel own = scene.uplift ? scene.uplift->model : UpliftModel::none;
+    const UpliftModel own = given.uplift ? given.uplift->model : UpliftModel::none;
+    const Scene scene = with_solved_uplift(given, s);
     std::vector<std::pair<std::string, Scene>> variants{
         {fmt::format("uplift {}, as given", sliding::word(own)), scene}};
     for (const sliding::UpliftComparison& u : s.uplifts)
         if (u.model != own && u.model != UpliftModel::seepage &&
-            (u.model != UpliftModel::points || (scene.uplift && !scene.uplift->points.empty())))
+            (u.model != UpliftModel::points || (given.uplift && !given.uplift->points.empty())))
             variants.emplace_back(fmt::format("uplift {}", sliding::word(u.model)), with_uplift(scene, u.model));
     return variants;
 }
@@ -50,16 +51,18 @@ report::Chart yield_chart(const Screening& s)
 
 } // namespace
 
-Scene with_solved_uplift(const Scene& scene)
+Scene with_solved_uplift(const Scene& scene, const Screening& s)
 {
     if (!scene.uplift || scene.uplift->model != UpliftModel::seepage) return scene;
-    const sliding::PressureProfile profile =
-        sliding::uplift_profile(scene, sliding::scene_uplift_state(scene), {}, seepage_profile(scene));
-    if (profile.points.empty() || !(profile.points.front().pressure > 0)) return scene;
+    const auto found =
+        std::find_if(s.uplifts.begin(), s.uplifts.end(), [](const auto& u) { return u.model == UpliftModel::seepage; });
+    if (found == s.uplifts.end() || found->profile.points.empty()) return scene;
+    const auto& points = found->profile.points;
+    if (!(points.front().pressure > 0)) return scene;
     Scene solved = with_uplift(scene, UpliftModel::points);
     solved.uplift->points.clear();
-    for (const sliding::ProfilePoint& p : profile.points)
-        solved.uplift->points.push_back({p.distance, p.pressure / profile.points.front().pressure});
+    for (const sliding::ProfilePoint& p : points)
+        solved.uplift->points.push_back({p.distance, p.pressure / points.front().pressure});
     return solved;
 }
 
@@ -72,7 +75,7 @@ report::Chart yield_over_friction(const Scene& scene, const Screening& s)
     chart.vertical.push_back({own.block.friction, "scene"});
     const std::vector<double> friction = spaced(0.5 * own.block.friction, std::max(0.1, 1.4 * own.block.friction));
     for (const auto& [name, variant] : uplift_variants(scene, s)) {
-        sliding::RigidBlock block = make_rigid_model(variant).block;
+        sliding::RigidBlock block = make_rigid_model(variant, {}).block;
         report::Curve curve;
         curve.name = name;
         curve.x = friction;
@@ -102,7 +105,7 @@ report::Chart yield_over_level(const Scene& scene, const Screening& s)
         Scene here = variant;
         for (const double level : levels) {
             here.reservoir->level = level;
-            curve.y.push_back(make_rigid_model(here).downstream.law.constant);
+            curve.y.push_back(make_rigid_model(here, {}).downstream.law.constant);
         }
         curve.weight = chart.curves.empty() ? report::Weight::strong : report::Weight::normal;
         chart.curves.push_back(std::move(curve));

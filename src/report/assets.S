@@ -10,6 +10,7 @@ damslip_\name\()_end:
 
         embed uplot_js, "report/vendor/uplot/uPlot.iife.min.js"
         embed uplot_css, "report/vendor/uplot/uPlot.min.css"
+        embed uplot_license, "report/vendor/uplot/LICENSE"
         embed page_js, "report/page.js"
         embed page_css, "report/page.css"
 

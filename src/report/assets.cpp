@@ -3,6 +3,7 @@
 extern "C" {
 extern const char damslip_uplot_js[], damslip_uplot_js_end[];
 extern const char damslip_uplot_css[], damslip_uplot_css_end[];
+extern const char damslip_uplot_license[], damslip_uplot_license_end[];
 extern const char damslip_page_js[], damslip_page_js_end[];
 extern const char damslip_page_css[], damslip_page_css_end[];
 }
@@ -17,6 +18,11 @@ std::string_view uplot_script()
 std::string_view uplot_style()
 {
     return {damslip_uplot_css, damslip_uplot_css_end};
+}
+
+std::string_view uplot_license()
+{
+    return {damslip_uplot_license, damslip_uplot_license_end};
 }
 
 std::string_view page_script()

@@ -7,7 +7,8 @@ namespace damslip::report {
 
 std::string_view uplot_script(); ///< uPlot 1.6.32 (MIT), minified; readable twin and checksums: vendor/uplot
 std::string_view uplot_style();
-std::string_view page_script(); ///< page.js
-std::string_view page_style();  ///< page.css
+std::string_view uplot_license(); ///< goes with every copy of the two
+std::string_view page_script();   ///< page.js
+std::string_view page_style();    ///< page.css
 
 } // namespace damslip::report

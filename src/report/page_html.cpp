@@ -96,9 +96,14 @@ std::string headline_html(const Headline& headline)
 std::string warnings_html(const std::vector<std::string>& warnings)
 {
     if (warnings.empty()) return "";
+    constexpr std::size_t shown = 6; // more of them would push the answer's figures off the first page
     std::string out = "<section class=\"warnings\" aria-label=\"Warnings\">\n<h2>Warnings</h2>\n<ul>\n";
-    for (const std::string& w : warnings) out += "<li>" + html_text(w) + "</li>\n";
-    return out + "</ul>\n</section>\n";
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        if (i == shown)
+            out += "</ul>\n<details><summary>" + std::to_string(warnings.size() - shown) + " more</summary>\n<ul>\n";
+        out += "<li>" + html_text(warnings[i]) + "</li>\n";
+    }
+    return out + (warnings.size() > shown ? "</ul>\n</details>\n" : "</ul>\n") + "</section>\n";
 }
 
 std::string contents_html(const Page& page)
@@ -142,7 +147,9 @@ std::string page_html(const Page& page)
     if (!page.provenance.empty())
         out += "<section id=\"provenance\">\n<h2>Provenance</h2>\n" + pairs_html(page.provenance, "provenance") +
                "</section>\n";
-    out += "</main>\n<div id=\"drawn\" hidden></div>\n<script>";
+    out += "</main>\n<div id=\"drawn\" hidden></div>\n<script>/*! uPlot\n";
+    out += uplot_license();
+    out += "*/\n";
     out += uplot_script();
     out += "</script>\n<script>\n";
     out += page_script();

@@ -1,0 +1,148 @@
+#include "core/file.hpp"
+#include "report/assets.hpp"
+#include "report/escape.hpp"
+#include "report/page_html.hpp"
+#include "report/sketch.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <regex>
+#include <sstream>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::report;
+
+std::size_t occurrences(const std::string& text, const std::string& word)
+{
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) ++n;
+    return n;
+}
+
+/// A page in which every text that a user can give holds a closing script tag and quotes.
+Page hostile_page()
+{
+    const std::string evil = "</script><img src=x onerror='alert(1)'>\"&";
+    Page page;
+    page.title = page.subtitle = evil;
+    page.headline = {evil, Outcome::pass, evil};
+    page.key_figures = page.provenance = {{evil, evil}};
+    page.warnings = {evil};
+    Table table{evil, {{"a", evil, evil, 4}}, {{Cell(evil)}, {Cell(1.5)}, {Cell()}}, {evil}};
+    Chart chart;
+    chart.title = chart.note = chart.together = evil;
+    chart.x.label = chart.x.unit = chart.y.label = chart.y.unit = evil;
+    chart.x.categories = {evil};
+    Curve curve;
+    curve.name = evil;
+    curve.x = {0};
+    curve.y = {1};
+    chart.curves = {curve};
+    chart.horizontal = chart.vertical = {{1.0, evil}};
+    Sketch sketch({0, 0}, {10, 10}, 100);
+    sketch.text({1, 1}, evil);
+    sketch.level_mark({1, 1}, evil, Align::start);
+    page.sections = {{evil,
+                      {Paragraph{evil}, TablePart{table, Layout::rows, 1, Fold::open},
+                       TablePart{table, Layout::columns, 1, Fold::folded}, chart, Drawing{evil, sketch.svg(evil), evil},
+                       Listing{evil, evil}},
+                      Fold::open},
+                     {evil, {}, Fold::folded}};
+    return page;
+}
+
+TEST(ReportPage, NoTextOfTheUserBecomesMarkup)
+{
+    const std::string html = page_html(hostile_page());
+    EXPECT_EQ(html.find("<img"), std::string::npos);
+    // One for the chart's data, one for the library, one for the page's script.
+    EXPECT_EQ(occurrences(html, "</script>"), 3u);
+    EXPECT_NE(html.find("&lt;/script&gt;&lt;img"), std::string::npos);
+    EXPECT_NE(html.find("\\u003c/script>"), std::string::npos);
+}
+
+TEST(ReportPage, TheEmbeddedScriptsEndWhereTheyShould)
+{
+    EXPECT_EQ(uplot_script().find("</script"), std::string_view::npos);
+    EXPECT_EQ(page_script().find("</script"), std::string_view::npos);
+    EXPECT_EQ(uplot_license().find("*/"), std::string_view::npos);
+    EXPECT_EQ(page_style().find("</style"), std::string_view::npos);
+    EXPECT_EQ(uplot_style().find("</style"), std::string_view::npos);
+}
+
+TEST(ReportPage, NothingIsLoadedFromAnywhere)
+{
+    const std::string html = page_html(hostile_page());
+    std::vector<std::string> urls;
+    const std::regex url("[a-z]+://[^ \"'<>)]*");
+    for (std::sregex_iterator it(html.begin(), html.end(), url), end; it != end; ++it) urls.push_back(it->str());
+    EXPECT_EQ(urls, std::vector<std::string>{"https://github.com/leeoniya/uPlot"}); // the licence comment
+    for (const char* word :
+         {"<link", "@import", "url(", "<iframe", "<object", "fetch(", "XMLHttpRequest", "sendBeacon"})
+        EXPECT_EQ(html.find(word), std::string::npos) << word;
+    EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+    EXPECT_NE(html.find("Copyright (c) 2022 Leon Sorokin"), std::string::npos)
+        << "the licence of the library stays with it";
+}
+
+TEST(ReportPage, TheSamePageGivesTheSameBytes)
+{
+    EXPECT_EQ(page_html(hostile_page()), page_html(hostile_page()));
+}
+
+TEST(ReportPage, TablesShowDigitsUnitsVerdictsAndNothing)
+{
+    Page page;
+    Table table{"t",
+                {{"a", "slip", "mm", 3}, {"v", "verdict", "", 4}},
+                {{Cell(12.3456), Cell(std::string("FAIL"))}, {Cell(), Cell(std::string("PASS"))}},
+                {}};
+    page.sections = {{"s", {TablePart{table, Layout::rows, 1, Fold::open}}, Fold::open}};
+    const std::string html = page_html(page);
+    EXPECT_NE(html.find("slip <span class=\"unit\">mm</span>"), std::string::npos);
+    EXPECT_NE(html.find("<td class=\"number\">12.3</td><td class=\"fail\">FAIL</td>"), std::string::npos);
+    EXPECT_NE(html.find("<td class=\"number\">–</td><td class=\"pass\">PASS</td>"), std::string::npos);
+}
+
+TEST(ReportPage, VendoredFilesAreThoseOfTheirChecksums)
+{
+    const std::filesystem::path folder = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "src/report/vendor/uplot";
+    std::istringstream sums(read_file(folder / "SHA256SUMS"));
+    std::string sum, name;
+    std::size_t n = 0;
+    while (sums >> sum >> name) {
+        EXPECT_EQ(sha256(read_file(folder / name)), sum) << name;
+        ++n;
+    }
+    EXPECT_EQ(n, 4u);
+    // uPlot 1.6.32 as published; what is in the program is what is in the folder.
+    EXPECT_EQ(sha256(uplot_script()), "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f");
+    EXPECT_EQ(sha256(uplot_style()), "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04");
+    EXPECT_EQ(page_script(), read_file(folder / "../../page.js"));
+    EXPECT_EQ(page_style(), read_file(folder / "../../page.css"));
+}
+
+TEST(ReportEscape, HtmlAndJson)
+{
+    EXPECT_EQ(html_text("a<b>&\"'\x01\n"), "a&lt;b&gt;&amp;&quot;&#39;\n");
+    EXPECT_EQ(json_text("</x>\"\\\n"), "\"\\u003c/x>\\\"\\\\\\n\"");
+    EXPECT_EQ(nlohmann::json::parse(json_text("\xff<")), "\xEF\xBF\xBD<"); // a byte that is no UTF-8 does not throw
+}
+
+// 10 m x 20 m at 100 px: 10 px/m, y turned. The point (2, 5) lies 20 px from the left and 150 px from the top.
+TEST(ReportSketch, IsToScaleWithYUp)
+{
+    Sketch sketch({0, 0}, {10, 20}, 100);
+    EXPECT_EQ(sketch.pixels_per_metre(), 10);
+    EXPECT_EQ(sketch.metres(25), 2.5);
+    sketch.polygon({{0, 0}, {10, 0}, {2, 5}}, "concrete");
+    const std::string svg = sketch.svg("a");
+    EXPECT_NE(svg.find("viewBox=\"0 0 100 200\""), std::string::npos);
+    EXPECT_NE(svg.find("points=\"0.0,200.0 100.0,200.0 20.0,150.0 \""), std::string::npos);
+}
+
+} // namespace

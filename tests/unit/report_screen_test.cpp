@@ -1,0 +1,142 @@
+#include "cli/screen_report.hpp"
+#include "core/units.hpp"
+#include "scene/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::cli;
+
+/// The scene of the browser test, which names its records.
+Scene report_scene()
+{
+    return read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report/dam.toml");
+}
+
+struct ReportRun {
+    Scene scene;
+    std::vector<RecordPair> records;
+    Screening screening;
+};
+
+ReportRun report_run(const Scene& given)
+{
+    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
+    ReportRun run{called_for(plan, given), {}, {}};
+    run.records = read_records(run.scene, plan);
+    run.screening = run_screening(run.scene, plan, run.records, 1);
+    return run;
+}
+
+std::vector<const report::Chart*> charts_of(const report::Page& page)
+{
+    std::vector<const report::Chart*> charts;
+    for (const report::Section& section : page.sections)
+        for (const report::Part& part : section.parts)
+            if (const auto* chart = std::get_if<report::Chart>(&part)) charts.push_back(chart);
+    return charts;
+}
+
+const report::Chart* chart_named(const report::Page& page, const std::string& title)
+{
+    for (const report::Chart* chart : charts_of(page))
+        if (chart->title == title) return chart;
+    return nullptr;
+}
+
+TEST(ScreenReport, EveryChartHasFiniteValuesInEachCurve)
+{
+    const ReportRun run = report_run(report_scene());
+    const report::Page page = screen_page({report_scene(), run.scene, run.screening, run.records, 1});
+    const auto charts = charts_of(page);
+    EXPECT_GE(charts.size(), 9u);
+    for (const report::Chart* chart : charts) {
+        EXPECT_FALSE(chart->curves.empty()) << chart->title;
+        for (const report::Curve& curve : chart->curves)
+            EXPECT_TRUE(std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); }))
+                << chart->title << ", " << curve.name;
+    }
+}
+
+TEST(ScreenReport, ChartsAgreeWithTheScreening)
+{
+    const ReportRun run = report_run(report_scene());
+    const Screening& s = run.screening;
+    const report::Page page = screen_page({report_scene(), run.scene, s, run.records, 1});
+    const double mu = run.scene.contact.friction;
+
+    // Friction is varied through the scene's own value, where the largest slip is that of the table to the last bit.
+    const report::Chart* slip = chart_named(page, "Slip over friction");
+    ASSERT_NE(slip, nullptr);
+    const auto& x = slip->curves[0].x;
+    const auto at = std::find(x.begin(), x.end(), mu);
+    ASSERT_NE(at, x.end());
+    const double expected = std::max(s.slips[0].judged().max_slip, s.slips[1].judged().max_slip) / units::mm;
+    EXPECT_GT(expected, 1.0);
+    EXPECT_EQ(slip->curves[0].y[static_cast<std::size_t>(at - x.begin())], expected);
+
+    // a_y is linear in friction: interpolated to the scene's value it is the table's.
+    const report::Chart* yield = chart_named(page, "Yield acceleration over friction");
+    ASSERT_NE(yield, nullptr);
+    const report::Curve& own = yield->curves[0];
+    const double slope = (own.y.back() - own.y.front()) / (own.x.back() - own.x.front());
+    EXPECT_NEAR(own.y.front() + slope * (mu - own.x.front()), s.bases.front().model.downstream.law.constant, 1e-12);
+
+    // The history ends at the slip of the table.
+    const report::Chart* history = chart_named(page, "pulses <1>: slip");
+    ASSERT_NE(history, nullptr);
+    ASSERT_EQ(history->curves.size(), 2u);
+    const double end = std::max(std::abs(s.slips[0].with_vertical->slip), std::abs(s.slips[1].with_vertical->slip));
+    EXPECT_NEAR(history->curves[1].y.back(), end / units::mm, 1e-9 * end / units::mm);
+}
+
+TEST(ScreenReport, HeadlineJudgesBySlipAndStaticState)
+{
+    Scene scene = report_scene();
+    ReportRun run = report_run(scene);
+    const double worst = std::max(run.screening.slips[0].judged().max_slip, run.screening.slips[1].judged().max_slip);
+
+    scene.criteria.allowable_slip = 0.99 * worst;
+    run = report_run(scene);
+    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+
+    scene.criteria.allowable_slip = 1.01 * worst;
+    run = report_run(scene);
+    EXPECT_NE(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+    EXPECT_NE(screen_headline(run.scene, run.screening).verdict.find("PASS"), std::string::npos);
+
+    scene.criteria.allowable_slip.reset();
+    run = report_run(scene);
+    EXPECT_EQ(screen_headline(run.scene, run.screening).verdict, "No criterion for the slip.");
+
+    scene.contact.friction = 0.3; // below what holds the dam
+    run = report_run(scene);
+    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+    EXPECT_NE(screen_headline(run.scene, run.screening).sentence.find("without any earthquake"), std::string::npos);
+}
+
+TEST(ScreenReport, ASceneWithoutRecordsOrWaterHasAReportToo)
+{
+    Scene scene =
+        parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.6\n",
+                    "block.toml", FileCheck::skip);
+    const ReportRun run = report_run(scene);
+    const std::string html = screen_report({scene, run.scene, run.screening, run.records, 1});
+    EXPECT_NE(html.find("no record is given"), std::string::npos);
+}
+
+TEST(ScreenReport, SameBytesForAnyNumberOfThreads)
+{
+    const ReportRun run = report_run(report_scene());
+    const Scene given = report_scene();
+    EXPECT_EQ(screen_report({given, run.scene, run.screening, run.records, 1}),
+              screen_report({given, run.scene, run.screening, run.records, 2}));
+}
+
+} // namespace
