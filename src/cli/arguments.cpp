@@ -2,6 +2,7 @@
 
 #include "cli/completion_command.hpp"
 #include "cli/explain_command.hpp"
+#include "cli/fe_command.hpp"
 #include "cli/modes_command.hpp"
 #include "cli/schema_command.hpp"
 #include "cli/screen_command.hpp"
@@ -30,6 +31,7 @@ struct Parser {
     ExplainArguments explain;
     VerifyArguments verify;
     ModesArguments modes;
+    FeArguments fe;
     SchemaArguments schema;
     std::string shell;
 };
@@ -105,6 +107,18 @@ void add_explain(Parser& p)
     sub->callback([&p] { p.chosen = [a = p.explain](const Streams& s) { return explain(a, s); }; });
 }
 
+void add_fe(Parser& p)
+{
+    CLI::App* sub = command(p, "fe", "staged finite-element run: gravity, impounding, uplift, earthquake", "damslip fe examples/reference_dam.toml --out results/fe");
+    add_run_inputs(sub, p.fe.inputs);
+    sub->add_option("--scale", p.fe.inputs.scale, "factor on all records")->group("Ground motion");
+    sub->add_option("--polarity", p.fe.polarity, "-1 flips the horizontal component")->check(CLI::IsMember({1, -1}))->group("Ground motion");
+    sub->add_option("--friction", p.fe.inputs.friction, "Coulomb mu instead of the scene's");
+    sub->add_option("--base", p.fe.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")->check(CLI::IsMember({"contact", "tied"}))->capture_default_str();
+    sub->add_option("--out", p.fe.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene");
+    sub->callback([&p] { p.chosen = [a = p.fe](const Streams& s) { return fe(a, s); }; });
+}
+
 void add_modes(Parser& p)
 {
     CLI::App* sub =
@@ -143,6 +157,7 @@ void build(Parser& p)
                  exit_codes);
     add_screen(p);
     add_sweep(p);
+    add_fe(p);
     add_modes(p);
     add_explain(p);
     add_small_commands(p);

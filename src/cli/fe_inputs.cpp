@@ -1,7 +1,9 @@
 #include "cli/fe_inputs.hpp"
 
-#include "core/input_error.hpp"
+#include "cli/usage_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/seepage/pore_forces.hpp"
+#include "fe2d/seepage/seepage.hpp"
 #include "sliding/loads/added_mass.hpp"
 
 #include <cmath>
@@ -34,6 +36,15 @@ fe2d::AddedMassLaw added_mass_law(const Scene& scene)
     return [method = scene.added_mass, water = water_column(scene)](Point at, double face_angle) {
         return sliding::added_mass_per_area(method, water, water.depth - at.y, face_angle);
     };
+}
+
+Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model)
+{
+    if (scene.stages.pore_pressure == PorePressure::none || !scene.foundation) return Eigen::VectorXd::Zero(model.dofs.count);
+    const fe2d::SeepageResult seepage = fe2d::solve_seepage_on(model.mesh, scene, fe2d::seepage_state(scene));
+    if (!seepage.field.solver.ok())
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0, "the seepage below the dam could not be solved: " + seepage.field.solver.text(), "permeabilities within some ten orders of magnitude of each other", "check foundation.permeability_m_s and curtain.permeability_m_s"});
+    return fe2d::pore_pressure_loads(model.mesh, model.dofs, fe2d::excess_pore_pressure(seepage.field.head, seepage.unit_weight), scene.stages.pore_pressure);
 }
 
 DamPeriod resolve_dam_period(Scene& scene)

@@ -8,6 +8,10 @@ namespace damslip::cli {
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
 fe2d::AddedMassLaw added_mass_law(const Scene& scene);
 
+/// Water in the rock as nodal forces (stages.pore_pressure = total or effective), from the seepage on the model's own mesh; zero for none.
+/// @throws NotConverged when the seepage solver loses its accuracy
+Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model);
+
 /// How added_mass.period_s = "dam" came out.
 struct DamPeriod {
     double frequency = 0.0; ///< f_1 with the added mass of its own period [Hz]

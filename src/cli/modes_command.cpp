@@ -1,11 +1,11 @@
 #include "cli/modes_command.hpp"
 
 #include "cli/fe_inputs.hpp"
+#include "cli/fe_output.hpp"
 #include "cli/usage_error.hpp"
 #include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/output/vtu.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
@@ -103,31 +103,6 @@ DampingTable damping_table(const Scene& scene, const fe2d::Model& model, const f
         for (const std::string& w : m.warnings) out.warnings.push_back(pair.files.name + ": " + w);
     }
     return out;
-}
-
-Table count_table(const fe2d::ModelCounts& counts)
-{
-    Table t;
-    t.title = "Model";
-    t.columns = {{"effect", "effect", "", 4},
-                 {"elements", "elements", "", 4},
-                 {"unknowns", "unknowns", "", 4},
-                 {"nonzeros", "non-zeros", "", 4},
-                 {"bytes", "bytes", "", 4}};
-    for (const fe2d::EffectCount& e : counts.effects)
-        t.rows.push_back({e.effect, e.elements, e.unknowns, e.nonzeros, e.bytes});
-    t.rows.push_back({std::string("sum"), counts.elements, counts.unknowns, counts.nonzeros, counts.bytes});
-    return t;
-}
-
-/// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
-Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns)
-{
-    Eigen::MatrixXd at_nodes = Eigen::MatrixXd::Zero(2, dofs.node_count());
-    for (int node = 0; node < dofs.node_count(); ++node)
-        for (int c = 0; c < 2; ++c)
-            if (const int dof = dofs(node, c); dof != fe2d::no_dof) at_nodes(c, node) = unknowns[dof];
-    return at_nodes;
 }
 
 void write_shapes(const std::filesystem::path& folder, const fe2d::Model& model, const fe2d::NaturalModes& modes)

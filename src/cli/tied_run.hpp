@@ -1,0 +1,11 @@
+#pragma once
+
+#include "cli/fe_command.hpp"
+#include "cli/run_inputs.hpp"
+
+namespace damslip::cli {
+
+/// `fe --base tied`: static stages and the linear earthquake run of a dam bonded to its base.
+int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, const Streams& streams);
+
+} // namespace damslip::cli
