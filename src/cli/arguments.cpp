@@ -109,12 +109,17 @@ void add_explain(Parser& p)
 
 void add_fe(Parser& p)
 {
-    CLI::App* sub = command(p, "fe", "staged finite-element run: gravity, impounding, uplift, earthquake", "damslip fe examples/reference_dam.toml --out results/fe");
+    CLI::App* sub = command(p, "fe", "staged finite-element run: gravity, impounding, uplift, earthquake",
+                            "damslip fe examples/reference_dam.toml --out results/fe");
     add_run_inputs(sub, p.fe.inputs);
     sub->add_option("--scale", p.fe.inputs.scale, "factor on all records")->group("Ground motion");
-    sub->add_option("--polarity", p.fe.polarity, "-1 flips the horizontal component")->check(CLI::IsMember({1, -1}))->group("Ground motion");
+    sub->add_option("--polarity", p.fe.polarity, "-1 flips the horizontal component")
+        ->check(CLI::IsMember({1, -1}))
+        ->group("Ground motion");
     sub->add_option("--friction", p.fe.inputs.friction, "Coulomb mu instead of the scene's");
-    sub->add_option("--base", p.fe.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")->check(CLI::IsMember({"contact", "tied"}))->capture_default_str();
+    sub->add_option("--base", p.fe.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
+        ->check(CLI::IsMember({"contact", "tied"}))
+        ->capture_default_str();
     sub->add_option("--out", p.fe.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene");
     sub->callback([&p] { p.chosen = [a = p.fe](const Streams& s) { return fe(a, s); }; });
 }

@@ -16,13 +16,17 @@ int fe(const FeArguments& arguments, const Streams& streams)
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = called_for(plan, given);
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "reservoir.model = \"acoustic\" is not available in this version.", "\"added-mass\", \"hydrostatic\" or \"auto\"", "write  model = \"added-mass\"  in [reservoir]"});
+        throw UsageError(
+            Diagnostic{scene.file.string(), 0, 0, "reservoir.model = \"acoustic\" is not available in this version.",
+                       "\"added-mass\", \"hydrostatic\" or \"auto\"", "write  model = \"added-mass\"  in [reservoir]"});
     const std::vector<RecordPair> records = read_records(scene, plan);
     if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
         const DamPeriod period = resolve_dam_period(scene);
-        if (!streams.quiet) streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period.frequency);
+        if (!streams.quiet)
+            streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period.frequency);
     }
-    return arguments.base == "tied" ? run_tied(arguments, scene, plan, records, streams) : run_contact(arguments, scene, plan, records, streams);
+    return arguments.base == "tied" ? run_tied(arguments, scene, plan, records, streams)
+                                    : run_contact(arguments, scene, plan, records, streams);
 }
 
 } // namespace damslip::cli

@@ -7,9 +7,10 @@ namespace damslip::cli {
 
 struct FeArguments {
     RunInputs inputs;
-    std::string base = "contact";  ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
-    std::filesystem::path out;     ///< folder for summary.json, history_*.csv, fields; empty: none
-    std::optional<int> polarity;   ///< -1 flips the horizontal component
+    std::string base =
+        "contact";               ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
+    std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
+    std::optional<int> polarity; ///< -1 flips the horizontal component
 };
 
 /// Staged finite-element run of every record of the scene. @returns exit_no_convergence when a run did not end properly; what was

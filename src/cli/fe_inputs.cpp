@@ -40,11 +40,17 @@ fe2d::AddedMassLaw added_mass_law(const Scene& scene)
 
 Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model)
 {
-    if (scene.stages.pore_pressure == PorePressure::none || !scene.foundation) return Eigen::VectorXd::Zero(model.dofs.count);
+    if (scene.stages.pore_pressure == PorePressure::none || !scene.foundation)
+        return Eigen::VectorXd::Zero(model.dofs.count);
     const fe2d::SeepageResult seepage = fe2d::solve_seepage_on(model.mesh, scene, fe2d::seepage_state(scene));
     if (!seepage.field.solver.ok())
-        throw NotConverged(Diagnostic{scene.file.string(), 0, 0, "the seepage below the dam could not be solved: " + seepage.field.solver.text(), "permeabilities within some ten orders of magnitude of each other", "check foundation.permeability_m_s and curtain.permeability_m_s"});
-    return fe2d::pore_pressure_loads(model.mesh, model.dofs, fe2d::excess_pore_pressure(seepage.field.head, seepage.unit_weight), scene.stages.pore_pressure);
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
+                                      "the seepage below the dam could not be solved: " + seepage.field.solver.text(),
+                                      "permeabilities within some ten orders of magnitude of each other",
+                                      "check foundation.permeability_m_s and curtain.permeability_m_s"});
+    return fe2d::pore_pressure_loads(model.mesh, model.dofs,
+                                     fe2d::excess_pore_pressure(seepage.field.head, seepage.unit_weight),
+                                     scene.stages.pore_pressure);
 }
 
 DamPeriod resolve_dam_period(Scene& scene)

@@ -30,8 +30,13 @@ Table count_table(const fe2d::ModelCounts& counts)
 {
     Table t;
     t.title = "Model";
-    t.columns = {{"effect", "effect", "", 4}, {"elements", "elements", "", 4}, {"unknowns", "unknowns", "", 4}, {"nonzeros", "non-zeros", "", 4}, {"bytes", "bytes", "", 4}};
-    for (const fe2d::EffectCount& e : counts.effects) t.rows.push_back({e.effect, e.elements, e.unknowns, e.nonzeros, e.bytes});
+    t.columns = {{"effect", "effect", "", 4},
+                 {"elements", "elements", "", 4},
+                 {"unknowns", "unknowns", "", 4},
+                 {"nonzeros", "non-zeros", "", 4},
+                 {"bytes", "bytes", "", 4}};
+    for (const fe2d::EffectCount& e : counts.effects)
+        t.rows.push_back({e.effect, e.elements, e.unknowns, e.nonzeros, e.bytes});
     t.rows.push_back({std::string("sum"), counts.elements, counts.unknowns, counts.nonzeros, counts.bytes});
     return t;
 }
@@ -57,12 +62,17 @@ std::string file_word(const std::string& name)
     return word;
 }
 
-void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement, const Eigen::VectorXd& elastic)
+void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,
+                      const Eigen::VectorXd& elastic)
 {
     if (folder_.empty()) return;
     const fe2d::StressField stress = fe2d::stress_field(model_.mesh, model_.dofs, model_.materials, elastic);
     const std::string file = fmt::format("fields_{:04d}_{}.vtu", entries_.size(), file_word(name));
-    fe2d::write_vtu(folder_ / file, model_.mesh, {{"displacement_m", node_vectors(model_.dofs, displacement)}, {"stress_xx_yy_xy_Pa", stress.nodal}, {"principal_major_minor_Pa", principal(stress.nodal)}}, {{"centre_stress_xx_yy_xy_Pa", stress.centre}});
+    fe2d::write_vtu(folder_ / file, model_.mesh,
+                    {{"displacement_m", node_vectors(model_.dofs, displacement)},
+                     {"stress_xx_yy_xy_Pa", stress.nodal},
+                     {"principal_major_minor_Pa", principal(stress.nodal)}},
+                    {{"centre_stress_xx_yy_xy_Pa", stress.centre}});
     entries_.push_back({time, file});
 }
 
@@ -71,13 +81,16 @@ void FieldSeries::write_collection() const
     if (!folder_.empty() && !entries_.empty()) fe2d::write_pvd(folder_ / "fields.pvd", entries_);
 }
 
-void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json, const FieldSeries& fields, const Streams& streams)
+void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json,
+                   const FieldSeries& fields, const Streams& streams)
 {
     if (folder.empty()) return;
     fields.write_collection();
     write_file(folder / "summary.json", summary_json);
     write_file(folder / "scene.resolved.toml", resolved_toml(scene));
-    if (!streams.quiet) streams.talk << "written: " << (folder / "summary.json").string() << ", history_*.csv, fields.pvd, scene.resolved.toml\n";
+    if (!streams.quiet)
+        streams.talk << "written: " << (folder / "summary.json").string()
+                     << ", history_*.csv, fields.pvd, scene.resolved.toml\n";
 }
 
 } // namespace damslip::cli

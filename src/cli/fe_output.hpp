@@ -37,6 +37,7 @@ private:
 };
 
 /// summary.json, fields.pvd and the resolved scene, and a line that says so; nothing for an empty folder.
-void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json, const FieldSeries& fields, const Streams& streams);
+void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json,
+                   const FieldSeries& fields, const Streams& streams);
 
 } // namespace damslip::cli

@@ -29,6 +29,9 @@ InterruptGuard::~InterruptGuard()
     std::signal(SIGTERM, SIG_DFL);
 }
 
-bool InterruptGuard::interrupted() const { return signal_seen != 0; }
+bool InterruptGuard::interrupted() const
+{
+    return signal_seen != 0;
+}
 
 } // namespace damslip::cli

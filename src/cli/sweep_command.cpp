@@ -241,7 +241,8 @@ struct Grid {
 
 Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
 {
-    Grid grid{axes, {}, {}, {}, {}};
+    Grid grid;
+    grid.axes = axes;
     SeepageSource source;
     grid.models.resize(axes.friction.size() * axes.level.size() * axes.uplift.size() * axes.reservoir.size());
     parallel_for(grid.models.size(), jobs, [&](std::size_t i) {

@@ -34,12 +34,17 @@ Table stage_table(const fe2d::Model& model, const fe2d::StaticSolution& statics)
 {
     Table t;
     t.title = "Static stages";
-    t.columns = {{"stage", "stage", "", 4}, {"force_x_kN_m", "sum Fx", "kN/m", 6}, {"force_y_kN_m", "sum Fy", "kN/m", 6}, {"crest_x_mm", "crest x", "mm", 5}, {"crest_y_mm", "crest y", "mm", 5}};
+    t.columns = {{"stage", "stage", "", 4},
+                 {"force_x_kN_m", "sum Fx", "kN/m", 6},
+                 {"force_y_kN_m", "sum Fy", "kN/m", 6},
+                 {"crest_x_mm", "crest x", "mm", 5},
+                 {"crest_y_mm", "crest y", "mm", 5}};
     for (const fe2d::StaticStage& s : statics.stages) {
         const Eigen::Vector2d crest = crest_displacement(model, s.displacement);
         t.rows.push_back({s.name, s.resultant.x() / 1e3, s.resultant.y() / 1e3, 1e3 * crest.x(), 1e3 * crest.y()});
     }
-    t.notes.push_back("forces: x downstream, y up; crest: its upstream end, relative to the zero state of stages.geostatic.");
+    t.notes.push_back(
+        "forces: x downstream, y up; crest: its upstream end, relative to the zero state of stages.geostatic.");
     return t;
 }
 
@@ -47,15 +52,31 @@ Table run_table(const std::vector<TiedRun>& runs)
 {
     Table t;
     t.title = "Earthquake runs, tied base";
-    t.columns = {{"record", "record", "", 4}, {"status", "status", "", 4}, {"steps", "steps", "", 4}, {"dt_s", "step", "s", 4}, {"peak_crest_x_mm", "peak crest x", "mm", 5}, {"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5}, {"peak_base_shear_kN_m", "peak base shear", "kN/m", 5}, {"energy_imbalance", "energy imbalance", "–", 2}, {"factorisations", "factorisations", "", 4}, {"seconds", "time", "s", 3}};
+    t.columns = {{"record", "record", "", 4},
+                 {"status", "status", "", 4},
+                 {"steps", "steps", "", 4},
+                 {"dt_s", "step", "s", 4},
+                 {"peak_crest_x_mm", "peak crest x", "mm", 5},
+                 {"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5},
+                 {"peak_base_shear_kN_m", "peak base shear", "kN/m", 5},
+                 {"energy_imbalance", "energy imbalance", "–", 2},
+                 {"factorisations", "factorisations", "", 4},
+                 {"seconds", "time", "s", 3}};
     for (const TiedRun& r : runs)
-        t.rows.push_back({r.record, r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text, static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x, r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, r.history.largest_imbalance,
-                          static_cast<std::int64_t>(r.history.factorisations), r.seconds});
-    t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance over the largest energy of the run.");
+        t.rows.push_back(
+            {r.record,
+             r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text,
+             static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x,
+             r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, r.history.largest_imbalance,
+             static_cast<std::int64_t>(r.history.factorisations), r.seconds});
+    t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance "
+                      "over the largest energy of the run.");
     return t;
 }
 
-TiedRun run_record(const Scene& scene, const fe2d::Model& model, const Eigen::VectorXd& load, const Eigen::Vector2d& resultant, const GroundMotion& motion, const InterruptGuard& interrupt, const Streams& streams)
+TiedRun run_record(const Scene& scene, const fe2d::Model& model, const Eigen::VectorXd& load,
+                   const Eigen::Vector2d& resultant, const GroundMotion& motion, const InterruptGuard& interrupt,
+                   const Streams& streams)
 {
     TiedRun run{motion.name, {}, motion.notes, 0.0};
     fe2d::TiedRunOptions options;
@@ -75,23 +96,31 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const Eigen::Ve
     const auto start = std::chrono::steady_clock::now();
     run.history = fe2d::integrate(model, motion, options);
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const auto* list : {&options.damping.notes, &run.history.notes}) run.notes.insert(run.notes.end(), list->begin(), list->end());
+    for (const auto* list : {&options.damping.notes, &run.history.notes})
+        run.notes.insert(run.notes.end(), list->begin(), list->end());
     return run;
 }
 
 } // namespace
 
-int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, const Streams& streams)
+int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
+             const std::vector<RecordPair>& records, const Streams& streams)
 {
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     const fe2d::Model model = fe2d::build_model(scene, options);
     fe2d::StaticLoads loads = fe2d::static_loads(scene, model);
-    if (scene.stages.pore_pressure != PorePressure::none) loads.impounding.push_back({"water in the rock", rock_water_load(scene, model), Eigen::Vector2d::Zero()});
+    if (scene.stages.pore_pressure != PorePressure::none)
+        loads.impounding.push_back({"water in the rock", rock_water_load(scene, model), Eigen::Vector2d::Zero()});
     const fe2d::StaticSolution statics = fe2d::solve_static(scene, model, loads);
-    if (!statics.solver.ok()) throw NotConverged(Diagnostic{scene.file.string(), 0, 0, "the static stages could not be solved: " + statics.solver.text(), "a model held by its foundation", "check [foundation] and the materials"});
-    const Eigen::VectorXd load = fe2d::sum_of(loads.gravity, model.dofs.count) + fe2d::sum_of(loads.impounding, model.dofs.count);
-    const Eigen::Vector2d resultant = statics.stages.empty() ? Eigen::Vector2d::Zero() : statics.stages.back().resultant;
+    if (!statics.solver.ok())
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
+                                      "the static stages could not be solved: " + statics.solver.text(),
+                                      "a model held by its foundation", "check [foundation] and the materials"});
+    const Eigen::VectorXd load =
+        fe2d::sum_of(loads.gravity, model.dofs.count) + fe2d::sum_of(loads.impounding, model.dofs.count);
+    const Eigen::Vector2d resultant =
+        statics.stages.empty() ? Eigen::Vector2d::Zero() : statics.stages.back().resultant;
 
     FieldSeries fields(arguments.out, model);
     for (const fe2d::StaticStage& s : statics.stages) fields.add(s.name, 0.0, s.displacement, s.elastic);
@@ -99,10 +128,16 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     std::vector<TiedRun> runs;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        runs.push_back(run_record(scene, model, load, resultant, ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
+        runs.push_back(run_record(scene, model, load, resultant,
+                                  ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
         const TiedRun& r = runs.back();
-        if (r.history.displacement.size()) fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time, r.history.displacement, r.history.displacement);
-        if (!arguments.out.empty()) write_file(arguments.out / ("history_" + file_word(r.record) + ".csv"), report::csv(fe2d::tabulate(r.history), {"damslip " + program_version() + " fe --base tied", "scene " + scene_hash(scene), "record " + r.record}));
+        if (r.history.displacement.size())
+            fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
+                       r.history.displacement, r.history.displacement);
+        if (!arguments.out.empty())
+            write_file(arguments.out / ("history_" + file_word(r.record) + ".csv"),
+                       report::csv(fe2d::tabulate(r.history), {"damslip " + program_version() + " fe --base tied",
+                                                               "scene " + scene_hash(scene), "record " + r.record}));
     }
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -112,14 +147,20 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     j["stages"] = json_of(stage_table(model, statics));
     j["runs"] = json_of(run_table(runs));
     for (const TiedRun& r : runs) j["notes"][r.record] = r.notes;
-    if (streams.form == Form::json) streams.out << j.dump(2) << "\n";
+    if (streams.form == Form::json)
+        streams.out << j.dump(2) << "\n";
     else {
-        streams.out << scene.title << "\n\n" << report::text(count_table(model.counts)) << "\n" << report::text(stage_table(model, statics)) << "\n" << report::text(run_table(runs));
+        streams.out << scene.title << "\n\n"
+                    << report::text(count_table(model.counts)) << "\n"
+                    << report::text(stage_table(model, statics)) << "\n"
+                    << report::text(run_table(runs));
         for (const TiedRun& r : runs)
             for (const std::string& note : r.notes) streams.out << "note: " << r.record << ": " << note << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
-    const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) { return r.history.status == fe2d::TiedRunStatus::complete; });
+    const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {
+                         return r.history.status == fe2d::TiedRunStatus::complete;
+                     });
     return all ? exit_ok : exit_no_convergence;
 }
 

@@ -113,9 +113,54 @@ TEST_F(CliScene, ExplainNamesEveryEffectOnce)
     }
 }
 
+TEST_F(CliScene, FeSlidesAStiffBlockLikeTheRigidBlock)
+{
+    // A squat, very stiff block on a rigid base under the triangular pulse: slip within 1 % of the rigid block's exact one (the FE slip
+    // is within 1 % of its limit in the time step by default, and the elastic deformation is of the order of 1e-6 m).
+    std::ofstream(folder / "stiff.toml")
+        << "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+           "2500\n[contact]\nfriction = 0.1\n"
+           "[mesh]\nsize_m = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
+    const ProgramAnswer a =
+        answer_of({"fe", (folder / "stiff.toml").string(), "--json", "--out", (folder / "fe").string()});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto j = nlohmann::json::parse(a.out);
+    EXPECT_EQ(j["base"], "contact");
+    EXPECT_EQ(j["runs"][0]["unresolved"], 0);
+    EXPECT_NEAR(j["runs"][0]["slip_mm"].get<double>(), 1e3 * triangle_slip(0.981), 10 * triangle_slip(0.981));
+    EXPECT_NEAR(j["runs"][0]["slip_rigid_mm"].get<double>(), 1e3 * triangle_slip(0.981), 1e-9);
+    for (const char* file :
+         {"summary.json", "history_pulse.csv", "base_pulse.csv", "fields.pvd", "scene.resolved.toml"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "fe" / file)) << file;
+}
+
+TEST_F(CliScene, FeTiedWritesStagesAndHistory)
+{
+    std::ofstream(folder / "tied.toml")
+        << "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+           "25\n[contact]\nfriction = 0.1\n[mesh]\nsize_m = 1\n"
+           "[[motion.record]]\nhorizontal = \"pulse.csv\"\ndt_s = 1\n[time]\ndt_s = 0.01\n";
+    const ProgramAnswer a = answer_of(
+        {"fe", (folder / "tied.toml").string(), "--base", "tied", "--json", "--out", (folder / "tied").string()});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto j = nlohmann::json::parse(a.out);
+    EXPECT_NEAR(j["stages"][0]["force_y_kN_m"].get<double>(), -40 * 2.5 * 9.81, 1e-9); // weight of the triangle
+    EXPECT_EQ(j["runs"][0]["steps"], 300);
+    EXPECT_TRUE(std::filesystem::exists(folder / "tied" / "history_pulse.csv"));
+}
+
+TEST_F(CliScene, ModesGiveTheFrequencies)
+{
+    const ProgramAnswer a =
+        answer_of({"modes", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml", "--count", "2", "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto j = nlohmann::json::parse(a.out);
+    EXPECT_NEAR(j["modes"][0]["frequency_Hz"].get<double>(), 3.07, 0.1); // Chopra & Chakrabarti (1973), 3 %
+}
+
 TEST(Cli, HelpNamesAnExampleForEveryCommand)
 {
-    for (const char* command : {"screen", "sweep", "explain", "verify", "schema", "completion"}) {
+    for (const char* command : {"screen", "sweep", "fe", "modes", "explain", "verify", "schema", "completion"}) {
         const ProgramAnswer a = answer_of({command, "--help"});
         EXPECT_EQ(a.code, 0);
         EXPECT_NE(a.out.find("Example:"), std::string::npos) << command;
