@@ -4,13 +4,13 @@
 #include "cli/explain_command.hpp"
 #include "cli/fe_command.hpp"
 #include "cli/modes_command.hpp"
+#include "cli/parser.hpp"
 #include "cli/schema_command.hpp"
 #include "cli/screen_command.hpp"
 #include "cli/sweep_command.hpp"
 #include "cli/usage_error.hpp"
 #include "cli/verify_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace damslip::cli {
@@ -21,10 +21,8 @@ const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command li
                                "or a check failed (results so far are kept).";
 
 /// All option structs, owned together with the parser that fills them.
-struct Parser {
+struct Parser : ParserBase {
     CLI::App app{"How far does this concrete gravity dam slide in this earthquake, and how sure are we?", "damslip"};
-    bool json = false, quiet = false;
-    std::function<int(const Streams&)> chosen;
 
     ScreenArguments screen;
     SweepArguments sweep;
@@ -32,17 +30,14 @@ struct Parser {
     VerifyArguments verify;
     ModesArguments modes;
     FeArguments fe;
+    RecordArguments record;
     SchemaArguments schema;
     std::string shell;
 };
 
 CLI::App* command(Parser& p, const std::string& name, const std::string& description, const std::string& example)
 {
-    CLI::App* sub = p.app.add_subcommand(name, description);
-    sub->footer("Example:\n  " + example);
-    sub->add_flag("--json", p.json, "one JSON object on standard output, for machines");
-    sub->add_flag("-q,--quiet", p.quiet, "no progress, no talk");
-    return sub;
+    return add_command(p.app, p, name, description, example);
 }
 
 void add_run_inputs(CLI::App* sub, RunInputs& in)
@@ -165,6 +160,7 @@ void build(Parser& p)
     add_fe(p);
     add_modes(p);
     add_explain(p);
+    add_record_commands(p.app, p, p.record);
     add_small_commands(p);
 }
 
@@ -225,6 +221,16 @@ void summarise(const CLI::App& app, const std::string& prefix, std::vector<Comma
 }
 
 } // namespace
+
+CLI::App* add_command(CLI::App& parent, ParserBase& base, const std::string& name, const std::string& description,
+                      const std::string& example)
+{
+    CLI::App* sub = parent.add_subcommand(name, description);
+    sub->footer("Example:\n  " + example);
+    sub->add_flag("--json", base.json, "one JSON object on standard output, for machines");
+    sub->add_flag("-q,--quiet", base.quiet, "no progress, no talk");
+    return sub;
+}
 
 Invocation parse_arguments(const std::vector<std::string>& arguments)
 {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cli/record_command.hpp"
+#include "cli/streams.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+/// Shared by the files that build the command-line parser; nothing else includes it (CLI11 is slow to compile).
+namespace damslip::cli {
+
+/// What every command has: a parser below its parent with --json and --quiet, and where the chosen command goes.
+struct ParserBase {
+    bool json = false, quiet = false;
+    std::function<int(const Streams&)> chosen;
+};
+
+CLI::App* add_command(CLI::App& parent, ParserBase& base, const std::string& name, const std::string& description,
+                      const std::string& example);
+
+/// Arguments of all `record` commands.
+struct RecordArguments {
+    RecordInfoArguments info;
+    std::vector<std::filesystem::path> info_files;
+    RecordConvertArguments convert;
+    RecordBaselineArguments baseline;
+    RecordScaleArguments scale;
+    RecordSpectrumArguments spectrum;
+    RecordGenerateArguments generate;
+    std::string form; ///< --to
+};
+
+void add_record_commands(CLI::App& app, ParserBase& base, RecordArguments& arguments);
+
+} // namespace damslip::cli
