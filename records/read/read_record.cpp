@@ -49,7 +49,8 @@ Record read_record(const std::filesystem::path& path, const ReadOptions& options
         for (const Record& record : records) names += (names.empty() ? "" : ", ") + record.source.component;
         throw InputError(Diagnostic{path.string(), 0, 0,
                                     fmt::format("the file holds {} accelerograms: {}.", records.size(), names),
-                                    "one, or a choice among them", "choose by motion.record.column or --column"});
+                                    "one, or a choice among them",
+                                    "choose by --column (for a scene: `damslip record convert --column ...` first)"});
     }
     return std::move(records.front());
 }

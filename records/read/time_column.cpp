@@ -70,7 +70,7 @@ std::optional<double> step_of(const RecordText& text, const NumberTable& table, 
                fmt::format("the time step is uneven: {:.6g} s here, {:.6g} s on average ({:.2g} % off).",
                            time[row] - time[row - 1], dt, 100.0 * deviation),
                fmt::format("steps equal within {:.1f} %", 100.0 * even_tolerance),
-               "correct the times, or have the record resampled (motion.record.resample = true, --resample)");
+               "correct the times, or have the record resampled (`damslip record convert --resample`)");
     }
     if (stated && std::abs(*stated - dt) > 1e-4 * dt)
         refuse(text, {table.row_line.front(), 0},

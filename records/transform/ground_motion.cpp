@@ -71,7 +71,7 @@ GroundMotion make_ground_motion(const Record& horizontal, const std::optional<Re
                                 const MotionOptions& options)
 {
     assert(options.polarity == 1 || options.polarity == -1);
-    assert(options.scale > 0.0);
+    assert(std::isfinite(options.scale));
     Record h = horizontal;
     std::optional<Record> v = vertical;
     GroundMotion motion;

@@ -7,7 +7,7 @@
 namespace damslip::records {
 
 struct MotionOptions {
-    double scale = 1.0; ///< both components [-], > 0
+    double scale = 1.0; ///< both components [-], finite
     std::optional<double>
         scale_to_pga; ///< horizontal peak made equal to this before `scale` [m/s^2], > 0; vertical by the same factor
     int polarity = 1; ///< +1, or -1: flips the horizontal component

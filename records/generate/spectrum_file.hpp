@@ -1,0 +1,16 @@
+#pragma once
+
+#include "records/generate/target_spectrum.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace damslip::records {
+
+/// A user's target spectrum: two columns, period [s] and spectral acceleration at 5 % damping in any unit (only its shape counts), the
+/// first row being the PGA; comments (#) and a heading line are skipped. Named after the file.
+/// @throws InputError for anything else than two columns of numbers, and as table_spectrum does
+TargetSpectrum read_target_spectrum(const std::filesystem::path& path);
+TargetSpectrum parse_target_spectrum(std::string_view content, std::string_view file_name);
+
+} // namespace damslip::records

@@ -1,0 +1,284 @@
+#include "cli/record_command.hpp"
+
+#include "cli/usage_error.hpp"
+#include "core/file.hpp"
+#include "core/units.hpp"
+#include "records/generate/spectrum_file.hpp"
+#include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "records/transform/transform.hpp"
+#include "records/write/write_record.hpp"
+#include "report/table_text.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
+/// The value that belongs to a word. @throws UsageError listing the words.
+template <class T>
+T choice(const std::string& flag, const std::string& word, const std::vector<std::pair<std::string, T>>& values)
+{
+    std::string all;
+    for (const auto& [name, value] : values) {
+        if (name == word) return value;
+        all += (all.empty() ? "" : ", ") + name;
+    }
+    usage(fmt::format("{} {} is not known.", flag, word), all, fmt::format("write  {} {}", flag, values.front().first));
+}
+
+void remark(const Record& record, const Streams& streams)
+{
+    if (streams.quiet) return;
+    for (const std::string& warning : record.warnings) streams.talk << record.name << ": " << warning << "\n";
+}
+
+std::string text_of(const Record& record, RecordOutput form)
+{
+    if (form == RecordOutput::at2) return records::record_at2(record);
+    return form == RecordOutput::csv ? records::record_csv(record) : records::record_csv_with_time(record);
+}
+
+/// To its file, or to standard output; a JSON object instead names file and measures.
+void put(const Record& record, const RecordTarget& target, const std::string& what, const Streams& streams)
+{
+    remark(record, streams);
+    const std::string text = text_of(record, target.form);
+    if (!target.out.empty()) write_file(target.out, text);
+    if (streams.form == Form::json) {
+        auto j = json_header(what);
+        j["out"] = target.out.string();
+        j["sha256"] = sha256(text);
+        j["record"] = json_of(record_info_table({record}))[0];
+        streams.out << j.dump(2) << "\n";
+    } else if (target.out.empty()) {
+        streams.out << text;
+    } else if (!streams.quiet) {
+        streams.talk << fmt::format("{}: {} samples, dt = {} s\n", target.out.string(), record.acceleration.size(),
+                                    record.dt);
+    }
+}
+
+} // namespace
+
+Record read(const RecordInput& input)
+{
+    const auto uneven = input.resample ? records::UnevenTime::resample : records::UnevenTime::refuse;
+    return records::read_record(input.file, {input.unit, input.dt, uneven, input.column});
+}
+
+RecordOutput record_output(const std::string& word, const std::filesystem::path& out)
+{
+    const bool at2 = out.extension() == ".at2" || out.extension() == ".AT2";
+    if (word.empty()) return at2 ? RecordOutput::at2 : RecordOutput::csv;
+    return choice<RecordOutput>(
+        "--to", word,
+        {{"csv", RecordOutput::csv}, {"csv-time", RecordOutput::csv_with_time}, {"at2", RecordOutput::at2}});
+}
+
+Table record_info_table(const std::vector<Record>& records)
+{
+    Table table;
+    table.title = "Accelerograms";
+    table.columns = {{"name", "name", "", 4},
+                     {"format", "format", "", 4},
+                     {"unit", "unit", "", 4},
+                     {"component", "component", "", 4},
+                     {"samples", "samples", "–", 4},
+                     {"dt_s", "dt", "s", 4},
+                     {"duration_s", "duration", "s", 4},
+                     {"pga_m_s2", "PGA", "m/s²", 4},
+                     {"pga_g", "PGA", "g", 3},
+                     {"pgv_m_s", "PGV", "m/s", 3},
+                     {"pgd_m", "PGD", "m", 3},
+                     {"arias_intensity_m_s", "Arias", "m/s", 3},
+                     {"cav_m_s", "CAV", "m/s", 3},
+                     {"duration_5_75_s", "D5-75", "s", 3},
+                     {"duration_5_95_s", "D5-95", "s", 3},
+                     {"mean_period_s", "Tm", "s", 3},
+                     {"sha256", "sha256", "", 4}};
+    for (const Record& r : records) {
+        const records::Measures m = records::measure(r);
+        table.rows.push_back({r.name, r.source.format, r.source.unit, r.source.component,
+                              static_cast<std::int64_t>(r.acceleration.size()), r.dt, m.duration, m.pga,
+                              m.pga / units::standard_gravity, m.pgv, m.pgd, m.arias_intensity, m.cumulative_velocity,
+                              m.duration_5_75, m.duration_5_95, m.mean_period ? Cell(*m.mean_period) : Cell(),
+                              r.source.sha256});
+        for (const std::string& warning : r.warnings) table.notes.push_back(r.name + ": " + warning);
+    }
+    table.notes.push_back("PGV and PGD start from rest and are not baseline-corrected; all but Tm are exact for the "
+                          "piecewise-linear record.");
+    return table;
+}
+
+int record_info(const RecordInfoArguments& arguments, const Streams& streams)
+{
+    std::vector<Record> records;
+    for (const RecordInput& input : arguments.inputs) records.push_back(read(input));
+    Table table = record_info_table(records);
+    if (streams.form == Form::json) {
+        auto j = json_header("record-info");
+        j["records"] = json_of(table);
+        j["notes"] = table.notes;
+        streams.out << j.dump(2) << "\n";
+        return exit_ok;
+    }
+    table.columns.pop_back(); // 64 digits are for machines
+    for (auto& row : table.rows) row.pop_back();
+    streams.out << report::text(table);
+    return exit_ok;
+}
+
+int record_convert(const RecordConvertArguments& arguments, const Streams& streams)
+{
+    Record record = read(arguments.input);
+    if (arguments.new_dt) {
+        if (!(*arguments.new_dt >= 1e-6 && *arguments.new_dt <= 1.0))
+            usage(fmt::format("--new-dt {} is not allowed.", *arguments.new_dt), "1e-06 to 1 s", "write seconds");
+        record = records::resampled(record, *arguments.new_dt);
+    }
+    put(record, arguments.target, "record-convert", streams);
+    return exit_ok;
+}
+
+int record_baseline(const RecordBaselineArguments& arguments, const Streams& streams)
+{
+    using namespace records;
+    const BaselineOptions options{
+        choice<BaselineDegree>("--degree", arguments.degree,
+                               {{"quadratic", BaselineDegree::quadratic},
+                                {"linear", BaselineDegree::linear},
+                                {"constant", BaselineDegree::constant}}),
+        choice<BaselineFit>("--fit", arguments.fit,
+                            {{"velocity", BaselineFit::velocity}, {"acceleration", BaselineFit::acceleration}})};
+    const Record before = read(arguments.input);
+    BaselineResult result = baseline_corrected(before, options);
+    const Measures was = measure(before), is = measure(result.record);
+    std::string polynomial;
+    for (std::size_t p = 0; p < result.coefficients.size(); ++p)
+        polynomial += fmt::format("{}{:.4g}{}", p ? " + " : "", result.coefficients[p],
+                                  p == 0   ? ""
+                                  : p == 1 ? " x"
+                                           : " x^2");
+    result.record.warnings = {fmt::format(
+        "baseline {} m/s2 (x = t/duration) taken off: PGA {:.4g} to {:.4g} m/s2, final velocity {:.3g} to {:.3g} m/s, "
+        "final displacement {:.3g} to {:.3g} m",
+        polynomial, was.pga, is.pga, was.final_velocity, is.final_velocity, was.final_displacement,
+        is.final_displacement)};
+    put(result.record, arguments.target, "record-baseline", streams);
+    return exit_ok;
+}
+
+int record_scale(const RecordScaleArguments& arguments, const Streams& streams)
+{
+    if (arguments.factor.has_value() == arguments.pga_m_s2.has_value())
+        usage("record scale needs one of --factor and --pga-m-s2.", "one of them",
+              "write  --factor 1.5  or  --pga-m-s2 2.0");
+    if (arguments.factor && (!std::isfinite(*arguments.factor) || *arguments.factor == 0.0))
+        usage(fmt::format("--factor {} is not allowed.", *arguments.factor),
+              "a number other than 0; negative flips the polarity", "write  --factor 1.5");
+    if (arguments.pga_m_s2 && !(*arguments.pga_m_s2 > 0.0 && *arguments.pga_m_s2 <= 1e4))
+        usage(fmt::format("--pga-m-s2 {} is not allowed.", *arguments.pga_m_s2), "a number > 0, at most 1e4 m/s2",
+              "write  --pga-m-s2 2.0");
+    Record record = read(arguments.input);
+    const double factor = arguments.factor ? *arguments.factor : records::factor_to_pga(record, *arguments.pga_m_s2);
+    record = records::scaled(std::move(record), factor);
+    record.warnings.push_back(fmt::format("scaled by {:.6g}", factor));
+    put(record, arguments.target, "record-scale", streams);
+    return exit_ok;
+}
+
+Table record_spectrum_table(const Record& record, const RecordSpectrumArguments& a)
+{
+    if (!(a.ratio >= 0.0 && a.ratio <= 1.0))
+        usage(fmt::format("--damping {} is not allowed.", a.ratio), "0 to 1", "5 % is 0.05");
+    if (!(a.from > 0.0 && a.to > a.from && a.to <= 100.0))
+        usage(fmt::format("--from {} --to {} is not allowed.", a.from, a.to), "0 < from < to <= 100 s",
+              "write seconds");
+    if (a.count < 2 || a.count > 10000)
+        usage(fmt::format("--count {} is not allowed.", a.count), "2 to 10000", "leave it out");
+    Table table;
+    table.title = fmt::format("Response spectrum of {}, {} % damping", record.name, 100.0 * a.ratio);
+    table.columns = {{"period_s", "T", "s", 4},
+                     {"pseudo_acceleration_m_s2", "PSA", "m/s²", 4},
+                     {"absolute_acceleration_m_s2", "Sa", "m/s²", 4},
+                     {"velocity_m_s", "Sv", "m/s", 4},
+                     {"displacement_m", "Sd", "m", 4}};
+    const auto periods = records::logarithmic_periods(a.from, a.to, a.count);
+    for (const auto& p : records::response_spectrum(record.acceleration, record.dt, periods, a.ratio).points)
+        table.rows.push_back({p.period, p.pseudo_acceleration, p.absolute_acceleration, p.velocity, p.displacement});
+    table.notes.push_back("exact for the piecewise-linear record (Nigam & Jennings 1969), free vibration of one period "
+                          "after its end included");
+    return table;
+}
+
+int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& streams)
+{
+    const Record record = read(arguments.input);
+    remark(record, streams);
+    const Table table = record_spectrum_table(record, arguments);
+    if (!arguments.out.empty()) write_file(arguments.out, report::csv(table, {table.title}));
+    if (streams.form == Form::json) {
+        auto j = json_header("record-spectrum");
+        j["damping_ratio"] = arguments.ratio;
+        j["points"] = json_of(table);
+        streams.out << j.dump(2) << "\n";
+    } else if (arguments.out.empty()) {
+        streams.out << report::text(table);
+    }
+    return exit_ok;
+}
+
+records::TargetSpectrum generate_target(const RecordGenerateArguments& arguments)
+{
+    using namespace records;
+    const auto component = choice<MotionComponent>(
+        "--component", arguments.component, {{"h", MotionComponent::horizontal}, {"v", MotionComponent::vertical}});
+    const auto ground = choice<GroundType>(
+        "--ground", arguments.ground,
+        {{"A", GroundType::A}, {"B", GroundType::B}, {"C", GroundType::C}, {"D", GroundType::D}, {"E", GroundType::E}});
+    if (arguments.target == "rock") return rock_spectrum();
+    if (arguments.target == "ec8-1") return eurocode8_spectrum(Eurocode8Type::type_1, ground, component);
+    if (arguments.target == "ec8-2") return eurocode8_spectrum(Eurocode8Type::type_2, ground, component);
+    if (!std::filesystem::exists(arguments.target))
+        usage(fmt::format("--target {} is not known.", arguments.target),
+              "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration", "write  --target rock");
+    return read_target_spectrum(arguments.target);
+}
+
+records::GeneratedRecord generate(const RecordGenerateArguments& arguments)
+{
+    using namespace records;
+    const TargetSpectrum target = generate_target(arguments);
+    GenerateOptions options = arguments.options;
+    options.component = arguments.component == "v" ? MotionComponent::vertical : MotionComponent::horizontal;
+    options.envelope.shape =
+        choice<EnvelopeShape>("--envelope", arguments.envelope,
+                              {{"compound", EnvelopeShape::compound}, {"trapezoid", EnvelopeShape::trapezoid}});
+    GeneratedRecord result = generate_record(target, options);
+    if (!arguments.destination.out.empty()) result.record.name = arguments.destination.out.stem().string();
+    return result;
+}
+
+int record_generate(const RecordGenerateArguments& arguments, const Streams& streams)
+{
+    const records::GeneratedRecord result = generate(arguments);
+    if (!streams.quiet)
+        streams.talk << fmt::format(
+            "{}\nspectrum within {:.1f} % of its target over {} to {} s (worst at {:.3g} s, {} passes)\n",
+            result.record.source.title, 100.0 * result.worst_deviation, records::matched_from, records::matched_to,
+            result.worst_period, result.passes);
+    put(result.record, arguments.destination, "record-generate", streams);
+    return result.within_tolerance ? exit_ok : exit_no_convergence;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "cli/streams.hpp"
+#include "records/generate/generate.hpp"
+#include "records/read/read_record.hpp"
+#include "records/transform/baseline.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// `damslip record info|convert|baseline|scale|spectrum|generate`. Each command has its arguments, a function that computes (testable
+/// without streams) and one that talks. Data goes to `out` files or standard output, remarks to the talk stream.
+namespace damslip::cli {
+
+/// What all commands that read a record take.
+struct RecordInput {
+    std::filesystem::path file;
+    std::string unit;         ///< --units
+    std::optional<double> dt; ///< --dt [s]
+    std::string column;       ///< --column
+    bool resample = false;    ///< --resample: uneven times are interpolated
+};
+Record read(const RecordInput& input);
+
+enum class RecordOutput { csv, csv_with_time, at2 }; ///< --to csv | csv-time | at2
+
+/// Where a record goes; no file: standard output.
+struct RecordTarget {
+    std::filesystem::path out;
+    RecordOutput form = RecordOutput::csv;
+};
+/// Word of --to; empty: by the ending of `out` (.at2: at2, else csv). @throws UsageError for others.
+RecordOutput record_output(const std::string& word, const std::filesystem::path& out);
+
+struct RecordInfoArguments {
+    std::vector<RecordInput> inputs;
+};
+Table record_info_table(const std::vector<Record>& records);
+int record_info(const RecordInfoArguments& arguments, const Streams& streams);
+
+struct RecordConvertArguments {
+    RecordInput input;
+    RecordTarget target;
+    std::optional<double> new_dt; ///< --new-dt [s]: another time step
+};
+int record_convert(const RecordConvertArguments& arguments, const Streams& streams);
+
+struct RecordBaselineArguments {
+    RecordInput input;
+    RecordTarget target;
+    std::string degree = "quadratic"; ///< --degree constant | linear | quadratic
+    std::string fit = "velocity";     ///< --fit velocity | acceleration
+};
+int record_baseline(const RecordBaselineArguments& arguments, const Streams& streams);
+
+struct RecordScaleArguments {
+    RecordInput input;
+    RecordTarget target;
+    std::optional<double> factor;   ///< --factor [-], negative flips the polarity
+    std::optional<double> pga_m_s2; ///< --pga-m-s2; one of both
+};
+int record_scale(const RecordScaleArguments& arguments, const Streams& streams);
+
+struct RecordSpectrumArguments {
+    RecordInput input;
+    std::filesystem::path out;    ///< CSV; empty: table on standard output
+    double ratio = 0.05;          ///< --damping [-], 0 ... 1
+    double from = 0.02, to = 4.0; ///< --from, --to [s]
+    int count = 100;              ///< --count, 2 ... 10000
+};
+Table record_spectrum_table(const Record& record, const RecordSpectrumArguments& arguments);
+int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& streams);
+
+struct RecordGenerateArguments {
+    std::string target = "rock";       ///< --target rock | ec8-1 | ec8-2 | a CSV file of period [s] and S_a
+    std::string ground = "A";          ///< --ground A ... E, of ec8
+    std::string component = "h";       ///< --component h | v
+    records::GenerateOptions options;  ///< --pga-m-s2 --duration --dt --seed --tolerance --rise --level
+    std::string envelope = "compound"; ///< --envelope compound | trapezoid
+    RecordTarget destination;
+};
+/// The target spectrum of the arguments. @throws UsageError, InputError
+records::TargetSpectrum generate_target(const RecordGenerateArguments& arguments);
+records::GeneratedRecord generate(const RecordGenerateArguments& arguments);
+int record_generate(const RecordGenerateArguments& arguments, const Streams& streams);
+
+} // namespace damslip::cli
