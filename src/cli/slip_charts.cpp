@@ -236,10 +236,14 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
         curve.high.push_back(row.high.value_or(nothing) / mm);
     }
     if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return v > 0; })) return std::nullopt;
-    chart.curves.push_back(std::move(curve));
     chart.horizontal.push_back({worse_horizontal(s, number).horizontal.max_slip / mm, "rigid block, horizontal"});
     if (const SlipRow* row = worse_with_vertical(s, number))
         chart.horizontal.push_back({row->with_vertical->max_slip / mm, "rigid block, with vertical"});
+    const bool any_zero = std::any_of(curve.low.begin(), curve.low.end(), [](double v) { return v <= 0; }) ||
+                          std::any_of(chart.horizontal.begin(), chart.horizontal.end(),
+                                      [](const report::Line& line) { return line.at <= 0; });
+    if (!any_zero) chart.y.scale = Scale::log;
+    chart.curves.push_back(std::move(curve));
     chart.note =
         "Regressions take the horizontal component only; no point where one is not defined for this a_y and record.";
     return chart;

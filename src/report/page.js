@@ -100,14 +100,19 @@
         return Array.from({length: x.n}, (_, i) => Number((x.from + i * x.step).toPrecision(9)));
     }
 
-    // Lines across the chart with their labels, and the bars around points.
-    function draw_extras(chart, helpers) {
-        return u => {
-            const ctx = u.ctx, r = uPlot.pxRatio, box = u.bbox;
-            ctx.save();
-            ctx.beginPath();
-            ctx.rect(box.left, box.top, box.width, box.height);
-            ctx.clip();
+    function in_box(u, paint) {
+        const ctx = u.ctx, box = u.bbox;
+        ctx.save();
+        ctx.beginPath();
+        ctx.rect(box.left, box.top, box.width, box.height);
+        ctx.clip();
+        paint(ctx, uPlot.pxRatio, box);
+        ctx.restore();
+    }
+
+    // Lines across the chart with their labels, below the curves.
+    function draw_lines(chart) {
+        return u => in_box(u, (ctx, r, box) => {
             ctx.font = 12 * r + "px system-ui, sans-serif";
             ctx.lineWidth = 1.3 * r;
             ctx.strokeStyle = ctx.fillStyle = css("--mark");
@@ -119,13 +124,14 @@
                 ctx.fillText(s, x, y);
                 ctx.lineWidth = 1.3 * r; ctx.strokeStyle = css("--mark"); ctx.setLineDash([6 * r, 4 * r]);
             };
-            for (const line of chart.horizontal) {
+            chart.horizontal.forEach((line, i) => {
                 const y = u.valToPos(line.at, "y", true);
                 ctx.beginPath(); ctx.moveTo(box.left, y); ctx.lineTo(box.left + box.width, y); ctx.stroke();
                 const above = y - 6 * r > box.top + 14 * r;
                 ctx.textBaseline = above ? "bottom" : "top";
-                text(line.label, box.left + box.width - 6 * r, above ? y - 3 * r : y + 3 * r, "right");
-            }
+                const left = i % 2 === 1; // labels of two lines close to each other stay apart
+                text(line.label, left ? box.left + 6 * r : box.left + box.width - 6 * r, above ? y - 3 * r : y + 3 * r, left ? "left" : "right");
+            });
             chart.vertical.forEach((line, i) => {
                 const x = u.valToPos(line.at, "x", true);
                 if (x < box.left || x > box.left + box.width) return;
@@ -134,7 +140,12 @@
                 ctx.textBaseline = "top";
                 text(line.label, left ? x - 5 * r : x + 5 * r, box.top + (4 + 16 * i) * r, left ? "right" : "left");
             });
-            ctx.setLineDash([]);
+        });
+    }
+
+    // The bars around points.
+    function draw_bars(helpers) {
+        return u => in_box(u, (ctx, r) => {
             for (const h of helpers) {
                 if (!h.bars || !u.series[h.main].show) continue;
                 ctx.strokeStyle = colour(h.colour);
@@ -150,8 +161,7 @@
                     ctx.stroke();
                 });
             }
-            ctx.restore();
-        };
+        });
     }
 
     function options(chart, data, width) {
@@ -204,7 +214,7 @@
             const step = axis.scale === "linear" && splits.length > 1 ? splits[1] - splits[0] : 0;
             return splits.map(v => tick_text(v, step));
         };
-        const short_names = names.map(s => s.length > 24 ? s.slice(0, 23) + "…" : s); // the legend has the whole name
+        const short_names = names.map(s => s.length > 26 ? s.slice(0, 11) + "…" + s.slice(-14) : s); // the legend has the whole name
         const longest = short_names.reduce((n, s) => Math.max(n, s.length), 0);
         const tilted = names.length > 0 && longest * 7 * names.length > width - 70;
         const x_axis = {
@@ -237,7 +247,7 @@
             cursor: {sync: chart.together ? {key: chart.together, scales: ["x", null]} : undefined,
                      points: {size: 7, show: (u, i) => u.series[i].class !== "helper" && document.createElement("div")}, drag: {x: true, y: false}},
             legend: {live: true},
-            hooks: {draw: [draw_extras(chart, helpers)],
+            hooks: {drawAxes: [draw_lines(chart)], draw: [draw_bars(helpers)],
                     setLegend: [u => { if (u.legend.idx == null) u.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; }); }]},
         };
     }
@@ -294,11 +304,9 @@
         to.toBlob(blob => save(file_name(entry.chart) + ".png", blob));
     }
 
-    function show_all(entry) {
-        for (const e of charts)
-            if (e.plot && (e === entry || (entry.chart.together && e.chart.together === entry.chart.together)))
-                e.plot.setData(e.plot.data);
-    }
+    /// The chart and those that share cursor and zoom with it.
+    const partners = entry => charts.filter(e => e.plot && (e === entry || (entry.chart.together && e.chart.together === entry.chart.together)));
+    const show_all = entry => partners(entry).forEach(e => e.plot.setData(e.plot.data));
 
     function tools(entry) {
         const bar = document.createElement("div");
@@ -329,11 +337,11 @@
             else if (event.key === "+" || event.key === "-") {
                 const half = (high - low) / (event.key === "+" ? 4 : 1), middle = x[at];
                 const a = Math.max(x[0], middle - half), b = Math.min(x[x.length - 1], middle + half);
-                if (b > a) u.setScale("x", {min: a, max: b});
+                if (b > a) for (const e of partners(entry)) e.plot.setScale("x", {min: a, max: b});
             } else if (event.key === "0" || event.key === "Escape") show_all(entry);
             else return;
             event.preventDefault();
-            u.setCursor({left: u.valToPos(x[at], "x"), top: u.over.clientHeight / 2});
+            u.setCursor({left: u.valToPos(x[at], "x"), top: u.over.clientHeight / 2}, true, true);
             const names = entry.chart.xaxis.categories;
             entry.figure.querySelector(".readout").textContent = with_unit(entry.chart.xaxis) + " " +
                 (names.length ? names[x[at]] : number(x[at])) + ": " +
