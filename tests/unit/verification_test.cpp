@@ -3,6 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
+namespace damslip::verification {
+
+/// Test listings show the id, not the bytes of the case.
+void PrintTo(const Case& subject, std::ostream* out) { *out << subject.id; }
+
+} // namespace damslip::verification
+
 namespace {
 
 using damslip::verification::Case;
