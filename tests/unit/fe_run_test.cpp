@@ -1,5 +1,5 @@
 // The staged run as a whole.
-#include "fe_run_scenes.hpp"
+#include "verification/fe_run_scenes.hpp"
 
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"

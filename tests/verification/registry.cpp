@@ -36,6 +36,7 @@ Registry all_cases()
     add_fe_core_cases(registry);
     add_fe_modes_cases(registry);
     add_fe_time_cases(registry);
+    add_fe_contact_cases(registry);
     add_fe_seepage_cases(registry);
     return registry;
 }
