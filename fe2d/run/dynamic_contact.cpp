@@ -107,6 +107,7 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
     op.solve_free(free_, rock_gap_);
     op.stuck_force(free_, known_, stuck_);
     ContactMemory& memory = state_.contact;
+    op.elastic_stick().soften(stuck_, memory.force);
     const Eigen::MatrixXd& stiffness = op.contact().stiffness();
     for (Index i = 0; i < m; ++i) // Δg = x - (opening at the start, 0)
         if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
@@ -118,6 +119,8 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
 
     gap_ = solution_.displacement;
     gap_.head(m) -= memory.opening;
+    if (op.elastic_stick().active())
+        gap_.tail(m) += op.elastic_stick().give(solution_.force) - op.elastic_stick().give(memory.force);
     op.finish(free_, solution_.force, known_, gap_, dam_interface_);
     du_.swap(free_.dam);
     dr_ = dam_interface_ - gap_;

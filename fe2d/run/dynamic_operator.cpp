@@ -68,6 +68,7 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
+    elastic_stick_ = fe2d::elastic_stick(structure.plane(), options, stiffness);
     contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
 }
 

@@ -2,7 +2,7 @@
 
 #include "fe2d/contact/contact_solver.hpp"
 #include "fe2d/damping/rayleigh.hpp"
-#include "fe2d/run/contact_structure.hpp"
+#include "fe2d/run/static_contact.hpp"
 #include "fe2d/time/scheme.hpp"
 #include "scene/scene.hpp"
 
@@ -44,6 +44,7 @@ public:
     bool regular() const { return factor_.regular(); }
     const StepConstants& constants() const { return constants_; }
     ContactSolver& contact() { return *contact_; }
+    const ElasticStick& elastic_stick() const { return elastic_stick_; }
 
     /// The step without contact forces at its end.
     struct Free {
@@ -78,6 +79,7 @@ private:
     Eigen::VectorXd momentum_; ///< m̂ after the forward pass
     Eigen::VectorXd on_base_;  ///< its interface part on the plane
     Eigen::VectorXd z_;        ///< D A_d⁻¹ m̂
+    ElasticStick elastic_stick_;
     std::unique_ptr<ContactSolver> contact_;
 };
 

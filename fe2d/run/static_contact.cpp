@@ -8,6 +8,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, MatrixXd& stiffness)
+{
+    if (!(options.tangential_stiffness > 0.0)) return {};
+    return {stiffness, (options.tangential_stiffness * plane.area).cwiseInverse()};
+}
+
 StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options) : structure_(structure)
 {
     MatrixXd stiffness = structure.plane().to_plane(structure.static_factor().schur());
@@ -19,6 +25,7 @@ StaticContact::StaticContact(const ContactStructure& structure, const ContactOpt
         stiffness = rock - rock * tied_flexibility_ * rock;
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
+    elastic_stick_ = elastic_stick(structure.plane(), options, stiffness);
     solver_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
 }
 
@@ -36,6 +43,7 @@ ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law,
     VectorXd stuck = -on_base;
     if (structure_.has_rock())
         stuck = load.rock - structure_.rock_stiffness() * (tied_flexibility_ * (on_base + load.rock));
+    elastic_stick_.soften(stuck, VectorXd::Zero(2 * m));
     stuck += solver_->stiffness().rightCols(m) * memory.slip;
     ContactSolution solution{memory.states, {}, {}};
     const ContactReport report = solver_->solve(stuck, law, solution);
@@ -52,6 +60,7 @@ StaticState StaticContact::displacements(const SplitLoad& load, const ContactMem
     const Index m = structure_.plane().pairs();
     VectorXd gap(2 * m);
     gap << memory.opening, memory.slip;
+    if (elastic_stick_.active()) gap.tail(m) += elastic_stick_.give(memory.force);
     StaticState state;
     VectorXd u = gap;
     if (structure_.has_rock())

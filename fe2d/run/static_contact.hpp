@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/contact/contact_solver.hpp"
+#include "fe2d/contact/elastic_stick.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
 namespace damslip::fe2d {
@@ -9,7 +10,8 @@ namespace damslip::fe2d {
 struct ContactMemory {
     Eigen::VectorXd force;   ///< λ [N/m]: effective compression; shear on the dam, positive downstream
     Eigen::VectorXd opening; ///< g_N [m], m values
-    Eigen::VectorXd slip;    ///< accumulated, positive downstream [m], m values; kept exactly while a pair sticks
+    Eigen::VectorXd
+        slip; ///< accumulated, positive downstream, without the elastic give of a penalty [m], m values; kept exactly while a pair sticks
     ContactStates states;
 
     explicit ContactMemory(Eigen::Index pairs = 0)
@@ -24,6 +26,9 @@ struct StaticState {
     Eigen::VectorXd dam;  ///< of the dam, in its node order [m]
     Eigen::VectorXd rock; ///< of the rock's contact nodes, plane [m]
 };
+
+/// Penalty of the options on this plane; inactive when sticking is rigid. Replaces V by V'.
+ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, Eigen::MatrixXd& stiffness);
 
 /// Static equilibrium of dam, contact and rock. Nothing but contact holds the dam, so its stiffness is singular; but
 /// with all pairs tied dam and rock together are not. From there (S: the dam's Schur complement, T = S + K_c, g: gaps)
@@ -46,6 +51,7 @@ private:
 
     const ContactStructure& structure_;
     Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
+    ElasticStick elastic_stick_;
     std::unique_ptr<ContactSolver> solver_;
 };
 
