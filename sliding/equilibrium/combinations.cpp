@@ -104,23 +104,4 @@ std::vector<UpliftComparison> compare_uplift(const Scene& scene, const SeepagePr
     return out;
 }
 
-const char* word(UpliftModel model)
-{
-    switch (model) {
-    case UpliftModel::none:
-        return "none";
-    case UpliftModel::linear:
-        return "linear";
-    case UpliftModel::curtain:
-        return "curtain";
-    case UpliftModel::drains:
-        return "drains";
-    case UpliftModel::points:
-        return "points";
-    case UpliftModel::seepage:
-        return "seepage";
-    }
-    return "";
-}
-
 } // namespace damslip::sliding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/words.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <vector>
@@ -38,6 +39,5 @@ struct UpliftComparison {
 /// Every model the scene has the data for: none, linear, curtain, drains, points, seepage (if a solver is given).
 std::vector<UpliftComparison> compare_uplift(const Scene& scene, const SeepageProfile& seepage = {});
 
-const char* word(UpliftModel model); ///< as in the scene file
 
 } // namespace damslip::sliding

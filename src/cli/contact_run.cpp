@@ -49,24 +49,10 @@ std::string word(fe2d::RunStatus status)
 }
 
 /// Pressure along the base for the FE joint, x = distance [m], y = pressure [Pa].
-Polyline uplift_polyline(const Scene& scene, const sliding::SeepageProfile& seepage)
+Polyline uplift_polyline(const Scene& scene, const sliding::UpliftState& state, const sliding::SeepageProfile& seepage)
 {
     Polyline profile;
     if (!scene.uplift) return profile;
-    for (const sliding::ProfilePoint& p :
-         sliding::uplift_profile(scene, sliding::scene_uplift_state(scene), {}, seepage).points)
-        profile.push_back({p.distance, p.pressure});
-    return profile;
-}
-
-/// The same after the earthquake: ruptured curtain, ineffective drains.
-Polyline uplift_after(const Scene& scene, const sliding::SeepageProfile& seepage)
-{
-    Polyline profile;
-    if (!scene.uplift) return profile;
-    sliding::UpliftState state = sliding::scene_uplift_state(scene);
-    state.drains = sliding::DrainState::ineffective;
-    state.curtain = sliding::CurtainState::damaged;
     for (const sliding::ProfilePoint& p : sliding::uplift_profile(scene, state, {}, seepage).points)
         profile.push_back({p.distance, p.pressure});
     return profile;
@@ -227,8 +213,11 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     const InterruptGuard interrupt;
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
-    options.uplift = uplift_polyline(scene, seepage.profile_of(scene));
-    options.uplift_after = uplift_after(scene, seepage.profile_of(scene));
+    sliding::UpliftState water = sliding::scene_uplift_state(scene);
+    options.uplift = uplift_polyline(scene, water, seepage.profile_of(scene));
+    water.drains = sliding::DrainState::ineffective; // after the earthquake
+    water.curtain = sliding::CurtainState::damaged;
+    options.uplift_after = uplift_polyline(scene, water, seepage.profile_of(scene));
     if (scene.damping.method == DampingMethod::modified_rayleigh &&
         !records.empty()) { // by the first record's horizontal component
         fe2d::ModelOptions tied;

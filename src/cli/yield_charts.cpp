@@ -31,12 +31,11 @@ std::vector<std::pair<std::string, Scene>> uplift_variants(const Scene& given, c
 {
     const UpliftModel own = given.uplift ? given.uplift->model : UpliftModel::none;
     const Scene scene = with_solved_uplift(given, s);
-    std::vector<std::pair<std::string, Scene>> variants{
-        {fmt::format("uplift {}, as given", sliding::word(own)), scene}};
+    std::vector<std::pair<std::string, Scene>> variants{{fmt::format("uplift {}, as given", word(own)), scene}};
     for (const sliding::UpliftComparison& u : s.uplifts)
         if (u.model != own && u.model != UpliftModel::seepage &&
             (u.model != UpliftModel::points || (given.uplift && !given.uplift->points.empty())))
-            variants.emplace_back(fmt::format("uplift {}", sliding::word(u.model)), with_uplift(scene, u.model));
+            variants.emplace_back(fmt::format("uplift {}", word(u.model)), with_uplift(scene, u.model));
     return variants;
 }
 

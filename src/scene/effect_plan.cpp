@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "scene/section.hpp"
+#include "scene/words.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,25 +21,6 @@ struct Decision {
 std::string table_there(bool there, const std::string& table)
 {
     return there ? "[" + table + "] is given" : "no [" + table + "]";
-}
-
-std::string uplift_word(UpliftModel model)
-{
-    switch (model) {
-    case UpliftModel::none:
-        return "none";
-    case UpliftModel::linear:
-        return "linear";
-    case UpliftModel::curtain:
-        return "curtain";
-    case UpliftModel::drains:
-        return "drains";
-    case UpliftModel::points:
-        return "points";
-    case UpliftModel::seepage:
-        return "seepage";
-    }
-    return "";
 }
 
 bool uplift_on(const Scene& s)
@@ -76,7 +58,7 @@ Decision uplift(const Scene& s)
                 s.reservoir || s.tailwater ? "no [uplift] and no [curtain]: the base is taken as dry" : "no [uplift]",
                 ""};
     if (!uplift_on(s)) return {false, "uplift.model = \"none\"", ""};
-    return {true, "uplift.model = \"" + uplift_word(s.uplift->model) + "\"", "one pressure profile"};
+    return {true, std::string("uplift.model = \"") + word(s.uplift->model) + "\"", "one pressure profile"};
 }
 
 Decision strength_loss(const Contact& c)
