@@ -149,6 +149,47 @@ TEST_F(CliScene, FeTiedWritesStagesAndHistory)
     EXPECT_TRUE(std::filesystem::exists(folder / "tied" / "history_pulse.csv"));
 }
 
+TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
+{
+    const std::string file = std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam_profile.toml";
+    const auto plan = nlohmann::json::parse(answer_of({"explain", file, "--method", "fe", "--json"}).out);
+    const auto modes = nlohmann::json::parse(answer_of({"modes", file, "--count", "1", "--json"}).out);
+    EXPECT_EQ(plan["model"], modes["model"]);
+    EXPECT_EQ(plan["model"].size(), 5u); // dam, foundation, curtain, added mass, sum
+
+    // Koyna has neither water nor rock nor curtain: the dam is all there is.
+    const auto bare = nlohmann::json::parse(
+        answer_of({"explain", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml", "--method", "fe", "--json"})
+            .out);
+    ASSERT_EQ(bare["model"].size(), 2u);
+    EXPECT_EQ(bare["model"][0]["effect"], "dam");
+    EXPECT_EQ(bare["model"][0]["unknowns"], bare["model"][1]["unknowns"]);
+}
+
+TEST_F(CliScene, AnEffectOfZeroStrengthChangesNothing)
+{
+    const std::string block =
+        "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+        "25\n[contact]\nfriction = 0.4\n[mesh]\nsize_m = 1\n[foundation]\nyoung_modulus_GPa = 20\n"
+        "[[motion.record]]\nhorizontal = \"pulse.csv\"\n[time]\ndt_s = 0.01\n";
+    const auto run = [&](const std::string& name, const std::string& more) {
+        std::ofstream(folder / name) << block << more;
+        return nlohmann::json::parse(
+            answer_of({"fe", (folder / name).string(), "--base", "tied", "--json"}).out)["runs"][0];
+    };
+    const auto plain = run("plain.toml", "");
+    for (const char* nothing :
+         {"[reservoir]\nlevel_m = 0\n", "[tailwater]\nlevel_m = 0\n", "[ice]\nforce_kN_m = 0\nlevel_m = 9\n",
+          "[[force]]\ny_m = 5\n", "[curtain]\ndistance_m = 2\ndepth_m = 5\nyoung_modulus_GPa = 20\n"}) {
+        const auto with = run("with.toml", nothing);
+        for (const char* key : {"peak_crest_x_mm", "peak_crest_accel_x_m_s2", "peak_base_shear_kN_m"})
+            // The curtain adds mesh lines in the rock, so its discretisation differs; all else is the same matrix.
+            EXPECT_NEAR(with[key].get<double>(), plain[key].get<double>(),
+                        (std::string(nothing).starts_with("[curtain") ? 2e-3 : 1e-12) * plain[key].get<double>())
+                << nothing << key;
+    }
+}
+
 TEST_F(CliScene, ModesGiveTheFrequencies)
 {
     const ProgramAnswer a =

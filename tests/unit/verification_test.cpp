@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <ostream>
 
 namespace damslip::verification {
 
 /// Test listings show the id, not the bytes of the case.
-void PrintTo(const Case& subject, std::ostream* out) { *out << subject.id; }
+void PrintTo(const Case& subject, std::ostream* out)
+{
+    *out << subject.id;
+}
 
 } // namespace damslip::verification
 
@@ -21,8 +26,21 @@ class Verification : public testing::TestWithParam<Case> {};
 TEST_P(Verification, holds)
 {
     for (const auto& check : GetParam().run())
-        EXPECT_TRUE(check.passed()) << check.quantity << " [" << check.unit << "]: computed " << check.computed << ", expected "
-                                    << check.expected << ", error " << check.error() << ", tolerance " << check.tolerance;
+        EXPECT_TRUE(check.passed()) << check.quantity << " [" << check.unit << "]: computed " << check.computed
+                                    << ", expected " << check.expected << ", error " << check.error() << ", tolerance "
+                                    << check.tolerance;
+}
+
+TEST(VerificationDocument, NamesEveryCaseWithItsClaimSourceAndTolerance)
+{
+    std::ifstream in(DAMSLIP_SOURCE_DIR "/docs/verification.md");
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const Case& c : damslip::verification::all_cases()) {
+        const std::string entry =
+            "\n## " + c.id + "\n" + c.claim + "\n\nSource: " + c.source + "\n\nTolerance: " + c.tolerance + "\n";
+        EXPECT_NE(text.find(entry), std::string::npos)
+            << c.id << ": make the document again: damslip verify --markdown > docs/verification.md";
+    }
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Verification);
