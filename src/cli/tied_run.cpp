@@ -96,8 +96,7 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const Eigen::Ve
     const auto start = std::chrono::steady_clock::now();
     run.history = fe2d::integrate(model, motion, options);
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const auto* list : {&options.damping.notes, &run.history.notes})
-        run.notes.insert(run.notes.end(), list->begin(), list->end());
+    run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
     return run;
 }
 
