@@ -1,6 +1,7 @@
 #include "fe2d/run/earthquake_run.hpp"
 
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/run/ground_input.hpp"
 
 #include <fmt/format.h>
 
@@ -84,98 +85,6 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
 
 namespace {
 
-/// Acceleration between the samples is linear; beyond the record it is zero.
-class Ground {
-public:
-    Ground(const GroundMotion& motion, MassDamping damping, double mass_coefficient) : motion_(motion)
-    {
-        if (damping != MassDamping::total || mass_coefficient == 0.0) return;
-        // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
-        // acceleration a_g + a_M v_g.
-        add_velocity(motion_.accel_h, mass_coefficient);
-        add_velocity(motion_.accel_v, mass_coefficient);
-    }
-
-    double duration() const { return motion_.dt * static_cast<double>(motion_.accel_h.size() - 1); }
-
-    GroundAcceleration at(double time) const
-    {
-        const double place = time / motion_.dt, last = static_cast<double>(motion_.accel_h.size() - 1);
-        if (place > last * (1.0 + 1e-12)) return {};
-        const double clamped = std::clamp(place, 0.0, last);
-        const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
-        const double share = clamped - static_cast<double>(k);
-        const auto value = [&](const std::vector<double>& a) {
-            return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]);
-        };
-        return {value(motion_.accel_h), value(motion_.accel_v)};
-    }
-
-private:
-    void add_velocity(std::vector<double>& acceleration, double coefficient) const
-    {
-        double velocity = 0.0, before = acceleration.empty() ? 0.0 : acceleration.front();
-        for (double& a : acceleration) {
-            velocity += 0.5 * motion_.dt * (a + before);
-            before = a;
-            a += coefficient * velocity;
-        }
-    }
-
-    GroundMotion motion_;
-};
-
-/// Writes a row of the history.
-class Recorder {
-public:
-    Recorder(const DynamicContact& dynamics, RunHistory& history)
-        : dynamics_(dynamics), history_(history), weights_(dynamics.structure().plane().weights()),
-          start_(dynamics.state().contact.slip)
-    {
-        const Mesh& mesh = dynamics.structure().model().mesh;
-        crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.front()];
-        crest_start_ = dynamics.state().u[crest_];
-        history_ = {};
-    }
-
-    double slip() const { return weights_.dot(dynamics_.state().contact.slip - start_); }
-
-    void add()
-    {
-        const DynamicState& s = dynamics_.state();
-        const ContactMemory& c = s.contact;
-        const VectorXd& area = dynamics_.structure().plane().area;
-        const Index m = area.size();
-        double open = 0.0, slipping = 0.0;
-        for (Index i = 0; i < m; ++i) {
-            const ContactState state = c.states[static_cast<std::size_t>(i)];
-            if (state == ContactState::open) open += area[i];
-            if (is_slip(state)) slipping += area[i];
-        }
-        history_.time.push_back(s.time);
-        history_.ground_h.push_back(s.ground.h);
-        history_.ground_v.push_back(s.ground.v);
-        history_.slip.push_back(slip());
-        history_.slip_heel.push_back(c.slip[0] - start_[0]);
-        history_.slip_toe.push_back(c.slip[m - 1] - start_[m - 1]);
-        history_.crest_x.push_back(s.u[crest_] - crest_start_);
-        history_.normal_force.push_back(c.force.head(m).sum());
-        history_.shear_force.push_back(-c.force.tail(m).sum());
-        history_.open_length.push_back(open);
-        history_.slipping_length.push_back(slipping);
-        history_.largest_opening.push_back(c.opening.maxCoeff());
-        history_.energy.push_back(dynamics_.energy());
-        history_.imbalance.push_back(dynamics_.energy_imbalance());
-    }
-
-private:
-    const DynamicContact& dynamics_;
-    RunHistory& history_;
-    VectorXd weights_, start_;
-    Index crest_ = 0;
-    double crest_start_ = 0.0;
-};
-
 constexpr double rest_share = 1e-4; ///< change of the slip within the rest time that counts as rest [-]
 constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
 
@@ -208,10 +117,10 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     const int parts = 1 << halvings;
     const double step = dt / parts;
     Strength strength = strength_at_start;
-    const Ground ground(motion, damping_.mass, damping_.constants.mass);
+    const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), structure_->split(stages_.last()), start,
                             memory, options_.contact);
-    Recorder recorder(dynamics, result.history);
+    HistoryRecorder recorder(dynamics, result.history);
     recorder.add();
     result.dt = step;
     result.halvings = halvings;
@@ -292,6 +201,13 @@ void EarthquakeRun::judge(RunResult& result) const
     default:
         break;
     }
+}
+
+std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts) const
+{
+    std::vector<RunResult> results;
+    for (const Contact& contact : contacts) results.push_back(run(motion, contact));
+    return results;
 }
 
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "fe2d/run/dynamic_contact.hpp"
+#include "fe2d/run/run_history.hpp"
 #include "fe2d/run/stages.hpp"
 #include "records/record.hpp"
 
 #include <functional>
 #include <optional>
+#include <span>
 
 /// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
 namespace damslip::fe2d {
@@ -24,25 +26,6 @@ struct RunOptions {
     double rest_time = 0.5;       ///< the run-out ends when the dam has not slid for this long [s]
     ContactOptions contact;
     std::function<void(double share)> progress; ///< called now and then with the share done, 0 ... 1
-};
-
-/// Values at the record's steps (and in the run-out at the same interval), the start included. Slips are counted from
-/// the static state.
-struct RunHistory {
-    std::vector<double> time;            ///< [s]
-    std::vector<double> ground_h;        ///< positive upstream [m/s²]
-    std::vector<double> ground_v;        ///< positive up [m/s²]
-    std::vector<double> slip;            ///< area mean, positive downstream [m]
-    std::vector<double> slip_heel;       ///< of the first pair [m]
-    std::vector<double> slip_toe;        ///< of the last pair [m]
-    std::vector<double> crest_x;         ///< crest relative to the ground, since the static state, downstream [m]
-    std::vector<double> normal_force;    ///< Σλ_n [N/m]
-    std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
-    std::vector<double> open_length;     ///< [m]
-    std::vector<double> slipping_length; ///< [m]
-    std::vector<double> largest_opening; ///< [m]
-    std::vector<Energy> energy;          ///< [J/m]
-    std::vector<double> imbalance;       ///< [J/m]
 };
 
 enum class RunStatus {
@@ -99,6 +82,9 @@ public:
 
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
+
+    /// One motion with several strengths: results in the same order, the same bits as run() of each.
+    std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts) const;
 
     /// The stages before the earthquake alone; `memory` ends in the last state of equilibrium.
     std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;

@@ -1,0 +1,37 @@
+#include "fe2d/run/ground_input.hpp"
+
+#include <algorithm>
+
+namespace damslip::fe2d {
+
+GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient) : motion_(motion)
+{
+    if (damping != MassDamping::total || mass_coefficient == 0.0) return;
+    // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
+    // acceleration a_g + a_M v_g.
+    add_velocity(motion_.accel_h, mass_coefficient);
+    add_velocity(motion_.accel_v, mass_coefficient);
+}
+
+GroundAcceleration GroundInput::at(double time) const
+{
+    const double place = time / motion_.dt, last = static_cast<double>(motion_.accel_h.size() - 1);
+    if (place > last * (1.0 + 1e-12)) return {};
+    const double clamped = std::clamp(place, 0.0, last);
+    const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
+    const double share = clamped - static_cast<double>(k);
+    const auto value = [&](const std::vector<double>& a) { return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]); };
+    return {value(motion_.accel_h), value(motion_.accel_v)};
+}
+
+void GroundInput::add_velocity(std::vector<double>& acceleration, double coefficient) const
+{
+    double velocity = 0.0, before = acceleration.empty() ? 0.0 : acceleration.front();
+    for (double& a : acceleration) {
+        velocity += 0.5 * motion_.dt * (a + before);
+        before = a;
+        a += coefficient * velocity;
+    }
+}
+
+} // namespace damslip::fe2d
