@@ -120,7 +120,7 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), structure_->split(stages_.last()), start,
                             memory, options_.contact);
-    HistoryRecorder recorder(dynamics, result.history);
+    HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
     recorder.add();
     result.dt = step;
     result.halvings = halvings;
@@ -138,8 +138,10 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
         }
         recorder.add();
         result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
-        if (options_.progress && n % 100 == 0)
-            options_.progress(std::min(1.0, static_cast<double>(n) / static_cast<double>(record_steps)));
+        if (options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, dt)) == RunAnswer::stop) {
+            result.status = RunStatus::interrupted;
+            break;
+        }
         if (diverges(dynamics.energy())) {
             result.status = RunStatus::diverged;
             break;
@@ -178,9 +180,19 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     result.after = solve_stage(statics, *structure_, "after the earthquake", after, strength, memory_after);
 }
 
+/// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least.
+RunProgress EarthquakeRun::progress_of(int halvings, long record_steps, long step, double dt) const
+{
+    const int first = options_.halvings.value_or(0);
+    const long before = record_steps * ((1L << halvings) - (1L << first)), now = record_steps << halvings;
+    const long more = !options_.halvings && halvings == first ? 2 * now : 0;
+    return {static_cast<double>(step) * dt, static_cast<double>(record_steps) * dt,
+            before + (std::min(step, record_steps) << halvings), before + now + more};
+}
+
 void EarthquakeRun::judge(RunResult& result) const
 {
-    if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    if (result.status != RunStatus::interrupted && result.counts.unresolved > 0) result.status = RunStatus::unresolved;
     switch (result.status) {
     case RunStatus::at_rest:
         result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
@@ -192,6 +204,11 @@ void EarthquakeRun::judge(RunResult& result) const
     case RunStatus::unresolved:
         result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
                                      result.counts.unresolved, result.counts.steps, result.counts.largest_residual);
+        break;
+    case RunStatus::interrupted:
+        if (result.message.empty())
+            result.message =
+                fmt::format("Interrupted at {:.2f} s, slip so far {:.4g} mm.", result.end_time, 1e3 * result.slip);
         break;
     case RunStatus::diverged:
         result.message = fmt::format("Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller "
@@ -238,8 +255,17 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
     shake(motion, first, strength, memory, start, result);
     result.slip_error = std::numeric_limits<double>::quiet_NaN();
     for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+        if (result.status == RunStatus::interrupted) break;
         const double coarser = result.slip;
-        shake(motion, k, strength, memory, start, result);
+        RunResult finer = result;
+        shake(motion, k, strength, memory, start, finer);
+        if (finer.status == RunStatus::interrupted) { // the whole coarser run tells more than a part of the finer
+            result.status = RunStatus::interrupted;
+            result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
+                                         finer.dt, 1e3 * result.slip, result.dt);
+            break;
+        }
+        result = std::move(finer);
         // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
         result.slip_error = std::abs(result.slip - coarser);
         if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))

@@ -3,6 +3,7 @@
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/run_history.hpp"
 #include "fe2d/run/stages.hpp"
+#include "fe2d/time/run_progress.hpp"
 #include "records/record.hpp"
 
 #include <functional>
@@ -25,7 +26,10 @@ struct RunOptions {
     double smallest_slip = 1e-6;  ///< errors below this share of slip_tolerance do not matter [m]
     double rest_time = 0.5;       ///< the run-out ends when the dam has not slid for this long [s]
     ContactOptions contact;
-    std::function<void(double share)> progress; ///< called now and then with the share done, 0 ... 1
+    PairSeries pair_series = PairSeries::none;
+    /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
+    /// as far as they are known. Runs that go on in parallel call it from their own threads.
+    std::function<RunAnswer(const RunProgress&)> progress;
 };
 
 enum class RunStatus {
@@ -33,6 +37,7 @@ enum class RunStatus {
     sliding_at_end, ///< still sliding when the run-out ended
     static_failure, ///< no equilibrium before the earthquake: see the last stage
     unresolved,     ///< some steps' contact was not resolved (counts.unresolved)
+    interrupted,    ///< stopped by RunOptions::progress; the history ends there
     diverged,       ///< energy grew beyond all that the ground put in: step too large for an undamped, stiff model
     model_failed    ///< a matrix could not be factorised
 };
@@ -93,6 +98,7 @@ private:
     void find_damping();
     void shake(const GroundMotion& motion, int halvings, const Strength& strength, const ContactMemory& memory,
                const StaticState& start, RunResult& result) const;
+    RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
 
     Scene scene_;

@@ -1,13 +1,46 @@
 #include "fe2d/run/run_history.hpp"
 
+#include <limits>
+
 namespace damslip::fe2d {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-HistoryRecorder::HistoryRecorder(const DynamicContact& dynamics, RunHistory& history)
-    : dynamics_(dynamics), history_(history), weights_(dynamics.structure().plane().weights()),
-      start_(dynamics.state().contact.slip)
+namespace {
+
+double middle_of(const Plane& plane)
+{
+    return 0.5 * (plane.distance[0] + plane.distance[plane.pairs() - 1]);
+}
+
+/// Linear interpolation of pair values at the middle of the base.
+VectorXd weights_at_middle(const Plane& plane)
+{
+    const VectorXd& d = plane.distance;
+    const double middle = middle_of(plane);
+    Index i = 0;
+    while (i + 2 < plane.pairs() && d[i + 1] < middle) ++i;
+    const double share = (middle - d[i]) / (d[i + 1] - d[i]);
+    VectorXd weights = VectorXd::Zero(plane.pairs());
+    weights[i] = 1.0 - share;
+    weights[i + 1] = share;
+    return weights;
+}
+
+} // namespace
+
+double base_rotation(const Plane& plane, const VectorXd& opening)
+{
+    const VectorXd weights = plane.weights();
+    const VectorXd arm = plane.distance.array() - weights.dot(plane.distance);
+    const VectorXd moments = weights.cwiseProduct(arm);
+    return -moments.dot(opening) / moments.dot(arm);
+}
+
+HistoryRecorder::HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series)
+    : dynamics_(dynamics), history_(history), series_(series), weights_(dynamics.structure().plane().weights()),
+      start_(dynamics.state().contact.slip), to_middle_(weights_at_middle(dynamics.structure().plane()))
 {
     const Mesh& mesh = dynamics.structure().model().mesh;
     crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.front()];
@@ -19,28 +52,50 @@ void HistoryRecorder::add()
 {
     const DynamicState& s = dynamics_.state();
     const ContactMemory& c = s.contact;
-    const VectorXd& area = dynamics_.structure().plane().area;
-    const Index m = area.size();
+    const Plane& plane = dynamics_.structure().plane();
+    const Index m = plane.pairs();
     double open = 0.0, slipping = 0.0;
     for (Index i = 0; i < m; ++i) {
         const ContactState state = c.states[static_cast<std::size_t>(i)];
-        if (state == ContactState::open) open += area[i];
-        if (is_slip(state)) slipping += area[i];
+        if (state == ContactState::open) open += plane.area[i];
+        if (is_slip(state)) slipping += plane.area[i];
     }
+    const double normal = c.force.head(m).sum(), about_heel = c.force.head(m).dot(plane.distance);
     history_.time.push_back(s.time);
     history_.ground_h.push_back(s.ground.h);
     history_.ground_v.push_back(s.ground.v);
     history_.slip.push_back(slip());
     history_.slip_heel.push_back(c.slip[0] - start_[0]);
+    history_.slip_middle.push_back(to_middle_.dot(c.slip - start_));
     history_.slip_toe.push_back(c.slip[m - 1] - start_[m - 1]);
+    history_.rocking.push_back(base_rotation(plane, c.opening));
     history_.crest_x.push_back(s.u[crest_] - crest_start_);
-    history_.normal_force.push_back(c.force.head(m).sum());
+    history_.normal_force.push_back(normal);
     history_.shear_force.push_back(-c.force.tail(m).sum());
+    history_.normal_position.push_back(normal > 0.0 ? about_heel / normal : std::numeric_limits<double>::quiet_NaN());
+    history_.moment.push_back(about_heel - normal * middle_of(plane));
     history_.open_length.push_back(open);
     history_.slipping_length.push_back(slipping);
     history_.largest_opening.push_back(c.opening.maxCoeff());
     history_.energy.push_back(dynamics_.energy());
     history_.imbalance.push_back(dynamics_.energy_imbalance());
+    if (series_ == PairSeries::every_step) add_pairs();
+}
+
+void HistoryRecorder::add_pairs()
+{
+    const ContactMemory& c = dynamics_.state().contact;
+    const VectorXd& area = dynamics_.structure().plane().area;
+    const Index m = area.size();
+    PairHistory& pairs = history_.by_pair;
+    pairs.pairs = m;
+    for (Index i = 0; i < m; ++i) {
+        pairs.pressure.push_back(static_cast<float>(c.force[i] / area[i]));
+        pairs.shear.push_back(static_cast<float>(-c.force[m + i] / area[i]));
+        pairs.slip.push_back(static_cast<float>(c.slip[i] - start_[i]));
+        pairs.opening.push_back(static_cast<float>(c.opening[i]));
+    }
+    pairs.state.insert(pairs.state.end(), c.states.begin(), c.states.end());
 }
 
 } // namespace damslip::fe2d

@@ -6,6 +6,27 @@
 
 namespace damslip::fe2d {
 
+/// Are the values of every pair kept at every row of the history?
+enum class PairSeries {
+    none,
+    every_step ///< 17 bytes by pair and row
+};
+
+/// Values of the m pairs over time; value of pair i in row r: [r * pairs + i]. Slips are counted from the static state.
+struct PairHistory {
+    Eigen::Index pairs = 0;
+    std::vector<float> pressure; ///< effective, compression positive [Pa]
+    std::vector<float> shear;    ///< on the dam, resisting downstream slip [Pa]
+    std::vector<float> slip;     ///< positive downstream [m]
+    std::vector<float> opening;  ///< [m]
+    ContactStates state;
+
+    std::size_t at(std::size_t row, Eigen::Index pair) const
+    {
+        return row * static_cast<std::size_t>(pairs) + static_cast<std::size_t>(pair);
+    }
+};
+
 /// Values at the record's steps (and in the run-out at the same interval), the start included. Slips are counted from
 /// the static state.
 struct RunHistory {
@@ -14,29 +35,45 @@ struct RunHistory {
     std::vector<double> ground_v;        ///< positive up [m/s²]
     std::vector<double> slip;            ///< area mean, positive downstream [m]
     std::vector<double> slip_heel;       ///< of the first pair [m]
+    std::vector<double> slip_middle;     ///< half-way between heel and toe [m]
     std::vector<double> slip_toe;        ///< of the last pair [m]
+    std::vector<double> rocking;         ///< rotation of the base over the rock, positive where the heel opens [rad]
     std::vector<double> crest_x;         ///< crest relative to the ground, since the static state, downstream [m]
-    std::vector<double> normal_force;    ///< Σλ_n [N/m]
+    std::vector<double> normal_force;    ///< N' = Σλ_n [N/m]
     std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+    std::vector<double> normal_position; ///< of N' from the heel [m]; NaN while the whole base is open
+    std::vector<double> moment;          ///< of λ_n about the middle of the base, positive towards the toe [N m/m]
     std::vector<double> open_length;     ///< [m]
     std::vector<double> slipping_length; ///< [m]
     std::vector<double> largest_opening; ///< [m]
     std::vector<Energy> energy;          ///< [J/m]
     std::vector<double> imbalance;       ///< [J/m]
+    PairHistory by_pair;                 ///< rows of `time`; empty with PairSeries::none
 };
+
+/// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
+///
+///     θ = -Σ A_i (d_i - d̄) g_i / Σ A_i (d_i - d̄)²,   d̄ = Σ A_i d_i / Σ A_i
+///
+/// positive where the heel opens more than the toe, zero for a joint that is shut.
+double base_rotation(const Plane& plane, const Eigen::VectorXd& opening);
 
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
-    HistoryRecorder(const DynamicContact& dynamics, RunHistory& history);
+    HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
 
     double slip() const { return weights_.dot(dynamics_.state().contact.slip - start_); }
     void add(); ///< a row for the present state
 
 private:
+    void add_pairs();
+
     const DynamicContact& dynamics_;
     RunHistory& history_;
+    PairSeries series_;
     Eigen::VectorXd weights_, start_;
+    Eigen::VectorXd to_middle_; ///< weights of the one or two pairs nearest to the middle of the base [-]
     Eigen::Index crest_ = 0;
     double crest_start_ = 0.0;
 };

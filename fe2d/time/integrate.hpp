@@ -3,20 +3,13 @@
 #include "fe2d/damping/damping_choice.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/time/history.hpp"
+#include "fe2d/time/run_progress.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/record.hpp"
 
 #include <functional>
 
 namespace damslip::fe2d {
-
-/// Where a run stands, for a progress line.
-struct RunProgress {
-    double time = 0.0, end = 0.0; ///< [s]
-    std::int64_t step = 0, steps = 0;
-};
-
-enum class RunAnswer { go_on, stop };
 
 /// Options of a run on a tied base.
 struct TiedRunOptions {

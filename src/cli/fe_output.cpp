@@ -4,8 +4,10 @@
 #include "fe2d/statics/stress.hpp"
 #include "scene/write.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <iterator>
 #include <ostream>
 
 namespace damslip::cli {
@@ -63,16 +65,16 @@ std::string file_word(const std::string& name)
 }
 
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,
-                      const Eigen::VectorXd& elastic)
+                      const Eigen::VectorXd& elastic, std::vector<fe2d::VtuArray> more)
 {
     if (folder_.empty()) return;
     const fe2d::StressField stress = fe2d::stress_field(model_.mesh, model_.dofs, model_.materials, elastic);
     const std::string file = fmt::format("fields_{:04d}_{}.vtu", entries_.size(), file_word(name));
-    fe2d::write_vtu(folder_ / file, model_.mesh,
-                    {{"displacement_m", node_vectors(model_.dofs, displacement)},
-                     {"stress_xx_yy_xy_Pa", stress.nodal},
-                     {"principal_major_minor_Pa", principal(stress.nodal)}},
-                    {{"centre_stress_xx_yy_xy_Pa", stress.centre}});
+    std::vector<fe2d::VtuArray> nodal{{"displacement_m", node_vectors(model_.dofs, displacement)},
+                                      {"stress_xx_yy_xy_Pa", stress.nodal},
+                                      {"principal_major_minor_Pa", principal(stress.nodal)}};
+    std::move(more.begin(), more.end(), std::back_inserter(nodal));
+    fe2d::write_vtu(folder_ / file, model_.mesh, nodal, {{"centre_stress_xx_yy_xy_Pa", stress.centre}});
     entries_.push_back({time, file});
 }
 
@@ -90,7 +92,7 @@ void finish_output(const std::filesystem::path& folder, const Scene& scene, cons
     write_file(folder / "scene.resolved.toml", resolved_toml(scene));
     if (!streams.quiet)
         streams.talk << "written: " << (folder / "summary.json").string()
-                     << ", history_*.csv, fields.pvd, scene.resolved.toml\n";
+                     << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n";
 }
 
 } // namespace damslip::cli

@@ -27,7 +27,9 @@ public:
     FieldSeries(std::filesystem::path folder, const fe2d::Model& model) : folder_(std::move(folder)), model_(model) {}
 
     /// @param displacement  shown [m] @param elastic  that carries the stresses [m]
-    void add(const std::string& name, double time, const Eigen::VectorXd& displacement, const Eigen::VectorXd& elastic);
+    /// @param more  other arrays on the nodes
+    void add(const std::string& name, double time, const Eigen::VectorXd& displacement, const Eigen::VectorXd& elastic,
+             std::vector<fe2d::VtuArray> more = {});
     void write_collection() const;
 
 private:

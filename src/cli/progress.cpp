@@ -1,13 +1,14 @@
 #include "cli/progress.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <ostream>
 
 namespace damslip::cli {
 
 Progress::Progress(const Streams& streams, std::string label, std::size_t total)
-    : streams_(streams), label_(std::move(label)), total_(total), start_(std::chrono::steady_clock::now()),
-      drawn_(start_)
+    : streams_(streams), label_(std::move(label)), total_(static_cast<double>(total)),
+      start_(std::chrono::steady_clock::now()), drawn_(start_)
 {
 }
 
@@ -19,7 +20,19 @@ Progress::~Progress()
 void Progress::advance(std::size_t by)
 {
     const std::lock_guard lock(mutex_);
-    done_ += by;
+    done_ += static_cast<double>(by);
+    draw_now_and_then();
+}
+
+void Progress::at(double done)
+{
+    const std::lock_guard lock(mutex_);
+    done_ = done;
+    draw_now_and_then();
+}
+
+void Progress::draw_now_and_then()
+{
     if (!streams_.terminal || streams_.quiet) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - drawn_ < std::chrono::milliseconds(100)) return;
@@ -30,7 +43,7 @@ void Progress::advance(std::size_t by)
 void Progress::draw()
 {
     shown_ = true;
-    const double part = total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
+    const double part = total_ > 0 ? std::min(1.0, done_ / total_) : 1.0;
     const double spent = std::chrono::duration<double>(drawn_ - start_).count();
     const double left = part > 0 ? spent * (1 - part) / part : 0;
     const auto filled = static_cast<std::size_t>(24 * part);

@@ -129,9 +129,34 @@ TEST_F(CliScene, FeSlidesAStiffBlockLikeTheRigidBlock)
     EXPECT_EQ(j["runs"][0]["unresolved"], 0);
     EXPECT_NEAR(j["runs"][0]["slip_mm"].get<double>(), 1e3 * triangle_slip(0.981), 10 * triangle_slip(0.981));
     EXPECT_NEAR(j["runs"][0]["slip_rigid_mm"].get<double>(), 1e3 * triangle_slip(0.981), 1e-9);
-    for (const char* file :
-         {"summary.json", "history_pulse.csv", "base_pulse.csv", "fields.pvd", "scene.resolved.toml"})
+    for (const char* file : {"summary.json", "history_pulse.csv", "base_pulse.csv", "contact_pulse.csv",
+                             "states_pulse.csv", "fields.pvd", "scene.resolved.toml"})
         EXPECT_TRUE(std::filesystem::exists(folder / "fe" / file)) << file;
+
+    // A block that slides as a whole: the same slip at heel, middle and toe, all steps solved, energy of the ground
+    // into friction.
+    const auto& slip = j["slip"][0];
+    for (const char* where : {"slip_heel_mm", "slip_middle_mm", "slip_toe_mm"})
+        EXPECT_NEAR(slip[where].get<double>(), slip["slip_mm"].get<double>(), 1e-3 * slip["slip_mm"].get<double>());
+    const auto& counts = j["counts"][0];
+    EXPECT_EQ(counts["steps"], counts["newton"].get<int>() + counts["worst_violator"].get<int>() +
+                                   counts["gauss_seidel"].get<int>() + counts["lemke"].get<int>());
+    EXPECT_EQ(counts["factorisations"], 1);
+    EXPECT_NEAR(j["energy"][0]["friction_J_m"].get<double>(), 0.1 * 16 * 2500 * 9.81 * triangle_slip(0.981),
+                0.01 * 0.1 * 16 * 2500 * 9.81 * triangle_slip(0.981)); // mu G s, s within 1 %
+
+    // One letter per pair; the last instant of contact_pulse.csv is the end.
+    std::ifstream states(folder / "fe" / "states_pulse.csv");
+    std::string line, last;
+    while (std::getline(states, line)) {
+        if (line.starts_with("#") || line.starts_with("time_s")) continue;
+        ASSERT_EQ(line.size() - line.find(',') - 1, j["contact_pairs"].get<std::size_t>()) << line;
+        last = line;
+    }
+    EXPECT_EQ(last.find_first_of("duo"), std::string::npos) << last; // at rest
+    std::ifstream pairs(folder / "fe" / "contact_pulse.csv");
+    while (std::getline(pairs, line)) last = line;
+    EXPECT_TRUE(last.ends_with(",s")) << last;
 }
 
 TEST_F(CliScene, FeTiedWritesStagesAndHistory)

@@ -115,6 +115,77 @@ TEST(FeRun, positive_acceleration_drives_downstream)
     EXPECT_LT(std::abs(upstream), 0.3 * downstream);
 }
 
+// Openings d/100 at the heel falling to zero at the toe are a rotation of -1/100 about the toe, whatever the areas;
+// the position of N' and the moment about the middle belong together, and pair values are those of the sums.
+TEST(FeRun, history_of_rocking_and_pairs)
+{
+    Plane plane;
+    plane.distance = VectorXd::LinSpaced(5, 0.0, 8.0);
+    plane.area = VectorXd::Constant(5, 2.0);
+    plane.area[0] = plane.area[4] = 1.0;
+    EXPECT_NEAR(base_rotation(plane, (8.0 - plane.distance.array()) / 100.0), 0.01, 1e-15);
+    EXPECT_NEAR(base_rotation(plane, VectorXd::Constant(5, 0.3)), 0.0, 1e-15);
+
+    const Scene scene = sliding_dam(0.70, 1.0, 5.0);
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    options.pair_series = PairSeries::every_step;
+    const RunResult result = EarthquakeRun(scene, options).run(sines(2.0, 5.0));
+    const RunHistory& h = result.history;
+    const auto pairs = static_cast<std::size_t>(h.by_pair.pairs);
+    ASSERT_EQ(h.by_pair.pressure.size(), h.time.size() * pairs);
+    ASSERT_EQ(h.by_pair.state.size(), h.time.size() * pairs);
+    const double length = result.pair_distance[h.by_pair.pairs - 1];
+    const double weight = h.normal_force[0];
+    for (std::size_t row = 0; row < h.time.size(); row += 50) {
+        double normal = 0.0, slip = 0.0, open = 0.0;
+        for (Eigen::Index i = 0; i < h.by_pair.pairs; ++i) {
+            const double area = result.pair_area[i];
+            const std::size_t k = h.by_pair.at(row, i);
+            normal += area * static_cast<double>(h.by_pair.pressure[k]);
+            slip += area / length * static_cast<double>(h.by_pair.slip[k]);
+            if (h.by_pair.state[k] == ContactState::open) open += area;
+        }
+        EXPECT_NEAR(normal, h.normal_force[row], 1e-6 * weight); // float: 6e-8 of each
+        EXPECT_NEAR(slip, h.slip[row], 1e-6 * result.max_slip);  // the same
+        EXPECT_NEAR(open, h.open_length[row], 1e-9 * length);
+        EXPECT_NEAR(h.moment[row], h.normal_force[row] * (h.normal_position[row] - length / 2), 1e-9 * weight * length);
+        EXPECT_EQ(h.rocking[row] == 0.0, h.largest_opening[row] == 0.0);
+    }
+    EXPECT_GT(*std::max_element(h.rocking.begin(), h.rocking.end()), 0.0);
+    EXPECT_NEAR(h.slip_middle.back(), result.slip, 0.1 * std::abs(result.slip)); // the base is stiff against the slip
+}
+
+// Stopped from outside: the history so far is kept; stopped between passes, the whole pass before counts.
+TEST(FeRun, can_be_interrupted)
+{
+    const Scene scene = sliding_dam(0.70, 1.0, 7.5);
+    RunOptions options = options_of(scene);
+    std::int64_t last = 0;
+    double stop_after = 1.0; // of the first pass, then of all
+    options.progress = [&](const RunProgress& p) {
+        EXPECT_GE(p.step, last);
+        EXPECT_LE(p.step, p.steps);
+        last = p.step;
+        return static_cast<double>(p.step) >= 500 * stop_after ? RunAnswer::stop : RunAnswer::go_on;
+    };
+    const EarthquakeRun run(scene, options);
+    stop_after = 0.5;
+    const RunResult half = run.run(sines(1.0, 5.0));
+    EXPECT_EQ(half.status, RunStatus::interrupted);
+    EXPECT_EQ(half.history.time.size(), 251u); // 250 of 500 steps, and the start
+    EXPECT_NEAR(half.end_time, 2.5, 1e-9);
+    EXPECT_NE(half.message.find("Interrupted at 2.50 s"), std::string::npos) << half.message;
+
+    last = 0;
+    stop_after = 1.5; // in the second pass
+    const RunResult one = run.run(sines(1.0, 5.0));
+    EXPECT_EQ(one.status, RunStatus::interrupted);
+    EXPECT_EQ(one.halvings, 0);
+    EXPECT_GT(one.end_time, 5.0);
+    EXPECT_TRUE(std::isnan(one.slip_error));
+}
+
 // Energy closes to round-off of its largest term: all terms from states, in sliding with opening and damping.
 TEST(FeRun, energy_closes)
 {
