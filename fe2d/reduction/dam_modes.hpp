@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fe2d/run/contact_structure.hpp"
+
+namespace damslip::fe2d {
+
+/// Motions of the dam held by nothing: K φ = ω² M φ, φᵀMφ = 1, lowest first. The first three are the rigid motions,
+/// ω = 0. Everything a run on the plane needs of them; the shapes themselves are not kept.
+///
+/// Free-interface modes with residual flexibility (MacNeal 1971; Rubin 1975, AIAA J. 13(8)): the limit of the
+/// Craig & Bampton (1968) reduction with all its fixed-interface modes, diagonalised, and cut with static correction
+/// (Castanier, Tan & Pierre 2001). What is left out are the modes above ω_n, replaced by their static flexibility.
+struct DamModes {
+    Eigen::VectorXd omega2;         ///< ω² [rad²/s²]; the first three 0
+    Eigen::MatrixXd on_plane;       ///< D φ, 2m x n: what each mode adds to the gaps [kg^-1/2 m^1/2]
+    Eigen::VectorXd crest;          ///< horizontal motion of the crest
+    Eigen::VectorXd ground_x;       ///< φᵀ M r of the ground's horizontal ...
+    Eigen::VectorXd ground_y;       ///< ... and vertical motion
+    Eigen::VectorXd momentum;       ///< φᵀ M r along the plane
+    Eigen::MatrixXd residual;       ///< static flexibility on the plane of all modes left out, 2m x 2m [m²/N]
+    Eigen::VectorXd residual_crest; ///< the same from forces on the plane to the crest, 2m
+    bool regular = false;           ///< false: the dam could not be factorised, or the modes did not converge
+    int solutions = 0;              ///< of the factorised dam
+
+    Eigen::Index count() const { return omega2.size(); }
+    /// With the first `count` of the modes only; the others go into the residual flexibility.
+    DamModes first(Eigen::Index count) const;
+};
+
+/// @param elastic  modes beyond the three rigid ones, >= 1; all when there are no more
+DamModes dam_modes(const ContactStructure& structure, int elastic);
+
+} // namespace damslip::fe2d

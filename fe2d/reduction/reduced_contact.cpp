@@ -1,0 +1,114 @@
+#include "fe2d/reduction/reduced_contact.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+ReducedContact::ReducedContact(const Plane& plane, const ReducedSystem& system, const Scheme& scheme,
+                               const ContactMemory& rest, const ContactOptions& options)
+    : plane_(plane), system_(system), scheme_(scheme), options_(options), rest_force_(rest.force),
+      rest_slip_(rest.slip), normal_force_(rest.force.head(plane.pairs()).sum())
+{
+    state_.q = state_.q_v = state_.q_a = VectorXd::Zero(system.modes.count());
+    state_.p = state_.p_v = state_.p_a = VectorXd::Zero(2 * plane.pairs());
+    state_.contact = rest;
+}
+
+ReducedOperator& ReducedContact::operator_of(double dt)
+{
+    auto& slot = operators_[dt];
+    if (!slot) {
+        slot = std::make_unique<ReducedOperator>(plane_, system_, step_constants(scheme_, dt), options_);
+        ++counts_.factorisations;
+    }
+    return *slot;
+}
+
+/// b, π and the known contact-like forces; DynamicContact::right_hand_side in modal amplitudes since rest.
+void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceleration& ground)
+{
+    const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
+    const double a_m = system_.damping.constants.mass, b_k = system_.damping.constants.stiffness;
+    const double h = w * ground.h - alpha * state_.ground.h, v = w * ground.v - alpha * state_.ground.v;
+    const ReducedState& s = state_;
+    load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + (c.a2 + a_m * cv) * s.q_v +
+            (c.a3 + a_m * ca) * s.q_a +
+            system_.modes.omega2.cwiseProduct((b_k * cv) * s.q_v + (b_k * ca) * s.q_a - s.q);
+    massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
+    known_ = alpha * s.contact.force + rest_force_;
+    if (!system_.slips_damped()) return;
+    const double slip = cv * rate_ + ca * accel_;
+    const double mean = system_.mean_motion.dot(cv * s.q_v + ca * s.q_a);
+    load_ -= (system_.slip_damping * slip) * system_.mean_motion;
+    known_.tail(system_.weights.size()) -= (system_.slip_damping * (slip - mean)) * system_.weights;
+}
+
+ContactReport ReducedContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law)
+{
+    ReducedOperator& op = operator_of(dt);
+    const StepConstants& c = op.constants();
+    const Index m = plane_.pairs();
+    right_hand_side(c, ground);
+    op.stuck_force(load_, massless_, known_, stuck_);
+    ContactMemory& memory = state_.contact;
+    op.elastic_stick().soften(stuck_, memory.force);
+    const Eigen::MatrixXd& stiffness = op.contact().stiffness();
+    for (Index i = 0; i < m; ++i)
+        if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
+
+    const auto before = std::chrono::steady_clock::now();
+    solution_.states = memory.states;
+    const ContactReport report = op.contact().solve(stuck_, law, solution_);
+    counts_.contact_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+
+    VectorXd tangential = solution_.displacement.tail(m);
+    if (op.elastic_stick().active())
+        tangential += op.elastic_stick().give(solution_.force) - op.elastic_stick().give(memory.force);
+    const double slip = system_.weights.dot(tangential);
+    op.finish(load_, massless_, known_, solution_.force, slip, modal_step_, massless_step_);
+
+    const auto update = [&](const auto& step, auto& x, auto& velocity, auto& acceleration) {
+        x += step;
+        for (Index i = 0; i < x.size(); ++i) {
+            const double v = velocity[i], a = acceleration[i];
+            velocity[i] = c.a1 * step[i] - c.a4 * v - c.a5 * a;
+            acceleration[i] = c.a0 * step[i] - c.a2 * v - c.a3 * a;
+        }
+    };
+    update(modal_step_, state_.q, state_.q_v, state_.q_a);
+    update(massless_step_, state_.p, state_.p_v, state_.p_a);
+    const double rate = c.a1 * slip - c.a4 * rate_ - c.a5 * accel_;
+    accel_ = c.a0 * slip - c.a2 * rate_ - c.a3 * accel_;
+    rate_ = rate;
+    memory.force = solution_.force;
+    memory.states = solution_.states;
+    memory.opening = solution_.displacement.head(m);
+    memory.slip += solution_.displacement.tail(m);
+    state_.time += dt;
+    state_.ground = ground;
+
+    ++counts_.steps;
+    counts_.contact_iterations += report.iterations;
+    counts_.largest_iterations = std::max(counts_.largest_iterations, report.iterations);
+    ++counts_.by_path[static_cast<int>(report.path)];
+    counts_.unresolved += !report.resolved();
+    counts_.largest_residual =
+        std::max(counts_.largest_residual, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
+    return report;
+}
+
+double ReducedContact::mean_slip() const
+{
+    return system_.weights.dot(state_.contact.slip - rest_slip_);
+}
+
+double ReducedContact::crest() const
+{
+    return system_.modes.crest.dot(state_.q) + system_.modes.residual_crest.dot(state_.p);
+}
+
+} // namespace damslip::fe2d

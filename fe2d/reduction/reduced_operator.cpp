@@ -1,0 +1,89 @@
+#include "fe2d/reduction/reduced_operator.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, const RunDamping& run_damping)
+    : modes(std::move(kept)), flexibility(modes.residual), damping(run_damping), weights(structure.plane().weights())
+{
+    if (structure.has_rock()) flexibility += structure.rock_flexibility();
+    const SlipDamping slip(structure, damping);
+    mean_motion = VectorXd::Zero(modes.count());
+    if (!slip.active()) return;
+    slip_damping = slip.coefficient;
+    mean_motion = modes.momentum * (damping.constants.mass / slip_damping); // m̂ = M r / (k'/a_M)
+}
+
+ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
+                                 const ContactOptions& options)
+    : system_(system), constants_(constants)
+{
+    const double w = 1.0 + constants.scheme.alpha, a_m = system.damping.constants.mass,
+                 stretch = w * (1.0 + constants.a1 * system.damping.constants.stiffness);
+    const Index m = plane.pairs();
+    const MatrixXd& on_plane = system.modes.on_plane;
+    massless_factor_ = 1.0 / stretch;
+    inverse_ = (constants.a0 + w * constants.a1 * a_m + stretch * system.modes.omega2.array()).inverse().matrix();
+    MatrixXd flexibility = massless_factor_ * system.flexibility;
+    flexibility.noalias() += (on_plane * inverse_.asDiagonal()) * on_plane.transpose();
+    MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
+    stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    stiff_modes_ = stiffness * on_plane;
+    if (system.slips_damped()) {
+        k_ = w * constants.a1 * system.slip_damping;
+        const VectorXd q = inverse_.cwiseProduct(system.mean_motion);
+        z_ = on_plane * q;
+        zeta_ = q.dot(system.mean_motion);
+        // EᵀW⁻¹E, E = I - k z ωᵀ: three rank-one terms
+        const VectorXd w_z = stiffness * z_;
+        const double z_w_z = z_.dot(w_z);
+        stiffness.rightCols(m) -= k_ * w_z * system.weights.transpose();
+        stiffness.bottomRows(m) -= k_ * system.weights * w_z.transpose();
+        stiffness.bottomRightCorner(m, m) +=
+            (k_ * k_ * z_w_z + k_ * (1.0 - k_ * zeta_)) * system.weights * system.weights.transpose();
+        stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    }
+    stiffness /= w;
+    elastic_stick_ = fe2d::elastic_stick(plane, options, stiffness);
+    contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
+}
+
+void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known,
+                                  VectorXd& stuck) const
+{
+    const double w = 1.0 + constants_.scheme.alpha;
+    const VectorXd free = inverse_.cwiseProduct(load - system_.modes.on_plane.transpose() * massless);
+    stuck = massless;
+    stuck.noalias() += stiff_modes_ * free;
+    if (system_.slips_damped()) {
+        const double mean = system_.mean_motion.dot(inverse_.cwiseProduct(load));
+        stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
+    }
+    stuck = (known - stuck) / w;
+}
+
+void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, const VectorXd& known,
+                             const VectorXd& force, double slip, VectorXd& modal_step, VectorXd& massless_step) const
+{
+    VectorXd tilde = (1.0 + constants_.scheme.alpha) * force - known;
+    if (system_.slips_damped()) { // as in DynamicOperator::finish
+        const VectorXd& weights = system_.weights;
+        const Index m = weights.size();
+        const double mean = system_.mean_motion.dot(inverse_.cwiseProduct(load));
+        tilde.tail(m) -= (k_ * (slip - mean - k_ * zeta_ * slip)) * weights;
+        const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
+        tilde.tail(m) += (k_ * z_tilde) * weights;
+    }
+    modal_step = load;
+    modal_step.noalias() += system_.modes.on_plane.transpose() * tilde;
+    if (system_.slips_damped()) modal_step += (k_ * slip) * system_.mean_motion;
+    modal_step = inverse_.cwiseProduct(modal_step).eval();
+    massless_step = massless_factor_ * (tilde + massless);
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "fe2d/contact/contact_solver.hpp"
+#include "fe2d/contact/elastic_stick.hpp"
+#include "fe2d/reduction/dam_modes.hpp"
+#include "fe2d/run/dynamic_operator.hpp"
+#include "fe2d/time/scheme.hpp"
+
+namespace damslip::fe2d {
+
+/// What a reduced run needs beside the step size: modes, and the massless body on the plane.
+struct ReducedSystem {
+    DamModes modes;
+    Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ + residual of the dam, in series, 2m x 2m [m²/N]
+    RunDamping damping;
+    double slip_damping = 0.0;   ///< k' of SlipDamping [N s/m per m]; 0: none
+    Eigen::VectorXd mean_motion; ///< φᵀm̂: motion along the plane that each mode stands for [kg^1/2 m^-1/2 ...]
+    Eigen::VectorXd weights;     ///< ω of SlipDamping
+
+    ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping);
+    bool slips_damped() const { return slip_damping != 0.0; }
+};
+
+/// One step size of the reduced run: DynamicOperator with A_d = diag(d) and the massless body
+///
+///     d_i = a0 + w a1 a_M + w (1 + a1 b_K) ω_i²,   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
+///     w (1 + a1 b_K) Δp = λ̃ + π,   Δg = Φ Δq + F_s Δp,   p: elastic force of the massless body
+///
+/// so W = Φ d⁻¹ Φᵀ + F, F = F_s/(w (1 + a1 b_K)), and with the free step q* = d⁻¹ b
+///
+///     W⁻¹ (Φ q* + F π) = π + W⁻¹Φ (q* - d⁻¹ Φᵀπ)
+///
+/// needs products with Φ and W⁻¹Φ only: 2m x n, nothing 2m x 2m but the contact problem itself. F_s is never inverted.
+class ReducedOperator {
+public:
+    ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
+                    const ContactOptions& options);
+
+    const StepConstants& constants() const { return constants_; }
+    ContactSolver& contact() { return *contact_; }
+    const ElasticStick& elastic_stick() const { return elastic_stick_; }
+
+    /// λ⁰ for a gap that stays as it is.
+    /// @param load  b [..], modal @param massless  π [N/m] @param known  α λ₀ + λ_rest - (slip damping) [N/m]
+    void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
+                     Eigen::VectorXd& stuck) const;
+
+    /// Δq and Δp for λ₁ = `force`; `slip` = ωᵀΔg_t [m]. Call after stuck_force().
+    void finish(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
+                const Eigen::VectorXd& force, double slip, Eigen::VectorXd& modal_step,
+                Eigen::VectorXd& massless_step) const;
+
+private:
+    const ReducedSystem& system_;
+    StepConstants constants_;
+    Eigen::VectorXd inverse_;     ///< 1/d
+    Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
+    double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
+    Eigen::VectorXd z_; ///< Φ d⁻¹ μ
+    ElasticStick elastic_stick_;
+    std::unique_ptr<ContactSolver> contact_;
+};
+
+} // namespace damslip::fe2d

@@ -1,0 +1,212 @@
+#include "fe2d/reduction/reduced_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr int reference_factor = 4; ///< modes of the estimate's reference over those kept
+constexpr int coarse_pairs = 22;    ///< of the plane of the estimate
+constexpr double rest_share = 1e-4; ///< as in the full run: change of the slip within the rest time that is rest [-]
+constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
+
+/// Has the mean slip stayed the same for the rest time?
+bool at_rest(const ReducedHistory& history, double rest_time)
+{
+    const double now = history.time.back(), slip = history.slip.back();
+    const double limit = std::max(rest_slip, rest_share * std::abs(slip));
+    for (std::size_t k = history.time.size(); k-- > 0;) {
+        if (std::abs(history.slip[k] - slip) > limit) return false;
+        if (now - history.time[k] >= rest_time - 1e-9) return true;
+    }
+    return false;
+}
+
+void record(const ReducedContact& dynamics, ReducedHistory& history)
+{
+    const ContactMemory& contact = dynamics.state().contact;
+    const Index m = contact.opening.size();
+    history.time.push_back(dynamics.state().time);
+    history.slip.push_back(dynamics.mean_slip());
+    history.crest_x.push_back(dynamics.crest());
+    history.normal_force.push_back(contact.force.head(m).sum());
+    history.shear_force.push_back(-contact.force.tail(m).sum());
+}
+
+} // namespace
+
+struct ReducedRun::Motion {
+    GroundInput ground;
+    double dt = 0.0; ///< of the rows of the history [s]
+    int parts = 1;   ///< steps in each
+};
+
+ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
+    : full_(full), scene_(scene), options_(std::move(options)),
+      stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
+{
+    const auto start = Clock::now();
+    if (!full.structure().regular()) return;
+    const int wanted = std::max(modes, 2);
+    DamModes reference = dam_modes(full.structure(), reference_factor * wanted);
+    if (!reference.regular) return;
+    const Index kept = std::min<Index>(3 + wanted, reference.count());
+    const RunDamping damping{full.damping(), scene_.damping.mass};
+    const bool all = kept == reference.count();
+    system_ = std::make_unique<ReducedSystem>(full.structure(), reference.first(kept), damping);
+    if (!all) {
+        coarse_system_ = std::make_unique<ReducedSystem>(coarse_.coarsened(*system_));
+        coarse_fewer_ = std::make_unique<ReducedSystem>(
+            coarse_.coarsened(ReducedSystem(full.structure(), reference.first(3 + wanted / 2), damping)));
+        coarse_reference_ = std::make_unique<ReducedSystem>(
+            coarse_.coarsened(ReducedSystem(full.structure(), std::move(reference), damping)));
+    }
+    seconds_ = seconds_since(start);
+}
+
+void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
+                       const ContactMemory& rest, ReducedResult& result) const
+{
+    const double dt = motion.dt;
+    const int parts = motion.parts;
+    const GroundInput& ground = motion.ground;
+    ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, options_.contact);
+    result.history = {};
+    record(dynamics, result.history);
+    result.dt = dt / parts;
+    result.max_slip = 0.0;
+    result.status = RunStatus::sliding_at_end;
+    const auto record_steps = static_cast<long>(std::ceil(ground.duration() / dt - 1e-9));
+    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
+    const auto rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
+    for (long n = 0; n < all_steps; ++n) {
+        for (int part = 1; part <= parts; ++part) {
+            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
+            dynamics.advance(dt / parts, ground.at(time), strength.law());
+            strength.follow(dynamics.state().contact);
+        }
+        record(dynamics, result.history);
+        result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
+        if (!std::isfinite(dynamics.kinetic())) {
+            result.status = RunStatus::diverged;
+            break;
+        }
+        if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
+            result.status = RunStatus::at_rest;
+            break;
+        }
+    }
+    const ContactMemory& end = dynamics.state().contact;
+    result.slip = result.history.slip.back();
+    result.end_time = dynamics.state().time;
+    result.counts = dynamics.counts();
+    result.seconds.contact += result.counts.contact_seconds;
+    result.pair_force = end.force;
+    result.pair_slip = end.slip - rest.slip;
+    result.pair_opening = end.opening;
+}
+
+double ReducedRun::truncation_error(const Motion& motion, const Contact& contact, const ContactMemory& rest) const
+{
+    if (!coarse_system_) return 0.0;
+    const ContactMemory memory = coarse_.coarsened(rest);
+    const auto slip = [&](const ReducedSystem& system) {
+        Strength strength(contact, coarse_.plane());
+        strength.set_separation(options_.separation);
+        strength.follow(memory);
+        ReducedResult result;
+        shake(motion, coarse_.plane(), system, strength, memory, result);
+        return result.slip;
+    };
+    const double modes = static_cast<double>(coarse_system_->modes.count() - 3);
+    const double more = static_cast<double>(coarse_reference_->modes.count() - 3);
+    const double fewer = static_cast<double>(coarse_fewer_->modes.count() - 3);
+    const double kept = slip(*coarse_system_);
+    const double from_more = std::abs(kept - slip(*coarse_reference_)) / (1.0 - modes / more);
+    const double from_fewer = std::abs(kept - slip(*coarse_fewer_)) / (modes / fewer - 1.0);
+    return std::sqrt(from_more * from_fewer);
+}
+
+ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
+{
+    ReducedResult result;
+    result.seconds.modes = seconds_;
+    if (!system_) {
+        result.message = "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
+        return result;
+    }
+    result.modes = static_cast<int>(system_->modes.count()) - 3;
+    result.highest_frequency = std::sqrt(system_->modes.omega2.tail(1)[0]) / (2.0 * std::numbers::pi);
+    const ContactStructure& structure = full_.structure();
+    auto clock = Clock::now();
+    StaticContact statics(structure, options_.contact);
+    Strength strength(contact.value_or(scene_.contact), structure.plane());
+    strength.set_separation(options_.separation);
+    ContactMemory memory(structure.plane().pairs());
+    result.stages = full_.statics(statics, strength, memory);
+    result.seconds.statics = seconds_since(clock);
+    if (result.stages.back().status != StageStatus::ok) {
+        result.status = RunStatus::static_failure;
+        result.message = result.stages.back().text();
+        return result;
+    }
+
+    clock = Clock::now();
+    Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1};
+    const Strength at_start = strength;
+    const auto shake_with = [&](int halvings) {
+        loop.parts = 1 << halvings;
+        strength = at_start;
+        shake(loop, structure.plane(), *system_, strength, memory, result);
+        result.halvings = halvings;
+    };
+    const int first = options_.halvings.value_or(0);
+    shake_with(first);
+    result.step_error = std::numeric_limits<double>::quiet_NaN();
+    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+        const double coarser = result.slip;
+        shake_with(k);
+        result.step_error = std::abs(result.slip - coarser);
+        if (result.step_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
+            break;
+    }
+    result.truncation_error = truncation_error(loop, contact.value_or(scene_.contact), memory);
+    result.seconds.dynamics = seconds_since(clock);
+
+    clock = Clock::now();
+    Eigen::VectorXd after = stages_.last();
+    if (!options_.uplift_after.empty()) {
+        after = stages_.loads[stages_.loads.size() - (options_.uplift.empty() ? 1 : 2)];
+        for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
+            after += uplift_load(full_.model().mesh, full_.model().dofs, options_.uplift_after, side);
+    }
+    ContactMemory end = memory;
+    end.force = result.pair_force;
+    end.slip = memory.slip + result.pair_slip;
+    end.opening = result.pair_opening;
+    result.after = solve_stage(statics, structure, "after the earthquake", after, strength, end);
+    result.seconds.statics += seconds_since(clock);
+
+    if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    result.message = fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * result.slip,
+                                 1e3 * result.truncation_error, result.modes);
+    return result;
+}
+
+} // namespace damslip::fe2d

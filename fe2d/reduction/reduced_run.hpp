@@ -1,0 +1,86 @@
+#pragma once
+
+#include "fe2d/reduction/coarse_plane.hpp"
+#include "fe2d/reduction/reduced_contact.hpp"
+#include "fe2d/run/earthquake_run.hpp"
+#include "fe2d/run/ground_input.hpp"
+
+namespace damslip::fe2d {
+
+/// Values at the record's steps and in the run-out, the start included; slips and crest since the static state.
+struct ReducedHistory {
+    std::vector<double> time;         ///< [s]
+    std::vector<double> slip;         ///< area mean, positive downstream [m]
+    std::vector<double> crest_x;      ///< relative to the ground, downstream [m]
+    std::vector<double> normal_force; ///< Σλ_n [N/m]
+    std::vector<double> shear_force;  ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+};
+
+struct ReducedSeconds {
+    double modes = 0.0; ///< modes and residual flexibility: once per model
+    double statics = 0.0;
+    double dynamics = 0.0; ///< estimate and contact included
+    double contact = 0.0;  ///< of the dynamics
+};
+
+struct ReducedResult {
+    RunStatus status = RunStatus::model_failed;
+    std::string message;             ///< one sentence with the numbers
+    std::vector<StageResult> stages; ///< before the earthquake, by the full model
+    StageResult after;               ///< after it, by the full model
+    ReducedHistory history;
+    double slip = 0.0;              ///< final, area mean, since the static state [m]
+    double max_slip = 0.0;          ///< largest |slip| on the way [m]
+    double truncation_error = 0.0;  ///< estimate of what the modes left out change of the slip [m]; 0: none are
+    double step_error = 0.0;        ///< estimate of what the time step leaves open [m]; NaN: not estimated
+    int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
+    double highest_frequency = 0.0; ///< of them [Hz]
+    int halvings = 0;
+    double dt = 0.0;       ///< [s]
+    double end_time = 0.0; ///< [s]
+    DynamicCounts counts;
+    Eigen::VectorXd pair_force, pair_slip, pair_opening; ///< at the end: λ [N/m], 2m; [m]; [m]
+    ReducedSeconds seconds;
+};
+
+constexpr int default_modes = 12; ///< elastic modes kept when nothing is said: slip within 1 % of the full run's
+
+/// The staged run on few modes of the dam (DamModes): static stages by the full model, earthquake and run-out reduced.
+/// Rock, contact law, damping, scheme and ground motion are those of the full run; only the inertia of the dam's modes
+/// above the last kept is left out, their flexibility is not.
+///
+/// Truncation error: the inertia left out, and with it the error, goes with 1/ω² of the first mode left out, and ω²
+/// grows in proportion to the number of modes of a plane body (Weyl 1911). So with 4n modes instead of n three
+/// quarters of the error are gone, e = 4/3 |s(n) - s(4n)|, and with n/2 as much is added, e = |s(n/2) - s(n)|. Slips
+/// scatter around that law and either difference may be small by accident: the estimate is their geometric mean, from
+/// runs on a coarse plane, where they cost little.
+class ReducedRun {
+public:
+    /// @param full  made from the same scene and options; kept by reference
+    /// @param modes  elastic modes to keep, >= 2; all when there are no more
+    ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes = default_modes);
+
+    /// As EarthquakeRun::run.
+    ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
+
+    const ReducedSystem& system() const { return *system_; }
+
+private:
+    struct Motion; ///< what the time loop reads
+    /// From rest to the end of the run-out; history, slip, counts and contact at the end go into `result`.
+    void shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
+               const ContactMemory& rest, ReducedResult& result) const;
+    double truncation_error(const Motion& motion, const Contact& contact, const ContactMemory& rest) const;
+
+    const EarthquakeRun& full_;
+    Scene scene_;
+    RunOptions options_;
+    LoadStages stages_;
+    std::unique_ptr<ReducedSystem> system_;
+    CoarsePlane coarse_;
+    std::unique_ptr<ReducedSystem> coarse_system_, coarse_fewer_,
+        coarse_reference_; ///< for the estimate; none: all modes are kept
+    double seconds_ = 0.0;
+};
+
+} // namespace damslip::fe2d
