@@ -84,6 +84,7 @@ public:
     const Model& model() const { return *model_; }
     const ContactStructure& structure() const { return *structure_; }
     const RayleighConstants& damping() const { return damping_.constants; }
+    double seconds() const { return seconds_; } ///< that making it ready took
 
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;

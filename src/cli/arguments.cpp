@@ -83,7 +83,9 @@ void add_sweep(Parser& p)
     list("--scale", p.sweep.scale, "factors on the records");
     list("--polarity", p.sweep.polarity, "1, -1 or both: 1,-1");
     list("--method", p.sweep.method,
-         "rigid (horizontal), rigid-v (with the vertical component), and regressions by id such as "
+         "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with contact), and "
+         "regressions by "
+         "id such as "
          "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub->add_option("--scheme", p.sweep.inputs.scheme, "exact (default) or slammer");
     sub->add_option("-o,--out", p.sweep.out, "CSV file; without it the rows go to standard output");

@@ -122,10 +122,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         for (const std::string& message : run_messages(runs)) streams.out << "note: " << message << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
-    const auto converged = [](const ContactRun& r) {
-        return r.fe.status == fe2d::RunStatus::at_rest || r.fe.status == fe2d::RunStatus::sliding_at_end ||
-               r.fe.status == fe2d::RunStatus::static_failure;
-    };
+    const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };
     return runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), converged) ? exit_ok
                                                                                              : exit_no_convergence;
 }

@@ -26,6 +26,12 @@ std::string word(fe2d::RunStatus status)
     return "";
 }
 
+bool ended_properly(fe2d::RunStatus status)
+{
+    return status == fe2d::RunStatus::at_rest || status == fe2d::RunStatus::sliding_at_end ||
+           status == fe2d::RunStatus::static_failure;
+}
+
 Table contact_stage_table(const std::vector<ContactRun>& runs)
 {
     Table t;

@@ -14,11 +14,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs);
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    Scene scene = called_for(plan, given);
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        throw UsageError(
-            Diagnostic{scene.file.string(), 0, 0, "reservoir.model = \"acoustic\" is not available in this version.",
-                       "\"added-mass\", \"hydrostatic\" or \"auto\"", "write  model = \"added-mass\"  in [reservoir]"});
+    Scene scene = fe_scene(given, plan);
     const std::vector<RecordPair> records = read_records(scene, plan);
     if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
         const DamPeriod period = resolve_dam_period(scene);

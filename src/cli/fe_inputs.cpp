@@ -28,6 +28,16 @@ double first_frequency(const Scene& scene)
 
 } // namespace
 
+Scene fe_scene(const Scene& given, const EffectPlan& plan)
+{
+    Scene scene = called_for(plan, given);
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        throw UsageError(
+            Diagnostic{scene.file.string(), 0, 0, "reservoir.model = \"acoustic\" is not available in this version.",
+                       "\"added-mass\", \"hydrostatic\" or \"auto\"", "write  model = \"added-mass\"  in [reservoir]"});
+    return scene;
+}
+
 fe2d::AddedMassLaw added_mass_law(const Scene& scene)
 {
     if (!scene.reservoir || scene.reservoir->level <= 0 || scene.reservoir->model == ReservoirModel::hydrostatic ||

@@ -1,9 +1,13 @@
 #pragma once
 
 #include "fe2d/model/model.hpp"
+#include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
 
 namespace damslip::cli {
+
+/// The scene with what the plan calls for. @throws UsageError for what finite elements cannot do
+Scene fe_scene(const Scene& given, const EffectPlan& plan);
 
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
 fe2d::AddedMassLaw added_mass_law(const Scene& scene);

@@ -159,6 +159,47 @@ TEST_F(CliScene, FeSlidesAStiffBlockLikeTheRigidBlock)
     EXPECT_TRUE(last.ends_with(",s")) << last;
 }
 
+TEST_F(CliScene, SweepSetsUpFiniteElementsOnceForAllFrictions)
+{
+    // The stiff block of the test above with a horizontal force of a twentieth of its weight: mu below 0.05 cannot hold
+    // it, whatever the motion, and both methods say so with the same critical friction.
+    std::ofstream(folder / "stiff.toml")
+        << "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+           "2500\n[contact]\nfriction = 0.1\n[[force]]\nforce_x_kN_m = 19.62\ny_m = 1\n"
+           "[mesh]\nsize_m = 1\ncontact_size_m = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
+    const auto with_jobs = [&](const char* jobs) {
+        return answer_of({"sweep", (folder / "stiff.toml").string(), "--friction", "0.03,0.1,0.12", "--polarity",
+                          "1,-1", "--method", "rigid,fe", "--json", "--jobs", jobs});
+    };
+    const ProgramAnswer one = with_jobs("1"), three = with_jobs("3");
+    ASSERT_EQ(one.code, 0) << one.talk;
+    EXPECT_EQ(one.out, three.out);
+    const auto j = nlohmann::json::parse(one.out);
+    EXPECT_EQ(j["counts"]["set_ups"], 1);
+    EXPECT_EQ(j["counts"]["runs"], 6);
+    EXPECT_EQ(j["counts"]["static_failures"], 2);
+    ASSERT_EQ(j["rows"].size(), 12u);
+    for (std::size_t k = 0; k < 12; k += 2) {
+        const auto &rigid = j["rows"][k], &fe = j["rows"][k + 1];
+        EXPECT_EQ(rigid["method"], "rigid");
+        EXPECT_EQ(fe["method"], "fe");
+        EXPECT_NEAR(fe["critical_friction"].get<double>(), 0.05, 1e-12); // 19.62 / (16 * 2.5 * 9.81)
+        EXPECT_NEAR(rigid["critical_friction"].get<double>(), 0.05, 1e-12);
+        if (k < 4) {
+            EXPECT_EQ(fe["status"], "static failure");
+            EXPECT_TRUE(fe["slip_m"].is_null());
+        } else {
+            EXPECT_NEAR(fe["slip_m"].get<double>(), rigid["slip_m"].get<double>(),
+                        fe["slip_error_m"].get<double>() + 0.01 * rigid["slip_m"].get<double>());
+        }
+    }
+    ASSERT_EQ(j["comparison"].size(), 3u);
+    EXPECT_EQ(j["comparison"][0]["motions"], 0);
+    EXPECT_EQ(j["comparison"][0]["static_failures"], 2);
+    EXPECT_EQ(j["comparison"][2]["motions"], 2);
+    EXPECT_NEAR(j["comparison"][2]["ratio_of_means"].get<double>(), 1.0, 0.02);
+}
+
 TEST_F(CliScene, FeTiedWritesStagesAndHistory)
 {
     std::ofstream(folder / "tied.toml")

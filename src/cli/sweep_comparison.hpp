@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cli/sweep_grid.hpp"
+#include "core/table.hpp"
+
+namespace damslip::cli {
+
+/// FE slip against the rigid block's, over the motions of each friction and variant.
+Table comparison(const Scene& scene, const Grid& grid);
+
+/// Counts that show how much was made once; the same for any number of threads.
+Table count_table(const FeSweepCounts& counts);
+
+} // namespace damslip::cli
