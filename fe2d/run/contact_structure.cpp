@@ -9,9 +9,14 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-ContactStructure::ContactStructure(const Model& model) : model_(model), plane_(plane_of(model.mesh))
+ContactStructure::ContactStructure(const Model& model, SlidingRange range) : model_(model), plane_(plane_of(model.mesh))
 {
     const Mesh& mesh = model.mesh;
+    rock_count_ = plane_.pairs();
+    if (mesh.has_rock() && range == SlidingRange::finite) {
+        pairing_.emplace(mesh.contact.distance, mesh.contact.rock_distance);
+        rock_count_ = static_cast<Index>(mesh.contact.rock_line.size());
+    }
     const Index dam = dam_dof_count(mesh, model.dofs);
     assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
     const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam);
@@ -47,7 +52,8 @@ void ContactStructure::condense_rock()
     SparseMatrix rock(2 * nodes, 2 * nodes);
     rock.setFromTriplets(entries.begin(), entries.end());
     std::vector<int> interface;
-    for (const int node : mesh.contact.rock_nodes) interface.push_back(node - first);
+    for (const int node : slides_far() ? mesh.contact.rock_line : mesh.contact.rock_nodes)
+        interface.push_back(node - first);
     rock_order_ = interface_last(rock, interface);
     rock_factor_.emplace(rock_order_.to_new(rock), rock_order_.inner);
     if (!rock_factor_->regular()) return;
@@ -60,7 +66,7 @@ void ContactStructure::condense_rock()
 namespace {
 
 /// Loads of the rock's nodes, two components each, the fixed ones zero.
-VectorXd rock_load(const Model& model, const VectorXd& load)
+VectorXd loads_by_node(const Model& model, const VectorXd& load)
 {
     const int first = model.mesh.dam_node_count, nodes = model.mesh.node_count() - first;
     VectorXd all = VectorXd::Zero(2 * nodes);
@@ -76,12 +82,18 @@ SplitLoad ContactStructure::split(const VectorXd& load) const
 {
     SplitLoad result;
     result.dam = order_.to_new(VectorXd(load.head(dam_unknowns())));
-    result.rock = VectorXd::Zero(2 * plane_.pairs());
+    result.rock = VectorXd::Zero(2 * rock_count_);
     if (!has_rock()) return result;
-    VectorXd rock = rock_order_.to_new(rock_load(model_, load));
+    VectorXd rock = rock_order_.to_new(loads_by_node(model_, load));
     rock_factor_->forward(rock);
-    result.rock = plane_.to_plane(VectorXd(rock.tail(2 * plane_.pairs())));
+    result.rock = plane_.to_plane(VectorXd(rock.tail(2 * rock_count_)));
     return result;
+}
+
+VectorXd ContactStructure::rock_load(const SplitLoad& load, const Pairing::Matrix& trace) const
+{
+    if (load.joint.size() == 0) return load.rock;
+    return load.rock + trace.transpose() * load.joint;
 }
 
 VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, const VectorXd& load) const
@@ -89,9 +101,9 @@ VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, c
     VectorXd all(model_.dofs.count);
     all.head(dam_unknowns()) = order_.to_old(dam);
     if (!has_rock()) return all;
-    VectorXd inner = rock_order_.to_new(rock_load(model_, load));
+    VectorXd inner = rock_order_.to_new(loads_by_node(model_, load));
     rock_factor_->forward(inner);
-    inner.tail(2 * plane_.pairs()) = plane_.to_interface(rock);
+    inner.tail(2 * rock_count_) = plane_.to_interface(rock);
     rock_factor_->backward(inner);
     const VectorXd by_node = rock_order_.to_old(inner);
     const int first = model_.mesh.dam_node_count, nodes = model_.mesh.node_count() - first;

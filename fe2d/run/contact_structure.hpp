@@ -2,6 +2,7 @@
 
 #include "fe2d/model/model.hpp"
 #include "fe2d/run/interface_factor.hpp"
+#include "fe2d/run/pairing.hpp"
 #include "fe2d/run/plane.hpp"
 
 #include <optional>
@@ -12,6 +13,14 @@ namespace damslip::fe2d {
 struct SplitLoad {
     Eigen::VectorXd dam;  ///< on the dam's unknowns, in its node order
     Eigen::VectorXd rock; ///< condensed on the plane; zero for a rigid base
+    Eigen::VectorXd joint; ///< by the water in the joint on the rock opposite each pair, plane: goes along with a dam
+                           ///< that slides far; empty: none, or part of `rock`
+};
+
+/// What the sliding changes.
+enum class SlidingRange {
+    small, ///< nothing: each dam node stays opposite its rock node
+    finite ///< the rock a dam node faces (Pairing)
 };
 
 /// Dam and rock as two bodies that only contact joins: everything linear and independent of the step size.
@@ -21,7 +30,7 @@ struct SplitLoad {
 class ContactStructure {
 public:
     /// @param model  built with Base::separate; kept by reference
-    explicit ContactStructure(const Model& model);
+    explicit ContactStructure(const Model& model, SlidingRange range = SlidingRange::small);
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
     const Model& model() const { return model_; }
@@ -32,13 +41,19 @@ public:
     const Eigen::VectorXd& inertia_x() const { return inertia_x_; }
     const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
     bool has_rock() const { return rock_factor_.has_value(); }
-    const Eigen::MatrixXd& rock_stiffness() const { return rock_stiffness_; }     ///< K_c on the plane
+    /// With finite sliding over rock: the rock's contact nodes are the whole line of the plane, past heel and toe.
+    bool slides_far() const { return pairing_.has_value(); }
+    const Pairing& pairing() const { return *pairing_; }
+    Eigen::Index rock_nodes() const { return rock_count_; }                       ///< on the plane, n
+    const Eigen::MatrixXd& rock_stiffness() const { return rock_stiffness_; }     ///< K_c on the plane, 2n
     const Eigen::MatrixXd& rock_flexibility() const { return rock_flexibility_; } ///< K_c⁻¹
     const InterfaceFactor& static_factor() const { return *static_factor_; }      ///< of the dam's K, floating
 
     Eigen::Index dam_unknowns() const { return mass_.rows(); }
     Eigen::Index inner_unknowns() const { return 2 * order_.inner; }
     SplitLoad split(const Eigen::VectorXd& load) const; ///< of a load on all unknowns of the model
+    /// On the rock when the trace of its displacements on the pairs is `trace`.
+    Eigen::VectorXd rock_load(const SplitLoad& load, const Pairing::Matrix& trace) const;
     /// Displacements of all unknowns of the model from those of the dam (in its order) and of the rock's contact nodes
     /// (plane), under a load on the rock's inside.
     Eigen::VectorXd assemble(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock,
@@ -53,6 +68,8 @@ private:
     SparseMatrix stiffness_, mass_;
     Eigen::VectorXd inertia_x_, inertia_y_;
     std::optional<InterfaceFactor> static_factor_, rock_factor_;
+    std::optional<Pairing> pairing_;
+    Eigen::Index rock_count_ = 0;
     Eigen::MatrixXd rock_stiffness_, rock_flexibility_;
     bool regular_ = false;
 };

@@ -28,14 +28,21 @@ DynamicContact::DynamicContact(const ContactStructure& structure, RunDamping dam
     const Index n = structure.dam_unknowns(), m = structure.plane().pairs();
     state_.u = start.dam;
     state_.v = state_.a = VectorXd::Zero(n);
-    state_.rock = structure.has_rock() ? start.rock : VectorXd::Zero(2 * m);
-    state_.rock_v = state_.rock_a = VectorXd::Zero(2 * m);
+    const Index rock = 2 * structure.rock_nodes();
+    state_.rock = structure.has_rock() ? start.rock : VectorXd::Zero(rock);
+    state_.rock_v = state_.rock_a = VectorXd::Zero(rock);
     state_.contact = memory;
     normal_force_ = memory.force.head(m).sum();
-    rock_rest_ = VectorXd::Zero(2 * m);
-    rock_force_ = VectorXd::Zero(2 * m);
+    rock_load_ = load_.rock;
+    rock_rest_ = rock_force_ = load_jump_ = VectorXd::Zero(rock);
+    if (structure.slides_far()) {
+        trace_ = structure.pairing().trace(trace_slip_); // as the statics have it
+        rock_load_ = structure.rock_load(load_, trace_);
+        geometric_rest_ = VectorXd::Zero(m);
+        geometric_rest_ = opening_at(structure.plane().weights().dot(memory.slip)) - memory.opening;
+    }
     if (structure.has_rock()) {
-        rock_rest_ = structure.rock_flexibility() * load_.rock;
+        rock_rest_ = structure.rock_flexibility() * rock_load_;
         rock_force_ = structure.rock_stiffness() * state_.rock;
     }
     rate_t_ = accel_t_ = VectorXd::Zero(m);
@@ -56,6 +63,53 @@ DynamicOperator& DynamicContact::operator_of(double dt)
         ++counts_.factorisations;
     }
     return *slot;
+}
+
+namespace {
+
+constexpr double update_share = 0.01; ///< slip after which P is made anew, of the smallest element [-]
+
+}
+
+bool DynamicContact::within_reach() const
+{
+    return !structure_.slides_far() ||
+           structure_.pairing().reaches(structure_.plane().weights().dot(state_.contact.slip));
+}
+
+/// What displacements and place make the opening, less what statics leave out (the slip of the static stages).
+VectorXd DynamicContact::opening_at(double slip) const
+{
+    const Index m = structure_.plane().pairs();
+    const VectorXd dam = structure_.plane().to_plane(VectorXd(state_.u.tail(2 * m)));
+    const VectorXd rock = structure_.pairing().weights(slip) * state_.rock.head(structure_.rock_nodes());
+    return dam.head(m) - rock - geometric_rest_;
+}
+
+/// The opening at the present slip, and P where it is too old.
+void DynamicContact::follow_slip(DynamicOperator& op)
+{
+    const double slip = structure_.plane().weights().dot(state_.contact.slip);
+    state_.contact.opening = opening_at(slip);
+    if (std::abs(slip - trace_slip_) > update_share * structure_.pairing().smallest_element())
+        slide_to(slip, structure_.pairing().trace(slip));
+    if (slid_operators_.insert(&op).second) op.slide_to(trace_);
+}
+
+/// Takes the contact to another place. What moves on the rock is no motion of it: the work ledger's forces of the two
+/// last instants are kept as they were, and the jump of the present ones counts with the next step.
+void DynamicContact::slide_to(double slip, const Pairing::Matrix& trace)
+{
+    const Pairing::Matrix change = trace - trace_;
+    load_jump_ = change.transpose() * state_.contact.force;
+    if (load_.joint.size() > 0) load_jump_ -= change.transpose() * load_.joint;
+    forces_before_.rock -= change.transpose() * forces_before_.contact;
+    trace_ = trace;
+    trace_slip_ = slip;
+    rock_load_ = structure_.rock_load(load_, trace_);
+    rock_rest_ = structure_.rock_flexibility() * rock_load_;
+    forces_.rock = rock_force_ - rock_load_;
+    slid_operators_.clear();
 }
 
 /// K u, M v, M a, and K y for the next step.
@@ -91,7 +145,7 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
         rock_gap_ = (rock_rest_ - state_.rock + (b_k * cv) * state_.rock_v + (b_k * ca) * state_.rock_a) /
                     (w * (1.0 + c.a1 * b_k));
     else
-        rock_gap_.setZero(known_.size());
+        rock_gap_.setZero(state_.rock.size());
 }
 
 ContactReport DynamicContact::advance(double dt, const GroundAcceleration& ground, const ContactLaw& law)
@@ -103,8 +157,9 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
         if (last_dt_ != 0.0) multiply(c);
         last_dt_ = dt;
     }
+    if (structure_.slides_far()) follow_slip(op);
     right_hand_side(c, ground);
-    op.solve_free(free_, rock_gap_);
+    op.solve_free(free_, structure_.slides_far() ? VectorXd(trace_ * rock_gap_) : rock_gap_);
     op.stuck_force(free_, known_, stuck_);
     ContactMemory& memory = state_.contact;
     op.elastic_stick().soften(stuck_, memory.force);
@@ -121,10 +176,14 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
     gap_.head(m) -= memory.opening;
     if (op.elastic_stick().active())
         gap_.tail(m) += op.elastic_stick().give(solution_.force) - op.elastic_stick().give(memory.force);
-    op.finish(free_, solution_.force, known_, gap_, dam_interface_);
+    const VectorXd& tilde = op.finish(free_, solution_.force, known_, gap_, dam_interface_);
     du_.swap(free_.dam);
-    dr_ = dam_interface_ - gap_;
-    if (!structure_.has_rock()) dr_.setZero();
+    if (structure_.slides_far())
+        dr_ = rock_gap_ - op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
+    else if (structure_.has_rock())
+        dr_ = dam_interface_ - gap_;
+    else
+        dr_.setZero(state_.rock.size());
 
     const auto update = [&](const auto& step, auto& x, auto& velocity, auto& acceleration) {
         const VectorXd a1 = c.a0 * step - c.a2 * velocity - c.a3 * acceleration;
@@ -166,7 +225,7 @@ void DynamicContact::gather_forces(Forces& f) const
             h * structure_.inertia_x() + v * structure_.inertia_y();
     f.v = state_.v;
     f.a = state_.a;
-    f.rock = rock_force_ - load_.rock;
+    f.rock = rock_force_ - rock_load_;
     f.rock_v = state_.rock_v;
     f.contact = state_.contact.force;
     if (!slip_damping_.active()) return;
@@ -202,11 +261,15 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
     e.damping += 0.5 * a_m * du_.dot(products_.mass_1 + before_.mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
                  0.5 * b_k * k_dr.dot(forces_.rock_v + forces_before_.rock_v) +
                  slip_damping_.coefficient * (slip * (s_rate - m_rate) - mean * s_rate);
-    e.external += du_.dot(load_.dam) + dr_.dot(load_.rock) +
+    e.external += du_.dot(load_.dam) + dr_.dot(rock_load_) +
                   0.5 * (state_.ground.h + ground_before_.h) * du_.dot(structure_.inertia_x()) -
                   0.5 * (state_.ground.v + ground_before_.v) * du_.dot(structure_.inertia_y());
     const VectorXd force = 0.5 * (force_before + state_.contact.force);
     e.contact_normal += force.head(m).dot(gap_step.head(m));
+    if (structure_.slides_far()) {
+        e.contact_normal += 0.5 * (1.0 + alpha) * dr_.dot(load_jump_);
+        load_jump_.setZero();
+    }
     e.friction -= force.tail(m).dot(gap_step.tail(m));
 
     const double du_m_da = du_.dot(products_.mass_2 - before_.mass_2);

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 namespace damslip::fe2d {
 
@@ -37,6 +38,10 @@ struct DynamicCounts {
 /// HHT-α steps of dam, rock and contact (2-25), with the contact problem solved exactly in each. Equations:
 /// DynamicOperator. Contact forces are weighted like internal forces, (1+α)λ₁ - αλ₀, slip damping and ground motion
 /// too. A pair that sticks keeps its slip to the last bit, so nothing creeps.
+///
+/// Where the structure slides far, the opening is what the displacements and the present slip make it at the start of
+/// each step, so the dam follows the bent surface of the rock; forces pass through the P of the last place where the
+/// operators were made, at most `update_share` of an element away, so that a step's work is exact.
 class DynamicContact {
 public:
     /// @param load  static loads, constant during the motion
@@ -49,6 +54,8 @@ public:
     ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law);
 
     const DynamicState& state() const { return state_; }
+    /// False where the dam would leave the meshed plane: the step was not made (ContactStructure::slides_far()).
+    bool within_reach() const;
     const Energy& energy() const { return energy_; }
     double energy_imbalance() const { return energy_.imbalance(energy_start_); } ///< [J/m]
     double energy_scale() const { return energy_scale_; }                        ///< largest term so far [J/m]
@@ -73,6 +80,9 @@ private:
     void add_energy(const StepConstants& constants, const Eigen::VectorXd& gap_step,
                     const Eigen::VectorXd& force_before);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
+    void follow_slip(DynamicOperator& op);
+    Eigen::VectorXd opening_at(double slip) const;
+    void slide_to(double slip, const Pairing::Matrix& trace);
 
     const ContactStructure& structure_;
     RunDamping damping_;
@@ -80,8 +90,14 @@ private:
     SplitLoad load_;
     ContactOptions options_;
     SlipDamping slip_damping_;
+    Pairing::Matrix trace_;     ///< P of the operators; empty: the identity
+    double trace_slip_ = 0.0;   ///< slip it was made for [m]
+    Eigen::VectorXd geometric_rest_; ///< see opening_at() [m]
+    Eigen::VectorXd rock_load_; ///< f_r [N/m]
     Eigen::VectorXd rock_rest_; ///< K_c⁻¹ f_r
+    Eigen::VectorXd load_jump_; ///< force on the rock that moved with the last change of P, for the energy [N/m]
     std::map<double, std::unique_ptr<DynamicOperator>> operators_;
+    std::set<const DynamicOperator*> slid_operators_; ///< those whose contact problem has the present P
     double last_dt_ = 0.0;
     double normal_force_ = 0.0; ///< static N', the scale of residuals [N/m]
 

@@ -41,17 +41,13 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
                                  const SlipDamping& slip_damping, const StepConstants& constants,
                                  const ContactOptions& options)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
-      factor_(dam_matrix(structure, damping, constants), structure.order().inner)
+      factor_(dam_matrix(structure, damping, constants), structure.order().inner), options_(options)
 {
     if (!factor_.regular()) return;
     const double w = 1.0 + constants.scheme.alpha;
     const Index m = structure.plane().pairs();
     dam_flexibility_ = symmetric_inverse(structure.plane().to_plane(factor_.schur()));
-    MatrixXd flexibility = dam_flexibility_;
-    if (structure.has_rock())
-        flexibility += structure.rock_flexibility() / (w * (1.0 + constants.a1 * damping.constants.stiffness));
-    MatrixXd stiffness = symmetric_inverse(flexibility); // W⁻¹
-    to_stuck_ = -stiffness / w;
+    if (structure.has_rock()) rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
     if (slip_damping.active()) {
         k_ = w * constants.a1 * slip_damping.coefficient;
         momentum_ = slip_damping.momentum;
@@ -59,17 +55,40 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
         on_base_ = structure.plane().to_plane(VectorXd(momentum_.tail(2 * m)));
         z_ = dam_flexibility_ * on_base_;
         zeta_ = factor_.inner_product(momentum_, momentum_) + on_base_.dot(z_);
+    }
+    if (!structure.slides_far()) set_contact(nullptr);
+}
+
+void DynamicOperator::slide_to(const Pairing::Matrix& trace)
+{
+    set_contact(&trace);
+}
+
+void DynamicOperator::set_contact(const Pairing::Matrix* trace)
+{
+    const double w = 1.0 + constants_.scheme.alpha;
+    const Index m = structure_.plane().pairs();
+    MatrixXd flexibility = dam_flexibility_;
+    if (trace) {
+        const MatrixXd half = *trace * structure_.rock_flexibility();
+        flexibility += rock_share_ * (half * trace->transpose());
+    } else if (structure_.has_rock()) {
+        flexibility += rock_share_ * structure_.rock_flexibility();
+    }
+    MatrixXd stiffness = symmetric_inverse(flexibility); // W⁻¹
+    to_stuck_ = -stiffness / w;
+    if (slip_damping_.active()) {
+        const VectorXd& weights = slip_damping_.weights;
         MatrixXd e = MatrixXd::Identity(2 * m, 2 * m);
-        e.rightCols(m) -= k_ * z_ * slip_damping.weights.transpose();
+        e.rightCols(m) -= k_ * z_ * weights.transpose();
         to_stuck_ = -e.transpose() * stiffness / w;
         stiffness = e.transpose() * stiffness * e;
-        stiffness.bottomRightCorner(m, m) +=
-            k_ * (1.0 - k_ * zeta_) * slip_damping.weights * slip_damping.weights.transpose();
+        stiffness.bottomRightCorner(m, m) += k_ * (1.0 - k_ * zeta_) * weights * weights.transpose();
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
-    elastic_stick_ = fe2d::elastic_stick(structure.plane(), options, stiffness);
-    contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
+    elastic_stick_ = fe2d::elastic_stick(structure_.plane(), options_, stiffness);
+    contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options_);
 }
 
 void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
@@ -90,11 +109,12 @@ void DynamicOperator::stuck_force(const Free& free, const VectorXd& known, Vecto
     if (slip_damping_.active()) stuck.tail(structure_.plane().pairs()) -= (k_ / w * free.mean) * slip_damping_.weights;
 }
 
-void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
-                             VectorXd& dam_interface) const
+const VectorXd& DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
+                                        VectorXd& dam_interface)
 {
     const Index m = structure_.plane().pairs();
-    VectorXd tilde = (1.0 + constants_.scheme.alpha) * force - known;
+    VectorXd& tilde = tilde_;
+    tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (slip_damping_.active()) {
         // λ̃ = w λ₁ - known - k ω (s - m_Δ),  m_Δ = mean + k ζ s + zᵀλ̃
         const VectorXd& weights = slip_damping_.weights;
@@ -109,6 +129,7 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
     dam_interface.noalias() += dam_flexibility_ * tilde;
     free.dam.tail(2 * m) = structure_.plane().to_interface(dam_interface);
     factor_.backward(free.dam);
+    return tilde;
 }
 
 std::size_t DynamicOperator::bytes() const

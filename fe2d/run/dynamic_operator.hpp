@@ -45,6 +45,7 @@ public:
     const StepConstants& constants() const { return constants_; }
     ContactSolver& contact() { return *contact_; }
     const ElasticStick& elastic_stick() const { return elastic_stick_; }
+    double rock_share() const { return rock_share_; } ///< A_r⁻¹ K_c [-]
 
     /// The step without contact forces at its end.
     struct Free {
@@ -58,27 +59,36 @@ public:
     /// @param rock_gap  A_r⁻¹ b_r on the plane [m]
     void solve_free(Free& free, const Eigen::VectorXd& rock_gap) const;
 
+    /// Takes the contact problem to another place of the dam on the rock (ContactStructure::slides_far()).
+    void slide_to(const Pairing::Matrix& trace);
+
     /// λ⁰ for a gap that stays as it is; `known` = α λ₀ - (slip damping of the start) on the plane [N/m].
     void stuck_force(const Free& free, const Eigen::VectorXd& known, Eigen::VectorXd& stuck) const;
 
     /// Δu of the dam for λ₁ = `force` and Δg = `gap`; overwrites free.dam.
-    /// @returns λ̃ᵀ... nothing; `increment` is free.dam after the call, dam_interface the dam's part of Δg
-    void finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known, const Eigen::VectorXd& gap,
-                Eigen::VectorXd& dam_interface) const;
+    /// @param dam_interface  the dam's part of Δg
+    /// @returns λ̃ on the plane [N/m]
+    const Eigen::VectorXd& finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known, const Eigen::VectorXd& gap,
+                Eigen::VectorXd& dam_interface);
 
     std::size_t bytes() const;
 
 private:
+    void set_contact(const Pairing::Matrix* trace);
+
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;
     StepConstants constants_;
     InterfaceFactor factor_;
+    ContactOptions options_;
     Eigen::MatrixXd dam_flexibility_; ///< F_d
     Eigen::MatrixXd to_stuck_;        ///< -(1/w) EᵀW⁻¹
+    double rock_share_ = 0.0; ///< of the rock's static flexibility that a step feels, A_r⁻¹ K_c
     double k_ = 0.0, zeta_ = 0.0;
     Eigen::VectorXd momentum_; ///< m̂ after the forward pass
     Eigen::VectorXd on_base_;  ///< its interface part on the plane
     Eigen::VectorXd z_;        ///< D A_d⁻¹ m̂
+    Eigen::VectorXd tilde_;    ///< λ̃
     ElasticStick elastic_stick_;
     std::unique_ptr<ContactSolver> contact_;
 };

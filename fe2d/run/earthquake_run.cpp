@@ -29,6 +29,7 @@ ModelOptions model_options(const RunOptions& options, Base base)
 {
     ModelOptions result;
     result.base = base;
+    if (options.range == SlidingRange::finite) result.extension.downstream = options.max_slip;
     result.added_mass = options.added_mass;
     return result;
 }
@@ -39,7 +40,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
 {
     const auto start = Clock::now();
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
-    structure_ = std::make_unique<ContactStructure>(*model_);
+    structure_ = std::make_unique<ContactStructure>(*model_, options_.range);
     stages_ = load_stages(scene_, *model_, options_.uplift);
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
@@ -73,11 +74,19 @@ void EarthquakeRun::find_damping()
                                             to_omega * natural.frequency[wanted.second_mode - 1]);
 }
 
+/// The load at the end of a stage. The water in the joint comes with the last.
+SplitLoad EarthquakeRun::split(std::size_t stage) const
+{
+    SplitLoad load = structure_->split(stages_.loads[stage]);
+    if (stage + 1 == stages_.loads.size()) let_water_ride(*structure_, options_.uplift, load);
+    return load;
+}
+
 std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const
 {
     std::vector<StageResult> results;
     for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
-        results.push_back(solve_stage(statics, *structure_, stages_.names[k], stages_.loads[k], strength, memory));
+        results.push_back(solve_stage(statics, *structure_, stages_.names[k], split(k), strength, memory));
         if (results.back().status != StageStatus::ok) break;
     }
     return results;
@@ -118,7 +127,7 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     const double step = dt / parts;
     Strength strength = strength_at_start;
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
-    DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), structure_->split(stages_.last()), start,
+    DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), split(stages_.loads.size() - 1), start,
                             memory, options_.contact);
     HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
     recorder.add();
@@ -131,7 +140,7 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
     const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
     for (long n = 0; n < all_steps; ++n) {
-        for (int part = 1; part <= parts; ++part) {
+        for (int part = 1; part <= parts && dynamics.within_reach(); ++part) {
             const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
             dynamics.advance(step, ground.at(time), strength.law());
             strength.follow(dynamics.state().contact);
@@ -140,6 +149,10 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
         result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
         if (options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, dt)) == RunAnswer::stop) {
             result.status = RunStatus::interrupted;
+            break;
+        }
+        if (!dynamics.within_reach()) {
+            result.status = RunStatus::left_plane;
             break;
         }
         if (diverges(dynamics.energy())) {
@@ -176,8 +189,11 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
             after += uplift_load(model_->mesh, model_->dofs, options_.uplift_after, side);
     }
     ContactMemory memory_after = end.contact;
-    StaticContact statics(*structure_, options_.contact);
-    result.after = solve_stage(statics, *structure_, "after the earthquake", after, strength, memory_after);
+    if (result.status == RunStatus::left_plane) return;
+    StaticContact statics(*structure_, options_.contact, plane.weights().dot(end.contact.slip));
+    SplitLoad load_after = structure_->split(after);
+    let_water_ride(*structure_, options_.uplift_after.empty() ? options_.uplift : options_.uplift_after, load_after);
+    result.after = solve_stage(statics, *structure_, "after the earthquake", load_after, strength, memory_after);
 }
 
 /// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least.
@@ -209,6 +225,10 @@ void EarthquakeRun::judge(RunResult& result) const
         if (result.message.empty())
             result.message =
                 fmt::format("Interrupted at {:.2f} s, slip so far {:.4g} mm.", result.end_time, 1e3 * result.slip);
+        break;
+    case RunStatus::left_plane:
+        result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
+                                     result.end_time, result.slip, options_.max_slip);
         break;
     case RunStatus::diverged:
         result.message = fmt::format("Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller "
@@ -248,7 +268,7 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
         result.message = result.stages.back().text();
         return result;
     }
-    const StaticState start = statics_solver.displacements(structure_->split(stages_.last()), memory);
+    const StaticState start = statics_solver.displacements(split(stages_.loads.size() - 1), memory);
 
     clock = Clock::now();
     const int first = options_.halvings.value_or(0);
@@ -268,6 +288,7 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
         result = std::move(finer);
         // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
         result.slip_error = std::abs(result.slip - coarser);
+        if (result.status == RunStatus::left_plane) break;
         if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
             break;
     }

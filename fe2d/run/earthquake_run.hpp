@@ -20,6 +20,8 @@ struct RunOptions {
     Polyline uplift_after;                    ///< the same after the earthquake; empty: as before
     std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
     Separation separation = Separation::allowed;
+    SlidingRange range = SlidingRange::small;
+    double max_slip = 1.0;        ///< the rock's plane is meshed this far past the toe when the range is finite, > 0 [m]
     double slip_tolerance = 0.01; ///< of the time step: wanted error of the slip over its size, > 0 [-]
     std::optional<int> halvings;  ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
     int largest_halvings = 5;     ///< when chosen
@@ -38,6 +40,7 @@ enum class RunStatus {
     static_failure, ///< no equilibrium before the earthquake: see the last stage
     unresolved,     ///< some steps' contact was not resolved (counts.unresolved)
     interrupted,    ///< stopped by RunOptions::progress; the history ends there
+    left_plane,     ///< slid further than RunOptions::max_slip: the rest of the record was not run
     diverged,       ///< energy grew beyond all that the ground put in: step too large for an undamped, stiff model
     model_failed    ///< a matrix could not be factorised
 };
@@ -97,6 +100,7 @@ public:
 
 private:
     void find_damping();
+    SplitLoad split(std::size_t stage) const;
     void shake(const GroundMotion& motion, int halvings, const Strength& strength, const ContactMemory& memory,
                const StaticState& start, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;

@@ -10,7 +10,7 @@ namespace {
 
 MatrixXd rows_to_plane(const Plane& plane, const MatrixXd& interface)
 {
-    const Index m = plane.pairs();
+    const Index m = interface.rows() / 2;
     MatrixXd result(2 * m, interface.cols());
     for (Index i = 0; i < m; ++i) {
         result.row(i) = plane.normal.transpose() * interface.middleRows<2>(2 * i);
@@ -23,7 +23,7 @@ MatrixXd rows_to_plane(const Plane& plane, const MatrixXd& interface)
 
 VectorXd Plane::to_plane(const VectorXd& interface) const
 {
-    const Index m = pairs();
+    const Index m = interface.size() / 2;
     VectorXd result(2 * m);
     for (Index i = 0; i < m; ++i) {
         result[i] = normal[0] * interface[2 * i] + normal[1] * interface[2 * i + 1];
@@ -34,7 +34,7 @@ VectorXd Plane::to_plane(const VectorXd& interface) const
 
 VectorXd Plane::to_interface(const VectorXd& plane) const
 {
-    const Index m = pairs();
+    const Index m = plane.size() / 2;
     VectorXd result(2 * m);
     for (Index i = 0; i < m; ++i) {
         result[2 * i] = normal[0] * plane[i] + tangent[0] * plane[m + i];

@@ -18,6 +18,7 @@ struct Plane {
     double length() const { return area.sum(); }
     Eigen::VectorXd weights() const { return area / length(); } ///< area weights, sum 1 [-]
 
+    // Of any number of nodes on the plane: the pairs, or the rock's whole line.
     Eigen::VectorXd to_plane(const Eigen::VectorXd& interface) const;
     Eigen::VectorXd to_interface(const Eigen::VectorXd& plane) const;
     Eigen::MatrixXd to_plane(const Eigen::MatrixXd& interface) const; ///< Q A Qᵀ

@@ -11,9 +11,10 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-BaseResultant base_resultant(const ContactStructure& structure, const VectorXd& dam_load)
+BaseResultant base_resultant(const ContactStructure& structure, const VectorXd& ordered_load)
 {
     const Mesh& mesh = structure.model().mesh;
+    const VectorXd dam_load = structure.order().to_old(ordered_load);
     const Plane& plane = structure.plane();
     const Point heel = mesh.nodes[mesh.contact.dam_nodes.front()];
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
@@ -49,6 +50,17 @@ LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& u
     return stages;
 }
 
+void let_water_ride(const ContactStructure& structure, const Polyline& uplift, SplitLoad& load)
+{
+    if (!structure.slides_far() || uplift.empty()) return;
+    const Model& model = structure.model();
+    const VectorXd on_dam = uplift_load(model.mesh, model.dofs, uplift, ContactSide::dam);
+    const VectorXd on_rock = uplift_load(model.mesh, model.dofs, uplift, ContactSide::rock);
+    const VectorXd dam = structure.order().to_new(VectorXd(on_dam.head(structure.dam_unknowns())));
+    load.joint = -structure.plane().to_plane(VectorXd(dam.tail(2 * structure.plane().pairs())));
+    load.rock -= structure.split(on_rock).rock;
+}
+
 namespace {
 
 StageStatus judge(const BaseResultant& r, double resistance, double length)
@@ -68,13 +80,13 @@ double whole_friction(const ContactLaw& law)
 } // namespace
 
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
-                        const VectorXd& load, Strength& strength, ContactMemory& memory)
+                        const SplitLoad& load, Strength& strength, ContactMemory& memory)
 {
     const Plane& plane = structure.plane();
     const ContactLaw& law = strength.law();
     StageResult result;
     result.name = name;
-    result.resultant = base_resultant(structure, load.head(structure.dam_unknowns()));
+    result.resultant = base_resultant(structure, load.dam);
     const double normal = result.resultant.normal_force, shear = std::abs(result.resultant.shear_force);
     const double cohesion = law.cohesion.sum(), resistance = whole_friction(law) * normal + cohesion;
     result.friction_needed = std::max(0.0, shear - cohesion) / normal;
@@ -85,7 +97,7 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
     if (result.status != StageStatus::ok) return result;
 
     ContactMemory trial = memory;
-    result.contact = statics.solve(structure.split(load), law, trial);
+    result.contact = statics.solve(load, law, trial);
     if (!result.contact.resolved()) {
         result.status = StageStatus::not_resolved;
         return result;

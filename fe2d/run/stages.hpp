@@ -14,6 +14,7 @@ struct BaseResultant {
     double shear_force = 0.0;  ///< T, drives the dam downstream [N/m]
     double position = 0.0;     ///< of N' from the heel along the plane [m]
 };
+/// @param dam_load  SplitLoad::dam
 BaseResultant base_resultant(const ContactStructure& structure, const Eigen::VectorXd& dam_load);
 
 enum class StageStatus {
@@ -51,8 +52,12 @@ struct LoadStages {
 /// acts on both sides of the joint, open or not, so contact forces are effective
 LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift);
 
+/// The water in the joint presses on the rock below the dam wherever that is: with a structure that slides far it is
+/// taken from the rock's load to `load.joint`. Profile as in load_stages().
+void let_water_ride(const ContactStructure& structure, const Polyline& uplift, SplitLoad& load);
+
 /// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
-                        const Eigen::VectorXd& load, Strength& strength, ContactMemory& memory);
+                        const SplitLoad& load, Strength& strength, ContactMemory& memory);
 
 } // namespace damslip::fe2d

@@ -14,15 +14,36 @@ ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, Ma
     return {stiffness, (options.tangential_stiffness * plane.area).cwiseInverse()};
 }
 
-StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options) : structure_(structure)
+namespace {
+
+/// Pᵀ S P
+MatrixXd carried(const MatrixXd& stiffness, const Pairing::Matrix& trace)
+{
+    const MatrixXd right = stiffness * trace;
+    return trace.transpose() * right;
+}
+
+} // namespace
+
+StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options, double slip)
+    : structure_(structure)
 {
     MatrixXd stiffness = structure.plane().to_plane(structure.static_factor().schur());
     if (structure.has_rock()) {
         const MatrixXd& rock = structure.rock_stiffness();
-        const MatrixXd tied = stiffness + rock;
+        if (structure.slides_far()) {
+            trace_ = structure.pairing().trace(slip);
+            dam_stiffness_ = stiffness;
+        }
+        const MatrixXd tied = rock + (structure.slides_far() ? carried(stiffness, trace_) : stiffness);
         tied_flexibility_ = tied.llt().solve(MatrixXd::Identity(tied.rows(), tied.cols()));
         tied_flexibility_ = (0.5 * (tied_flexibility_ + tied_flexibility_.transpose())).eval();
-        stiffness = rock - rock * tied_flexibility_ * rock;
+        if (structure.slides_far()) {
+            const MatrixXd held = stiffness * trace_;
+            stiffness -= held * tied_flexibility_ * held.transpose();
+        } else {
+            stiffness = rock - rock * tied_flexibility_ * rock;
+        }
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     elastic_stick_ = elastic_stick(structure.plane(), options, stiffness);
@@ -36,13 +57,21 @@ VectorXd StaticContact::condensed(const SplitLoad& load) const
     return structure_.plane().to_plane(VectorXd(b.tail(2 * structure_.plane().pairs())));
 }
 
+VectorXd StaticContact::tied(const VectorXd& on_base, const SplitLoad& load) const
+{
+    if (!structure_.slides_far()) return tied_flexibility_ * (on_base + load.rock);
+    return tied_flexibility_ * (trace_.transpose() * on_base + structure_.rock_load(load, trace_));
+}
+
 ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory)
 {
     const Index m = structure_.plane().pairs();
     const VectorXd on_base = condensed(load);
     VectorXd stuck = -on_base;
-    if (structure_.has_rock())
-        stuck = load.rock - structure_.rock_stiffness() * (tied_flexibility_ * (on_base + load.rock));
+    if (structure_.slides_far())
+        stuck += dam_stiffness_ * (trace_ * tied(on_base, load));
+    else if (structure_.has_rock())
+        stuck = load.rock - structure_.rock_stiffness() * tied(on_base, load);
     elastic_stick_.soften(stuck, VectorXd::Zero(2 * m));
     stuck += solver_->stiffness().rightCols(m) * memory.slip;
     ContactSolution solution{memory.states, {}, {}};
@@ -63,9 +92,14 @@ StaticState StaticContact::displacements(const SplitLoad& load, const ContactMem
     if (elastic_stick_.active()) gap.tail(m) += elastic_stick_.give(memory.force);
     StaticState state;
     VectorXd u = gap;
-    if (structure_.has_rock())
-        u = tied_flexibility_ * (condensed(load) + load.rock + structure_.rock_stiffness() * gap);
-    state.rock = u - gap;
+    if (structure_.slides_far()) {
+        state.rock = tied(condensed(load) - dam_stiffness_ * gap, load);
+        u += trace_ * state.rock;
+    } else {
+        if (structure_.has_rock())
+            u = tied_flexibility_ * (condensed(load) + load.rock + structure_.rock_stiffness() * gap);
+        state.rock = u - gap;
+    }
     state.dam = load.dam;
     structure_.static_factor().forward(state.dam);
     state.dam.tail(2 * m) = structure_.plane().to_interface(u);

@@ -35,10 +35,12 @@ ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, Ei
 ///
 ///     λ = f_r - K_c T⁻¹ (f_d + f_r) + V g,   V = K_c - K_c T⁻¹ K_c   (rigid base: λ = -f_d + S g)
 ///
-/// V is singular exactly for the motions of the dam as a whole.
+/// V is singular exactly for the motions of the dam as a whole. Where the dam has slid far, u_dam = P u_rock + g
+/// (Pairing), T = PᵀS P + K_c and V = S - S P T⁻¹ PᵀS.
 class StaticContact {
 public:
-    explicit StaticContact(const ContactStructure& structure, const ContactOptions& options = {});
+    /// @param slip  how far the dam has slid, of a structure that slides far [m]
+    explicit StaticContact(const ContactStructure& structure, const ContactOptions& options = {}, double slip = 0.0);
 
     /// From the memory of the last stage to equilibrium under the whole load: friction is followed in one step.
     ContactReport solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory);
@@ -48,8 +50,11 @@ public:
 
 private:
     Eigen::VectorXd condensed(const SplitLoad& load) const;
+    Eigen::VectorXd tied(const Eigen::VectorXd& on_base, const SplitLoad& load) const; ///< rock, all pairs shut
 
     const ContactStructure& structure_;
+    Pairing::Matrix trace_;            ///< P; empty: the identity
+    Eigen::MatrixXd dam_stiffness_;    ///< S on the plane, where P is not the identity
     Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
     ElasticStick elastic_stick_;
     std::unique_ptr<ContactSolver> solver_;

@@ -18,6 +18,8 @@ std::string word(fe2d::RunStatus status)
         return "UNRESOLVED";
     case fe2d::RunStatus::interrupted:
         return "INTERRUPTED";
+    case fe2d::RunStatus::left_plane:
+        return "LEFT THE PLANE";
     case fe2d::RunStatus::diverged:
         return "DIVERGED";
     case fe2d::RunStatus::model_failed:

@@ -181,7 +181,7 @@ struct Setting {
         Strength strength(scene.contact, structure->plane());
         memory = ContactMemory(structure->plane().pairs());
         for (std::size_t k = 0; k < stages.loads.size(); ++k)
-            EXPECT_EQ(solve_stage(statics, *structure, stages.names[k], stages.loads[k], strength, memory).status,
+            EXPECT_EQ(solve_stage(statics, *structure, stages.names[k], structure->split(stages.loads[k]), strength, memory).status,
                       StageStatus::ok);
         start = statics.displacements(load, memory);
     }
