@@ -11,8 +11,8 @@ namespace damslip::fe2d {
 
 /// Loads of the two sides of the plane [N/m]; those on the rock are condensed onto the plane (constant in time).
 struct SplitLoad {
-    Eigen::VectorXd dam;  ///< on the dam's unknowns, in its node order
-    Eigen::VectorXd rock; ///< condensed on the plane; zero for a rigid base
+    Eigen::VectorXd dam;   ///< on the dam's unknowns, in its node order
+    Eigen::VectorXd rock;  ///< condensed on the plane; zero for a rigid base
     Eigen::VectorXd joint; ///< by the water in the joint on the rock opposite each pair, plane: goes along with a dam
                            ///< that slides far; empty: none, or part of `rock`
 };

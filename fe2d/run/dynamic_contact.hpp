@@ -90,12 +90,12 @@ private:
     SplitLoad load_;
     ContactOptions options_;
     SlipDamping slip_damping_;
-    Pairing::Matrix trace_;     ///< P of the operators; empty: the identity
-    double trace_slip_ = 0.0;   ///< slip it was made for [m]
+    Pairing::Matrix trace_;          ///< P of the operators; empty: the identity
+    double trace_slip_ = 0.0;        ///< slip it was made for [m]
     Eigen::VectorXd geometric_rest_; ///< see opening_at() [m]
-    Eigen::VectorXd rock_load_; ///< f_r [N/m]
-    Eigen::VectorXd rock_rest_; ///< K_c⁻¹ f_r
-    Eigen::VectorXd load_jump_; ///< force on the rock that moved with the last change of P, for the energy [N/m]
+    Eigen::VectorXd rock_load_;      ///< f_r [N/m]
+    Eigen::VectorXd rock_rest_;      ///< K_c⁻¹ f_r
+    Eigen::VectorXd load_jump_;      ///< force on the rock that moved with the last change of P, for the energy [N/m]
     std::map<double, std::unique_ptr<DynamicOperator>> operators_;
     std::set<const DynamicOperator*> slid_operators_; ///< those whose contact problem has the present P
     double last_dt_ = 0.0;

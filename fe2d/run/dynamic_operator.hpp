@@ -68,8 +68,8 @@ public:
     /// Δu of the dam for λ₁ = `force` and Δg = `gap`; overwrites free.dam.
     /// @param dam_interface  the dam's part of Δg
     /// @returns λ̃ on the plane [N/m]
-    const Eigen::VectorXd& finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known, const Eigen::VectorXd& gap,
-                Eigen::VectorXd& dam_interface);
+    const Eigen::VectorXd& finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known,
+                                  const Eigen::VectorXd& gap, Eigen::VectorXd& dam_interface);
 
     std::size_t bytes() const;
 
@@ -83,7 +83,7 @@ private:
     ContactOptions options_;
     Eigen::MatrixXd dam_flexibility_; ///< F_d
     Eigen::MatrixXd to_stuck_;        ///< -(1/w) EᵀW⁻¹
-    double rock_share_ = 0.0; ///< of the rock's static flexibility that a step feels, A_r⁻¹ K_c
+    double rock_share_ = 0.0;         ///< of the rock's static flexibility that a step feels, A_r⁻¹ K_c
     double k_ = 0.0, zeta_ = 0.0;
     Eigen::VectorXd momentum_; ///< m̂ after the forward pass
     Eigen::VectorXd on_base_;  ///< its interface part on the plane

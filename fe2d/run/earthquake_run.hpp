@@ -21,7 +21,7 @@ struct RunOptions {
     std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
     Separation separation = Separation::allowed;
     SlidingRange range = SlidingRange::small;
-    double max_slip = 1.0;        ///< the rock's plane is meshed this far past the toe when the range is finite, > 0 [m]
+    double max_slip = 1.0; ///< the rock's plane is meshed this far past the toe when the range is finite, > 0 [m]
     double slip_tolerance = 0.01; ///< of the time step: wanted error of the slip over its size, > 0 [-]
     std::optional<int> halvings;  ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
     int largest_halvings = 5;     ///< when chosen

@@ -53,7 +53,8 @@ Pairing::Matrix Pairing::weights(double slip) const
         auto j = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, next - rock_.begin() - 1));
         for (j = std::min(j, n - 2); j + 1 < n; ++j) {
             const bool first = j == 0, last = j + 2 == n; // the outermost elements take what round-off leaves outside
-            const double begin = first ? left : std::max(left, rock_[j]), end = last ? right : std::min(right, rock_[j + 1]);
+            const double begin = first ? left : std::max(left, rock_[j]),
+                         end = last ? right : std::min(right, rock_[j + 1]);
             if (end > begin) {
                 // ψ N is quadratic: two points of Gauss are exact.
                 const double half = 0.5 * (end - begin), middle = 0.5 * (end + begin);
