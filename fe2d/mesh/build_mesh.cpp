@@ -4,6 +4,7 @@
 #include "fe2d/mesh/dam_mesh.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "fe2d/mesh/rock_mesh.hpp"
+#include "scene/curtain.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -23,11 +24,20 @@ namespace {
                                 .fix = std::move(fix)});
 }
 
+/// Mesh lines are laid around a curtain only where its elements differ from the rock's: in stiffness, or in the flow
+/// whose pore pressures this mesh carries.
+bool curtain_is_meshed(const Scene& scene)
+{
+    if (!scene.foundation || !scene.curtain) return false;
+    return curtain_changes_stiffness(scene) ||
+           (scene.stages.pore_pressure != PorePressure::none && curtain_changes_flow(scene));
+}
+
 /// Stations of the base: heel, curtain sides (they must be node columns of the rock), toe.
 std::vector<double> base_stations(const Scene& scene)
 {
     const double length = base_length(scene.section);
-    if (!scene.foundation || !scene.curtain) return {0.0, length};
+    if (!curtain_is_meshed(scene)) return {0.0, length};
     const Curtain& curtain = *scene.curtain;
     const double end = curtain.distance + curtain.thickness;
     if (!(curtain.distance >= 0.0 && curtain.thickness > 0.0 && end <= length))
@@ -146,7 +156,7 @@ RockLayout rock_layout(const Scene& scene, const DamLayout& dam, const MeshSizes
     RockLayout layout;
     layout.inclination = base_inclination(scene.section);
     place_plane(layout, dam.base, sizes.contact, extension);
-    if (scene.curtain) {
+    if (curtain_is_meshed(scene)) {
         layout.curtain_begin = index_of(layout.plane, scene.curtain->distance);
         layout.curtain_end = index_of(layout.plane, scene.curtain->distance + scene.curtain->thickness);
     }

@@ -1,5 +1,6 @@
 #include "fe2d/seepage/seepage.hpp"
 
+#include "scene/curtain.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -102,8 +103,8 @@ void fill_curtain(SeepageResult& result, const Curtain& curtain, const Permeabil
 Permeability permeability_of(const Scene& scene, const SeepageState& state)
 {
     Permeability k;
-    if (scene.foundation) k.rock = scene.foundation->permeability;
-    const bool works = scene.curtain && scene.curtain->intact && state.curtain == CurtainState::as_scene;
+    k.rock = rock_permeability(scene);
+    const bool works = curtain_changes_flow(scene) && state.curtain == CurtainState::as_scene;
     k.curtain = works ? scene.curtain->permeability : k.rock;
     return k;
 }
@@ -133,7 +134,7 @@ std::optional<DrainLine> drain_line(const Scene& scene, const SeepageState& stat
     if (drains.gallery_level) low = std::max(low, *drains.gallery_level);
     DrainLine line;
     line.distance = drains.distance;
-    line.depth = state.drain_depth.value_or(scene.curtain ? 0.5 * scene.curtain->depth : 0.25 * length);
+    line.depth = drains.depth.value_or(scene.curtain ? 0.5 * scene.curtain->depth : 0.25 * length);
     line.head = low + (1.0 - drains.efficiency) * (upstream - low) * (length - drains.distance) / length;
     return line;
 }
@@ -173,7 +174,7 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState
             fmt::format("seepage: drains at {:.3g} m are a line {:.3g} m deep held at a head of {:.4g} m",
                         drains->distance, drains->depth, drains->head));
     }
-    if (scene.curtain) fill_curtain(result, *scene.curtain, permeability);
+    if (curtain_changes_flow(scene)) fill_curtain(result, *scene.curtain, permeability);
     return result;
 }
 

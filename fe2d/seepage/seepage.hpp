@@ -18,8 +18,6 @@ struct SeepageState {
     std::optional<double> tailwater_level; ///< above the heel [m]; none: dry
     CurtainState curtain = CurtainState::as_scene;
     DrainState drains = DrainState::as_scene;
-    std::optional<double>
-        drain_depth; ///< below the base [m]; default half the curtain's, without curtain a quarter of the base
 };
 
 /// The levels of the scene, curtain and drains as it says.

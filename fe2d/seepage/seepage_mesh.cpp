@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "fe2d/mesh/grading.hpp"
 #include "fe2d/mesh/rock_mesh.hpp"
+#include "scene/curtain.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -65,8 +66,9 @@ int index_of(const std::vector<double>& values, double value)
 struct Flow {
     const Scene& scene;
     SeepageBox box;
-    double base;        ///< length [m]
-    double inclination; ///< [rad]
+    double base;                    ///< length [m]
+    double inclination;             ///< [rad]
+    std::optional<Curtain> curtain; ///< where it changes the flow
 
     /// Rock between the base at a distance from the heel and the bottom of the box [m].
     double rock_below(double distance) const { return box.depth - distance * std::sin(inclination); }
@@ -97,9 +99,9 @@ void check_line(const Flow& flow, const char* what, double from, double to, doub
 void place_columns(RockLayout& layout, const Flow& flow, const std::optional<DrainLine>& drains, const Grading& grading)
 {
     std::vector<double> marks{0.0, flow.base};
-    if (flow.scene.curtain) {
-        marks.push_back(flow.scene.curtain->distance);
-        marks.push_back(flow.scene.curtain->distance + flow.scene.curtain->thickness);
+    if (flow.curtain) {
+        marks.push_back(flow.curtain->distance);
+        marks.push_back(flow.curtain->distance + flow.curtain->thickness);
     }
     if (drains) marks.push_back(drains->distance);
     layout.plane = fine_at_stations(stations(marks, 1e-9 * flow.base), grading);
@@ -115,7 +117,7 @@ void place_columns(RockLayout& layout, const Flow& flow, const std::optional<Dra
 void place_rows(RockLayout& layout, const Flow& flow, const std::optional<DrainLine>& drains, const Grading& grading)
 {
     std::vector<double> marks{0.0};
-    const auto& curtain = flow.scene.curtain;
+    const auto& curtain = flow.curtain;
     if (curtain) marks.push_back(flow.box.depth * flow.share(curtain->distance, curtain->depth));
     if (drains) marks.push_back(flow.box.depth * flow.share(drains->distance, drains->depth));
     const std::vector<double> fine = stations(marks, 1e-9 * flow.box.depth);
@@ -145,14 +147,15 @@ SeepageBox seepage_box(const Scene& scene)
 Mesh seepage_mesh(const Scene& scene, const std::optional<DrainLine>& drains, const SeepageMeshOptions& options)
 {
     assert(options.finest > 0.0 && options.growth > 1.0 && options.largest > 0.0);
-    const Flow flow{scene, seepage_box(scene), base_length(scene.section), base_inclination(scene.section)};
+    const Flow flow{scene, seepage_box(scene), base_length(scene.section), base_inclination(scene.section),
+                    curtain_changes_flow(scene) ? scene.curtain : std::nullopt};
     check_box(flow);
-    if (scene.curtain)
-        check_line(flow, "curtain", scene.curtain->distance, scene.curtain->distance + scene.curtain->thickness,
-                   scene.curtain->depth);
+    if (flow.curtain)
+        check_line(flow, "curtain", flow.curtain->distance, flow.curtain->distance + flow.curtain->thickness,
+                   flow.curtain->depth);
     if (drains) check_line(flow, "drains", drains->distance, drains->distance, drains->depth);
     double finest = options.finest * flow.base;
-    if (scene.curtain) finest = std::min(finest, 0.25 * scene.curtain->thickness);
+    if (flow.curtain) finest = std::min(finest, 0.25 * flow.curtain->thickness);
     const Grading grading{finest, options.growth, std::max(finest, options.largest * flow.box.depth)};
 
     RockLayout layout;

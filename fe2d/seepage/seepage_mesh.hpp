@@ -30,8 +30,8 @@ struct SeepageMeshOptions {
     double largest = 1.0 / 20.0; ///< largest element size, of the box depth [-]
 };
 
-/// Rock alone, for the flow: columns and rows refined towards heel, toe, both sides and foot of the curtain, and the
-/// drain line. Its contact plane stands on nodes of its own; there are no dam elements.
+/// Rock alone, for the flow: columns and rows refined towards heel, toe, both sides and foot of the curtain (where it
+/// changes the flow), and the drain line. Its contact plane stands on nodes of its own; there are no dam elements.
 /// @throws InputError when the base, curtain or drains do not fit into the box
 Mesh seepage_mesh(const Scene& scene, const std::optional<DrainLine>& drains, const SeepageMeshOptions& options = {});
 

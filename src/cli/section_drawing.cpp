@@ -177,7 +177,8 @@ void draw_curtain_and_drains(Sketch& sketch, const Scene& scene, const Frame& f)
                     Align::start, 6, 0);
     }
     if (!scene.drains) return;
-    const double x = scene.drains->distance, y = slope * x, depth = 0.2 * f.size;
+    const double x = scene.drains->distance, y = slope * x,
+                 depth = std::min(scene.drains->depth.value_or(0.2 * f.size), 0.55 * f.size);
     const double from = scene.drains->gallery_level.value_or(y);
     sketch.line({{x, std::max(from, y)}, {x, y - depth}}, "drain");
     if (scene.drains->gallery_level) {

@@ -150,6 +150,11 @@ void check_base(const Scene& s, Findings& f)
                 fmt::format("{} is not within the base of {} m.", value("drains.distance_m", s.drains->distance),
                             shortest(base)),
                 "0 ... below the base length", "measure along the base from the heel");
+    if (s.drains && s.drains->depth && s.foundation && *s.drains->depth >= s.foundation->depth)
+        f.wrong("drains.depth",
+                fmt::format("{} reaches through the rock box, {}.", value("drains.depth_m", *s.drains->depth),
+                            value("foundation.depth_m", s.foundation->depth)),
+                "drains.depth_m below foundation.depth_m", "deepen the box or shorten the drains");
     if (!s.uplift) return;
     const auto needs = [&](UpliftModel model, bool there, const char* word, const char* table) {
         if (s.uplift->model == model && !there)

@@ -1,6 +1,7 @@
 #include "scene/effect_plan.hpp"
 
 #include "core/number.hpp"
+#include "scene/curtain.hpp"
 #include "scene/section.hpp"
 #include "scene/words.hpp"
 
@@ -59,6 +60,27 @@ Decision uplift(const Scene& s)
                 ""};
     if (!uplift_on(s)) return {false, "uplift.model = \"none\"", ""};
     return {true, std::string("uplift.model = \"") + word(s.uplift->model) + "\"", "one pressure profile"};
+}
+
+Decision curtain_stiffness(const Scene& s)
+{
+    if (curtain_changes_stiffness(s)) return {true, "curtain.young_modulus_GPa", "mesh lines around the curtain"};
+    if (!s.curtain) return {false, "no [curtain]", ""};
+    if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
+    return {false,
+            s.curtain->young_modulus ? "the curtain's E and nu are the rock's: no mesh lines"
+                                     : "no curtain.young_modulus_GPa: the rock's",
+            ""};
+}
+
+Decision curtain_sealing(const Scene& s)
+{
+    if (!s.curtain) return {false, "no [curtain]", ""};
+    if (!s.uplift || s.uplift->model != UpliftModel::seepage) return {false, "uplift is not by seepage", ""};
+    if (curtain_changes_flow(s)) return {true, "curtain.permeability_m_s", "flow mesh refined around the curtain"};
+    return {false,
+            s.curtain->intact ? "the curtain's permeability is the rock's: no mesh lines" : "curtain.intact = false",
+            ""};
 }
 
 Decision strength_loss(const Contact& c)
@@ -143,8 +165,9 @@ Decision decide(Effect effect, const Scene& s, Method method)
         return fe_only(s.foundation.has_value(), "[foundation] is given", "no [foundation]: rigid base",
                        "two unknowns per rock node");
     case Effect::curtain_stiffness:
-        return fe_only(s.foundation && s.curtain && s.curtain->young_modulus, "curtain.young_modulus_GPa",
-                       "the curtain has the rock's stiffness", "no unknowns");
+        return rigid ? Decision{false, "rigid block", ""} : curtain_stiffness(s);
+    case Effect::curtain_sealing:
+        return curtain_sealing(s);
     case Effect::structural_damping:
         return {fe && s.damping.method != DampingMethod::none,
                 rigid                                     ? "rigid block"
@@ -178,6 +201,7 @@ const std::vector<std::pair<Effect, const char*>>& names()
         {Effect::run_out, "run-out"},
         {Effect::rock_flexibility, "rock flexibility"},
         {Effect::curtain_stiffness, "curtain stiffness"},
+        {Effect::curtain_sealing, "curtain sealing"},
         {Effect::structural_damping, "structural damping"}};
     return list;
 }

@@ -29,6 +29,7 @@ enum class Effect {
     run_out,
     rock_flexibility,
     curtain_stiffness,
+    curtain_sealing,
     structural_damping
 };
 

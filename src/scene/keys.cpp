@@ -435,6 +435,8 @@ std::vector<KeyGroup> base_groups()
         "drains", "Drain line below the base (USACE EM 1110-2-2200).", &Scene::drains,
         {number("distance", length, Range::above(0), "required", "from the heel", "10", at(&Drains::distance)),
          number("efficiency", none, Range::between(0, 1), "0.6666666666666666", "E", "0.5", at(&Drains::efficiency)),
+         number("depth", length, Range::above(0), "half curtain.depth_m, without curtain a quarter of the base",
+                "of the line below the base, for uplift by seepage", "15", at(&Drains::depth)),
          number("gallery_level", length, Range::any(), "none",
                 "drainage gallery above the heel; takes the place of a lower tailwater", "3",
                 at(&Drains::gallery_level)),

@@ -107,8 +107,10 @@ struct Uplift {
 
 /// Drain line below the base (USACE EM 1110-2-2200): H3 = H2 + (1 - E)(H1 - H2)(L - X)/L.
 struct Drains {
-    double distance = 0.0;               ///< X, from the heel [m]
-    double efficiency = 2.0 / 3.0;       ///< E [-]
+    double distance = 0.0;         ///< X, from the heel [m]
+    double efficiency = 2.0 / 3.0; ///< E [-]
+    std::optional<double> depth;   ///< of the line below the base, for seepage [m]; default half the curtain's, without
+                                   ///< curtain a quarter of the base
     std::optional<double> gallery_level; ///< above the heel [m]; takes the place of the tailwater when it is higher
     std::optional<double> lost_at_slip;  ///< slip at which the drains shear off, E = 0 from then on [m]
 };

@@ -138,6 +138,8 @@ TEST(SceneInput, ChecksBetweenKeysNameBothValues)
 {
     EXPECT_SAYS(message(good + "[curtain]\ndistance_m = 44.5\n"),
                 "curtain.distance_m = 44.5 + curtain.thickness_m = 1, base length = 45 m");
+    EXPECT_SAYS(message(good + "[foundation]\nyoung_modulus_GPa = 30\n[drains]\ndistance_m = 9\ndepth_m = 100\n"),
+                "drains.depth_m = 100 reaches through the rock box, foundation.depth_m = 100.");
     EXPECT_SAYS(message(good + "residual_friction = 0.9\n"),
                 "contact.residual_friction = 0.9 is above the peak value, contact.friction = 0.77");
     EXPECT_SAYS(message(good + "[uplift]\nmodel = \"curtain\"\n"), "needs a [curtain] with its distance_m");

@@ -100,6 +100,31 @@ TEST(FeMesh, pairs_of_the_contact_plane_match_and_the_rock_line_goes_on_past_hee
                   1.0 + 1e-12); // 1 m: the curtain's column; 0.75 m asked for
 }
 
+// A curtain of the rock's stiffness is rock, node for node; the flow needs its lines only where it is tighter.
+TEST(FeMesh, curtain_of_the_rock_s_stiffness_adds_no_mesh_lines)
+{
+    Scene scene = test::reference_dam_on_rock();
+    const Curtain curtain = *scene.curtain;
+    scene.curtain.reset();
+    const Mesh without = build_mesh(scene);
+    const auto same = [&](const Mesh& mesh) {
+        return std::equal(mesh.nodes.begin(), mesh.nodes.end(), without.nodes.begin(), without.nodes.end(),
+                          [](Point a, Point b) { return a.x == b.x && a.y == b.y; });
+    };
+    scene.curtain = curtain;
+    EXPECT_FALSE(same(build_mesh(scene)));
+    scene.curtain->young_modulus = scene.foundation->material.young_modulus;
+    EXPECT_TRUE(same(build_mesh(scene)));
+    scene.curtain->poisson_ratio = 0.25;
+    EXPECT_FALSE(same(build_mesh(scene)));
+    scene.curtain->young_modulus.reset();
+    EXPECT_TRUE(same(build_mesh(scene)));
+    scene.stages.pore_pressure = PorePressure::effective;
+    EXPECT_FALSE(same(build_mesh(scene)));
+    scene.curtain->permeability = scene.foundation->permeability;
+    EXPECT_TRUE(same(build_mesh(scene)));
+}
+
 TEST(FeMesh, curtain_sides_and_foot_are_mesh_lines)
 {
     const Mesh mesh = build_mesh(test::reference_dam_on_rock());
@@ -274,7 +299,7 @@ TEST(FeMesh, many_sections)
                 scene.curtain = Curtain{.distance = between(0, 0.3) * base,
                                         .depth = between(0.1, 0.6) * height,
                                         .thickness = between(0.3, 2),
-                                        .young_modulus = {}};
+                                        .young_modulus = 27e9};
         }
         SCOPED_TRACE(k);
         const Mesh mesh = build_mesh(scene, {.upstream = between(0, 2), .downstream = between(0, 5)});

@@ -184,7 +184,8 @@ TEST(FeSeepage, what_flows_in_flows_out)
     EXPECT_EQ(without.drain_flow, 0.0);
 }
 
-// A ruptured curtain is rock: with the curtain's elements in the mesh or not, the field is that of the flat base.
+// A ruptured curtain is rock: with the curtain's elements in the mesh or not, the field is that of the flat base. One
+// that the scene says to be ruptured, or as permeable as the rock, is not meshed: the same bits as without it.
 TEST(FeSeepage, ruptured_curtain_is_no_curtain)
 {
     Scene scene = with_pile(flat_base(70.0, 10.0), 3.0, 4.0);
@@ -194,8 +195,14 @@ TEST(FeSeepage, ruptured_curtain_is_no_curtain)
     const SeepageUnderBase exact{5.0, 5.0, 0.0, 10.0};
     EXPECT_NEAR(ruptured.uplift, 0.5 * heel_pressure * 10.0, 1e-3 * ruptured.uplift);
     EXPECT_NEAR(pressure_at(ruptured, 3.0) / heel_pressure, exact.head(-2.0, SeepageUnderBase::Side::upstream), 1e-3);
+    const double without = solve(flat_base(70.0, 10.0)).uplift;
+    EXPECT_NEAR(ruptured.uplift, without, 1e-3 * without);
     scene.curtain->intact = false;
-    EXPECT_DOUBLE_EQ(solve(scene).uplift, ruptured.uplift);
+    EXPECT_EQ(solve(scene).uplift, without);
+    scene.curtain->intact = true;
+    EXPECT_NE(solve(scene).uplift, without);
+    scene.curtain->permeability = scene.foundation->permeability;
+    EXPECT_EQ(solve(scene).uplift, without);
 }
 
 // Equal levels on both sides of an inclined base: still water, p = γ_w (h - y) on every node, no flow.
@@ -260,6 +267,25 @@ TEST(FeSeepage, on_the_mesh_of_the_whole_model)
     ASSERT_TRUE(coarse.field.solver.ok());
     EXPECT_NEAR(coarse.uplift, fine.uplift, 0.01 * fine.uplift);
     EXPECT_TRUE(std::isnan(coarse.field.head[coarse.mesh.contact.dam_nodes[3]])); // the dam holds no water
+}
+
+// Relief wells of no depth relieve nothing but their own point; deeper ones take more water and leave less uplift.
+TEST(FeSeepage, deeper_drains_take_more_water)
+{
+    Scene scene = flat_base(70.0, 20.0);
+    scene.drains.emplace();
+    scene.drains->distance = 3.0;
+    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, fe2d::seepage_state(scene))->depth, 2.5); // a quarter of the base
+    const auto quarter = solve(scene);
+    scene.drains->depth = 2.5;
+    EXPECT_EQ(solve(scene).uplift, quarter.uplift);
+    scene.drains->depth = 5.0;
+    const auto deeper = solve(scene);
+    EXPECT_GT(deeper.drain_flow, 1.05 * quarter.drain_flow);
+    EXPECT_LT(deeper.uplift, quarter.uplift);
+    scene.curtain = with_pile(scene, 1.0, 4.0).curtain;
+    scene.drains->depth.reset();
+    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, fe2d::seepage_state(scene))->depth, 2.0); // half the curtain
 }
 
 TEST(FeSeepage, what_does_not_fit_is_refused)
