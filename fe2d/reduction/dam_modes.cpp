@@ -73,6 +73,7 @@ DamModes DamModes::first(Index count) const
     result.ground_y = ground_y.head(count);
     result.momentum = momentum.head(count);
     if (rest == 0) return result;
+    result.complete = false;
     const MatrixXd softened = on_plane.rightCols(rest) * omega2.tail(rest).cwiseInverse().asDiagonal();
     result.residual.noalias() += softened * on_plane.rightCols(rest).transpose();
     result.residual_crest.noalias() += softened * crest.tail(rest);
@@ -133,7 +134,8 @@ DamModes dam_modes(const ContactStructure& structure, int elastic)
     for (Index k = 0; k < n; k += 2) translation.segment<2>(k) = plane.tangent;
     modes.momentum = shape.transpose() * (structure.mass() * translation).eval();
 
-    if (count == possible) {
+    modes.complete = count == possible;
+    if (modes.complete) {
         modes.residual = MatrixXd::Zero(2 * m, 2 * m);
         modes.residual_crest = VectorXd::Zero(2 * m);
         return modes;

@@ -19,6 +19,7 @@ struct DamModes {
     Eigen::VectorXd momentum;       ///< φᵀ M r along the plane
     Eigen::MatrixXd residual;       ///< static flexibility on the plane of all modes left out, 2m x 2m [m²/N]
     Eigen::VectorXd residual_crest; ///< the same from forces on the plane to the crest, 2m
+    bool complete = false;          ///< nothing is left out
     bool regular = false;           ///< false: the dam could not be factorised, or the modes did not converge
     int solutions = 0;              ///< of the factorised dam
 

@@ -38,8 +38,11 @@ LanczosPairs lanczos(const std::function<VectorXd(const VectorXd& mass_times_x)>
     mass_basis.leftCols(rigid) = mass * deflated;
     Index used = rigid;
     const auto append = [&](VectorXd x) {
-        for (int pass = 0; pass < 2; ++pass)
+        for (int pass = 0; pass < 2; ++pass) { // once more only where the first pass left little
+            const double before = x.norm();
             x -= basis.leftCols(used) * (mass_basis.leftCols(used).transpose() * x).eval();
+            if (x.norm() > 0.5 * before) break;
+        }
         const VectorXd mx = mass * x;
         const double norm = std::sqrt(std::max(0.0, x.dot(mx)));
         if (norm > 0.0) {
@@ -54,9 +57,11 @@ LanczosPairs lanczos(const std::function<VectorXd(const VectorXd& mass_times_x)>
     VectorXd diagonal(limit), below(limit);
     Index next_check = std::min<Index>(limit, 2 * count + 10);
     for (Index j = 0; j < limit; ++j) {
-        const VectorXd y = multiply(mass_basis.col(rigid + j));
+        VectorXd y = multiply(mass_basis.col(rigid + j));
         ++result.applications;
         diagonal[j] = y.dot(mass_basis.col(rigid + j));
+        y -= diagonal[j] * basis.col(rigid + j);
+        if (j > 0) y -= below[j - 1] * basis.col(rigid + j - 1);
         below[j] = append(y);
         const bool exhausted = j + 1 == limit || below[j] == 0.0;
         if (j + 1 < next_check && !exhausted) continue;

@@ -14,7 +14,8 @@ struct LanczosPairs {
     int applications = 0;
 };
 
-/// Lanczos (1950) without restart, with full reorthogonalisation twice (Giraud & Langou 2002), from a fixed start:
+/// Lanczos (1950) without restart, with full reorthogonalisation, a second time where the first one
+/// cancels (Daniel, Gragg, Kaufman & Stewart 1976), from a fixed start:
 /// same problem, same bits.
 /// @param multiply  x -> M^-1-self-adjoint operator applied to (M x), given M x
 /// @param deflated  M-orthonormal columns that the search leaves out

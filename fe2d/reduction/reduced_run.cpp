@@ -21,10 +21,15 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr int reference_factor = 4; ///< modes of the estimate's reference over those kept
 constexpr int coarse_pairs = 22;    ///< of the plane of the estimate
 constexpr double rest_share = 1e-4; ///< as in the full run: change of the slip within the rest time that is rest [-]
 constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
+
+/// Modes of the estimate's reference: four times as many, or twice where that would cost more than the run.
+int reference_modes(int modes)
+{
+    return std::max(2 * modes, std::min(4 * modes, 64));
+}
 
 /// Has the mean slip stayed the same for the rest time?
 bool at_rest(const ReducedHistory& history, double rest_time)
@@ -64,7 +69,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     const auto start = Clock::now();
     if (!full.structure().regular()) return;
     const int wanted = std::max(modes, 2);
-    DamModes reference = dam_modes(full.structure(), reference_factor * wanted);
+    DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
     if (!reference.regular) return;
     const Index kept = std::min<Index>(3 + wanted, reference.count());
     const RunDamping damping{full.damping(), scene_.damping.mass};
@@ -103,6 +108,11 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
         }
         record(dynamics, result.history);
         result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
+        if (options_.progress &&
+            options_.progress({dynamics.state().time, ground.duration(), n + 1, record_steps}) == RunAnswer::stop) {
+            result.status = RunStatus::interrupted;
+            break;
+        }
         if (!std::isfinite(dynamics.kinetic())) {
             result.status = RunStatus::diverged;
             break;
@@ -138,7 +148,9 @@ double ReducedRun::truncation_error(const Motion& motion, const Contact& contact
     const double more = static_cast<double>(coarse_reference_->modes.count() - 3);
     const double fewer = static_cast<double>(coarse_fewer_->modes.count() - 3);
     const double kept = slip(*coarse_system_);
-    const double from_more = std::abs(kept - slip(*coarse_reference_)) / (1.0 - modes / more);
+    const double share_gone = coarse_reference_->modes.complete ? 1.0 : 1.0 - modes / more;
+    const double from_more = std::abs(kept - slip(*coarse_reference_)) / share_gone;
+    if (coarse_reference_->modes.complete) return from_more;
     const double from_fewer = std::abs(kept - slip(*coarse_fewer_)) / (modes / fewer - 1.0);
     return std::sqrt(from_more * from_fewer);
 }

@@ -50,10 +50,10 @@ constexpr int default_modes = 12; ///< elastic modes kept when nothing is said: 
 /// above the last kept is left out, their flexibility is not.
 ///
 /// Truncation error: the inertia left out, and with it the error, goes with 1/ω² of the first mode left out, and ω²
-/// grows in proportion to the number of modes of a plane body (Weyl 1911). So with 4n modes instead of n three
-/// quarters of the error are gone, e = 4/3 |s(n) - s(4n)|, and with n/2 as much is added, e = |s(n/2) - s(n)|. Slips
-/// scatter around that law and either difference may be small by accident: the estimate is their geometric mean, from
-/// runs on a coarse plane, where they cost little.
+/// grows in proportion to the number of modes of a plane body (Weyl 1911): e(n) ~ 1/n. Then e = |s(n) - s(N)|/(1 - n/N)
+/// with N = 2n ... 4n modes, and with half of them e = |s(n/2) - s(n)|. Slips scatter around that law and either
+/// difference may be small by accident: the estimate is their geometric mean, from runs on a coarse plane, where they
+/// cost little.
 class ReducedRun {
 public:
     /// @param full  made from the same scene and options; kept by reference

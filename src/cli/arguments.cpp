@@ -117,6 +117,14 @@ void add_fe(Parser& p)
     sub->add_option("--base", p.fe.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
         ->check(CLI::IsMember({"contact", "tied"}))
         ->capture_default_str();
+    CLI::Option* reduced =
+        sub->add_flag("--reduced", p.fe.reduced, "earthquake on few modes of the dam; slip with an error estimate")
+            ->group("Reduced run");
+    sub->add_option("--modes", p.fe.modes, "elastic modes kept (12)")
+        ->check(CLI::Range(2, 1000))
+        ->needs(reduced)
+        ->group("Reduced run");
+    reduced->excludes(sub->get_option("--base"));
     sub->add_option("--out", p.fe.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene");
     sub->callback([&p] { p.chosen = [a = p.fe](const Streams& s) { return fe(a, s); }; });
 }

@@ -2,6 +2,7 @@
 
 #include "cli/contact_run.hpp"
 #include "cli/fe_inputs.hpp"
+#include "cli/reduced_command.hpp"
 #include "cli/tied_run.hpp"
 #include "cli/usage_error.hpp"
 
@@ -21,6 +22,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
         if (!streams.quiet)
             streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period.frequency);
     }
+    if (arguments.reduced) return run_reduced(arguments, scene, plan, records, streams);
     return arguments.base == "tied" ? run_tied(arguments, scene, plan, records, streams)
                                     : run_contact(arguments, scene, plan, records, streams);
 }

@@ -9,6 +9,8 @@ struct FeArguments {
     RunInputs inputs;
     std::string base =
         "contact";               ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
+    bool reduced = false;        ///< on few modes of the dam, with an error estimate; contact base only
+    std::optional<int> modes;    ///< elastic modes kept by a reduced run, 2 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component
 };

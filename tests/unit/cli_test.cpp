@@ -232,6 +232,26 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
     EXPECT_EQ(bare["model"][0]["unknowns"], bare["model"][1]["unknowns"]);
 }
 
+TEST_F(CliScene, ReducedFeRunPrintsSlipWithItsError)
+{
+    // The stiff block above: its modes play no part, so few of them give the same slip, and the estimate says so.
+    std::ofstream(folder / "stiff.toml")
+        << "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+           "2500\n[contact]\nfriction = 0.1\n"
+           "[mesh]\nsize_m = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
+    const ProgramAnswer a = answer_of({"fe", (folder / "stiff.toml").string(), "--reduced", "--modes", "4", "--json",
+                                       "--out", (folder / "reduced").string()});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto run = nlohmann::json::parse(a.out)["runs"][0];
+    EXPECT_EQ(run["modes"], 4);
+    EXPECT_EQ(run["unresolved"], 0);
+    EXPECT_NEAR(run["slip_mm"].get<double>(), 1e3 * triangle_slip(0.981), 10 * triangle_slip(0.981));
+    EXPECT_LT(run["truncation_error_mm"].get<double>(), 1e-3 * run["slip_mm"].get<double>());
+    for (const char* file : {"summary.json", "history_pulse.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "reduced" / file)) << file;
+    EXPECT_NE(answer_of({"fe", (folder / "stiff.toml").string(), "--modes", "4"}).code, 0); // without --reduced
+}
+
 TEST_F(CliScene, AnEffectOfZeroStrengthChangesNothing)
 {
     const std::string block =

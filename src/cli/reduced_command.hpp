@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/fe_command.hpp"
+#include "cli/run_inputs.hpp"
+
+namespace damslip::cli {
+
+/// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
+/// changes.
+int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
+                const std::vector<RecordPair>& records, const Streams& streams);
+
+} // namespace damslip::cli
