@@ -67,7 +67,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
       stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
 {
     const auto start = Clock::now();
-    if (!full.structure().regular()) return;
+    if (!full.structure().regular() || full.structure().slides_far()) return;
     const int wanted = std::max(modes, 2);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
     if (!reference.regular) return;
@@ -160,7 +160,10 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     ReducedResult result;
     result.seconds.modes = seconds_;
     if (!system_) {
-        result.message = "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
+        result.message =
+            full_.structure().slides_far()
+                ? "A reduced run needs small sliding: each dam node stays opposite its rock node."
+                : "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
         return result;
     }
     result.modes = static_cast<int>(system_->modes.count()) - 3;
@@ -212,7 +215,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     end.force = result.pair_force;
     end.slip = memory.slip + result.pair_slip;
     end.opening = result.pair_opening;
-    result.after = solve_stage(statics, structure, "after the earthquake", after, strength, end);
+    result.after = solve_stage(statics, structure, "after the earthquake", structure.split(after), strength, end);
     result.seconds.statics += seconds_since(clock);
 
     if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
