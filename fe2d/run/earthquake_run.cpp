@@ -29,7 +29,7 @@ ModelOptions model_options(const RunOptions& options, Base base)
 {
     ModelOptions result;
     result.base = base;
-    if (options.range == SlidingRange::finite) result.extension.downstream = options.max_slip;
+    if (options.range == SlidingRange::finite) result.extension.downstream = *options.max_slip;
     result.added_mass = options.added_mass;
     return result;
 }
@@ -39,8 +39,11 @@ ModelOptions model_options(const RunOptions& options, Base base)
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
 {
     const auto start = Clock::now();
+    if (!options_.range)
+        options_.range = scene.contact.sliding == JointPath::finite ? SlidingRange::finite : SlidingRange::small;
+    if (!options_.max_slip) options_.max_slip = scene.contact.max_slip;
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
-    structure_ = std::make_unique<ContactStructure>(*model_, options_.range);
+    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range);
     stages_ = load_stages(scene_, *model_, options_.uplift);
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
@@ -228,7 +231,7 @@ void EarthquakeRun::judge(RunResult& result) const
         break;
     case RunStatus::left_plane:
         result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
-                                     result.end_time, result.slip, options_.max_slip);
+                                     result.end_time, result.slip, *options_.max_slip);
         break;
     case RunStatus::diverged:
         result.message = fmt::format("Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller "

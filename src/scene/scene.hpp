@@ -116,6 +116,7 @@ struct Drains {
 };
 
 enum class Interpolation { steps, linear };
+enum class JointPath { small, finite }; ///< FE: nodes stay opposite each other, or face the rock they have slid to
 
 /// Strength of the base. Cohesion acts on the compressed length until the first slip.
 struct Contact {
@@ -125,8 +126,10 @@ struct Contact {
     std::optional<double> residual_friction; ///< mu after `residual_slip` [-]
     double residual_slip = 0.0; ///< accumulated slip at which the residual value is reached [m]; 0: at first slip
     Interpolation residual_path =
-        Interpolation::steps;          ///< between peak and residual: a step at residual_slip, or linear in slip
-    std::vector<Point> friction_table; ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
+        Interpolation::steps;             ///< between peak and residual: a step at residual_slip, or linear in slip
+    JointPath sliding = JointPath::small; ///< FE
+    double max_slip = 1.0;                ///< FE, sliding finite: the dam may slide this far downstream [m]
+    std::vector<Point> friction_table;    ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
 };
 
 struct RecordFiles {
