@@ -63,6 +63,13 @@ void ContactStructure::condense_rock()
     rock_flexibility_ = llt.solve(Eigen::MatrixXd::Identity(rock_stiffness_.rows(), rock_stiffness_.cols()));
 }
 
+std::size_t ContactStructure::rock_bytes() const
+{
+    if (!has_rock()) return 0;
+    return rock_factor_->bytes() +
+           sizeof(double) * static_cast<std::size_t>(rock_stiffness_.size() + rock_flexibility_.size());
+}
+
 namespace {
 
 /// Loads of the rock's nodes, two components each, the fixed ones zero.

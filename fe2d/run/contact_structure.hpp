@@ -49,6 +49,8 @@ public:
     const Eigen::MatrixXd& rock_flexibility() const { return rock_flexibility_; } ///< K_c⁻¹
     const InterfaceFactor& static_factor() const { return *static_factor_; }      ///< of the dam's K, floating
 
+    std::size_t rock_bytes() const; ///< of its factor and the two dense matrices; 0 for a rigid base
+
     Eigen::Index dam_unknowns() const { return mass_.rows(); }
     Eigen::Index inner_unknowns() const { return 2 * order_.inner; }
     SplitLoad split(const Eigen::VectorXd& load) const; ///< of a load on all unknowns of the model

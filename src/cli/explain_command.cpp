@@ -1,5 +1,6 @@
 #include "cli/explain_command.hpp"
 
+#include "cli/contact_cost.hpp"
 #include "cli/fe_inputs.hpp"
 #include "cli/fe_output.hpp"
 #include "cli/usage_error.hpp"
@@ -37,6 +38,38 @@ std::optional<Table> model_table(const Scene& scene, const EffectPlan& plan)
     return count_table(fe2d::build_model(called_for(plan, scene), options).counts);
 }
 
+/// Nothing for the rigid block, nor for a reservoir that contact runs do not have.
+std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
+{
+    if (plan.method != Method::finite_elements) return std::nullopt;
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic) return std::nullopt;
+    return contact_cost(scene, plan);
+}
+
+nlohmann::ordered_json cost_json(const ContactCost& cost)
+{
+    nlohmann::ordered_json j;
+    j["parts"] = json_of(cost.parts);
+    j["factorisations"] = {{"set_up", cost.parts.rows.size() - 2}, {"by_step_size", 1}};
+    j["set_up_seconds"] = cost.set_up_seconds;
+    j["seconds_per_step"] = nullptr;
+    if (cost.seconds_per_step) j["seconds_per_step"] = *cost.seconds_per_step;
+    j["records"] = json_of(cost.records);
+    return j;
+}
+
+std::string cost_text(const ContactCost& cost)
+{
+    std::string text =
+        report::text(cost.parts) +
+        fmt::format("  {} factorisation{} in the set-up, one for each step size after it; no step "
+                    "factorises anew.\n  measured here: set-up {:.2g} s",
+                    cost.parts.rows.size() - 2, cost.parts.rows.size() == 3 ? "" : "s", cost.set_up_seconds);
+    text += cost.seconds_per_step ? fmt::format(", {:.2g} ms a step of strong shaking.\n", 1e3 * *cost.seconds_per_step)
+                                  : ".\n";
+    return cost.records.rows.empty() ? text : text + "\n" + report::text(cost.records);
+}
+
 } // namespace
 
 int explain(const ExplainArguments& arguments, const Streams& streams)
@@ -46,12 +79,14 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
         make_effect_plan(scene, arguments.method == "fe" ? Method::finite_elements : Method::rigid_block);
     const Table table = effect_table(plan);
     const std::optional<Table> model = model_table(scene, plan);
+    const std::optional<ContactCost> cost = cost_of(scene, plan);
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
         j["method"] = arguments.method;
         j["effects"] = json_of(table);
         if (model) j["model"] = json_of(*model);
+        if (cost) j["contact"] = cost_json(*cost);
         streams.out << j.dump(2) << "\n";
         return exit_ok;
     }
@@ -65,6 +100,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
         streams.out << "\n"
                     << report::text(*model)
                     << "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
+    if (cost) streams.out << "\n" << cost_text(*cost);
     return exit_ok;
 }
 

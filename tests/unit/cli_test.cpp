@@ -223,6 +223,19 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
     EXPECT_EQ(plan["model"], modes["model"]);
     EXPECT_EQ(plan["model"].size(), 5u); // dam, foundation, curtain, added mass, sum
 
+    // The contact run: rock and dam become two unknowns a pair; their sum is the tied model's unknowns and the base's own.
+    const auto& parts = plan["contact"]["parts"];
+    ASSERT_EQ(parts.size(), 4u); // rock, dam at rest, dam in motion, contact problem
+    const auto contact = parts[3]["unknowns"].get<std::int64_t>();
+    EXPECT_EQ(parts[0]["become"], contact);
+    EXPECT_EQ(parts[0]["unknowns"].get<std::int64_t>() + parts[2]["unknowns"].get<std::int64_t>(),
+              plan["model"][4]["unknowns"].get<std::int64_t>() + contact);
+    EXPECT_EQ(parts[3]["bytes"], 8 * contact * contact);
+    for (const auto& part : parts) EXPECT_GE(part["bytes"].get<std::int64_t>(), 8 * contact * contact) << part["part"];
+    EXPECT_EQ(plan["contact"]["factorisations"]["set_up"], 2);
+    EXPECT_GT(plan["contact"]["seconds_per_step"].get<double>(), 0.0);
+    EXPECT_EQ(plan["contact"]["records"][0]["steps"], 2000); // 20 s by 0.01 s; the run-out is not counted
+
     // Koyna has neither water nor rock nor curtain: the dam is all there is.
     const auto bare = nlohmann::json::parse(
         answer_of({"explain", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml", "--method", "fe", "--json"})
