@@ -92,7 +92,7 @@ void add_generate(CLI::App* record, ParserBase& base, RecordArguments& a)
     sub->add_option("--pga-m-s2", g.options.pga, "peak ground acceleration [m/s2]")->capture_default_str();
     sub->add_option("--duration", g.options.duration, "[s]")->capture_default_str();
     sub->add_option("--dt", g.options.dt, "time step [s]")->capture_default_str();
-    sub->add_option("--seed", g.options.seed, "random seed")->capture_default_str();
+    sub->add_option("--seed", g.seed, "random seed, a whole number >= 0")->capture_default_str();
     sub->add_option("--tolerance", g.options.tolerance, "largest deviation from the target over 0.05 to 2 s")
         ->capture_default_str();
     sub->add_option("--envelope", g.envelope, "compound or trapezoid")->capture_default_str();

@@ -259,7 +259,14 @@ records::GeneratedRecord generate(const RecordGenerateArguments& arguments)
 {
     using namespace records;
     const TargetSpectrum target = generate_target(arguments);
+    if (arguments.seed < 0)
+        usage(fmt::format("--seed {} is not allowed.", arguments.seed), "a whole number from 0 to 9223372036854775807",
+              "write  --seed 1");
+    if (!(arguments.options.pga >= 1e-3 && arguments.options.pga <= 50.0))
+        usage(fmt::format("--pga-m-s2 {} is not allowed.", arguments.options.pga), "0.001 to 50 m/s2",
+              "write  --pga-m-s2 1.0");
     GenerateOptions options = arguments.options;
+    options.seed = static_cast<std::uint64_t>(arguments.seed);
     options.component = arguments.component == "v" ? MotionComponent::vertical : MotionComponent::horizontal;
     options.envelope.shape =
         choice<EnvelopeShape>("--envelope", arguments.envelope,

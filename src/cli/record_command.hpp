@@ -78,8 +78,9 @@ struct RecordGenerateArguments {
     std::string target = "rock";       ///< --target rock | ec8-1 | ec8-2 | a CSV file of period [s] and S_a
     std::string ground = "A";          ///< --ground A ... E, of ec8
     std::string component = "h";       ///< --component h | v
-    records::GenerateOptions options;  ///< --pga-m-s2 --duration --dt --seed --tolerance --rise --level
+    records::GenerateOptions options;  ///< --pga-m-s2 --duration --dt --tolerance --rise --level
     std::string envelope = "compound"; ///< --envelope compound | trapezoid
+    std::int64_t seed = 1;             ///< --seed, >= 0
     RecordTarget destination;
 };
 /// The target spectrum of the arguments. @throws UsageError, InputError

@@ -18,6 +18,17 @@ namespace {
     throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
 }
 
+constexpr double largest_accel = 1e4; ///< [m/s2], a thousand times gravity
+
+[[noreturn]] void refuse_scale(const RecordPair& pair, double factor)
+{
+    throw InputError(
+        Diagnostic{pair.files.horizontal.string(), 0, 0,
+                   fmt::format("scaled by {:g} the record has accelerations above {:g} m/s2.", factor, largest_accel),
+                   fmt::format("at most {:g} m/s2 after --scale, motion.scale and motion.record.scale", largest_accel),
+                   "lessen the factors; 0.1 to 10 is usual"});
+}
+
 /// The records of the command line in place of the scene's.
 std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
 {
@@ -111,8 +122,12 @@ GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double sc
     options.scale = scene.motion.scale * pair.files.scale * scale;
     options.scale_to_pga = scene.motion.scale_to_pga;
     options.polarity = scene.motion.polarity * polarity;
+    if (!std::isfinite(options.scale)) refuse_scale(pair, options.scale);
     GroundMotion motion = records::make_ground_motion(pair.horizontal, pair.vertical, options);
     motion.name = pair.files.name;
+    for (const auto* component : {&motion.accel_h, &motion.accel_v})
+        if (!std::all_of(component->begin(), component->end(), [](double a) { return std::abs(a) <= largest_accel; }))
+            refuse_scale(pair, options.scale);
     return motion;
 }
 

@@ -206,7 +206,9 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
         {"Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction)}};
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
-        list.emplace_back("Largest slip", fmt::format("{:.4g} mm", largest(s).judged().max_slip / mm));
+        list.emplace_back("Largest slip", largest(s).judged().status == sliding::SlideStatus::static_sliding
+                                              ? "slides statically"
+                                              : fmt::format("{:.4g} mm", largest(s).judged().max_slip / mm));
     }
     if (scene.criteria.allowable_slip)
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));

@@ -40,6 +40,21 @@ std::string verdict(const sliding::SlideResult& r, const std::optional<double>& 
     return r.max_slip <= *allowable ? "PASS" : "FAIL";
 }
 
+/// A slip means nothing where the block needs no earthquake to slide: it grows for as long as the record lasts.
+Cell slip_cell(const sliding::SlideResult& r, double slip)
+{
+    return r.status == sliding::SlideStatus::static_sliding ? Cell() : Cell(slip);
+}
+
+void note_static_sliding(const Screening& s, Table& table)
+{
+    const RigidModel& m = s.bases.front().model;
+    if (!s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding)
+        table.notes.push_back(fmt::format(
+            "slides statically: no slip is given, it would grow for as long as the record lasts; critical μ = {:.4g}.",
+            m.critical_friction));
+}
+
 } // namespace
 
 Table yield_table(const Screening& s)
@@ -83,13 +98,15 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     for (const SlipRow& row : s.slips) {
         const sliding::SlideResult& r = row.judged();
         t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
-                          row.pga > 0 ? Cell(a_y / row.pga) : Cell(), row.horizontal.slip / mm,
-                          row.with_vertical ? Cell(row.with_vertical->slip / mm) : Cell(), r.max_slip,
-                          r.upstream_slip / mm, static_cast<std::int64_t>(r.lift_offs), status_word(r.status),
-                          verdict(r, allowable)});
+                          row.pga > 0 ? Cell(a_y / row.pga) : Cell(),
+                          slip_cell(row.horizontal, row.horizontal.slip / mm),
+                          row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
+                          slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
+                          static_cast<std::int64_t>(r.lift_offs), status_word(r.status), verdict(r, allowable)});
     }
     t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
                       "component where the record has one.");
+    note_static_sliding(s, t);
     if (allowable)
         t.notes.push_back(
             fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
@@ -130,6 +147,7 @@ Table statistics_table(const Screening& s)
                           q.percentile_84 / mm, q.mean / mm, q.largest / mm,
                           q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(),
                           q.controlling_record});
+    note_static_sliding(s, t);
     return t;
 }
 

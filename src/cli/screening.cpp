@@ -95,6 +95,12 @@ SetStatistics statistics_of(const std::string& quantity, const std::vector<std::
     return s;
 }
 
+/// Largest slip, where it means something: none of a block that slides without an earthquake.
+std::optional<double> dynamic_slip(const sliding::SlideResult& r)
+{
+    return r.status == sliding::SlideStatus::static_sliding ? std::nullopt : std::optional(r.max_slip);
+}
+
 /// Rows come in pairs of polarities: the worse one of each record.
 template <class Select>
 std::vector<std::pair<std::string, double>> worse_polarity(const std::vector<SlipRow>& rows, Select&& slip)
@@ -114,10 +120,9 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
         const auto worse = worse_polarity(rows, select);
         if (!worse.empty()) out.push_back(statistics_of(name, worse, allowable));
     };
-    add("rigid, horizontal", [](const SlipRow& r) { return std::optional<double>(r.horizontal.max_slip); });
-    add("rigid, with vertical", [](const SlipRow& r) {
-        return r.with_vertical ? std::optional<double>(r.with_vertical->max_slip) : std::nullopt;
-    });
+    add("rigid, horizontal", [](const SlipRow& r) { return dynamic_slip(r.horizontal); });
+    add("rigid, with vertical",
+        [](const SlipRow& r) { return r.with_vertical ? dynamic_slip(*r.with_vertical) : std::nullopt; });
     return out;
 }
 

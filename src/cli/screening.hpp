@@ -35,7 +35,7 @@ struct RegressionRow {
     std::string remark;                      ///< outside its range, or why not defined
 };
 
-/// Over the records, each with the worse polarity.
+/// Over the records, each with the worse polarity. A block that slides statically has none.
 struct SetStatistics {
     std::string quantity; ///< "rigid, horizontal", "rigid, with vertical"
     std::size_t n = 0;

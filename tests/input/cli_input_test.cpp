@@ -106,6 +106,17 @@ TEST(CliInput, ScreenFlags)
     EXPECT_EQ(run({"screen", scene, "--record", "no_such_record.csv"}).code, 3);
 }
 
+TEST(CliInput, RecordGenerateNamesTheRange)
+{
+    const auto says = [](const std::string& flag, const std::string& value, const std::string& part) {
+        const Answer a = run({"record", "generate", flag, value});
+        EXPECT_EQ(a.code, 2) << a.talk;
+        EXPECT_NE(a.talk.find(part), std::string::npos) << a.talk;
+    };
+    says("--seed", "-1", "a whole number from 0 to 9223372036854775807");
+    says("--pga-m-s2", "-1", "0.001 to 50 m/s2");
+}
+
 TEST(CliInput, VerifyWithoutACase)
 {
     EXPECT_EQ(run({"verify", "no.such.case"}).code, 2);

@@ -288,6 +288,28 @@ TEST_F(CliScene, AnEffectOfZeroStrengthChangesNothing)
     }
 }
 
+TEST_F(CliScene, ScaleThatOverflowsIsRefusedWithAFix)
+{
+    const ProgramAnswer a = answer_of({"screen", scene(), "--scale", "1e308"});
+    EXPECT_EQ(a.code, 3);
+    EXPECT_NE(a.talk.find("fix:"), std::string::npos) << a.talk;
+    EXPECT_NE(a.talk.find("--scale"), std::string::npos) << a.talk;
+}
+
+// Full water on friction 0.1: the block needs no earthquake to slide, and no slip is a result.
+TEST_F(CliScene, StaticSlidingHasNoSlip)
+{
+    std::ofstream(folder / "block.toml", std::ios::app) << "[reservoir]\nlevel_m = 10\n";
+    const auto j = nlohmann::json::parse(answer_of({"screen", scene(), "--json"}).out);
+    for (const auto& row : j["displacements"]) {
+        EXPECT_EQ(row["status"], "slides statically");
+        for (const char* key : {"slip_h_mm", "max_slip_m", "upstream_slip_mm"}) EXPECT_TRUE(row[key].is_null()) << key;
+    }
+    EXPECT_EQ(j["displacements"].size(), 2u);
+    EXPECT_TRUE(j["statistics"].empty());
+    EXPECT_NE(answer_of({"screen", scene()}).out.find("slides statically: no slip is given"), std::string::npos);
+}
+
 TEST_F(CliScene, ModesGiveTheFrequencies)
 {
     const ProgramAnswer a =

@@ -218,7 +218,7 @@ TEST_P(ShippedRecord, has_its_checksum_spectrum_and_bytes)
     arguments.component = s.component;
     arguments.options.pga = s.pga;
     arguments.options.duration = s.duration;
-    arguments.options.seed = s.seed;
+    arguments.seed = static_cast<std::int64_t>(s.seed);
     arguments.destination.out = file;
     const Record read = parse_record(content, file).front();
     const SpectrumMatch match = spectrum_match(read.acceleration, read.dt, cli::generate_target(arguments), s.pga);
