@@ -79,12 +79,6 @@ Table stage_table(const std::vector<NamedResult>& runs)
     return contact_stage_table(as_contact);
 }
 
-bool ended_properly(const NamedResult& run)
-{
-    return run.result.status == fe2d::RunStatus::at_rest || run.result.status == fe2d::RunStatus::sliding_at_end ||
-           run.result.status == fe2d::RunStatus::static_failure;
-}
-
 } // namespace
 
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
@@ -133,7 +127,9 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     }
     FieldSeries fields(arguments.out, full.model()); // without instants: the reduced run keeps no shapes
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
-    const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), ended_properly);
+    const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const NamedResult& run) {
+                         return ended_properly(run.result.status);
+                     });
     return all ? exit_ok : exit_no_convergence;
 }
 
