@@ -16,14 +16,14 @@ ElasticStick::ElasticStick(MatrixXd& stiffness, const VectorXd& compliance) : co
     soften_ = sum.partialPivLu().inverse();
     stiffness = soften_ * stiffness;
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
-    carry_ = stiffness.rightCols(m) * compliance.asDiagonal();
+    tangential_ = stiffness.rightCols(m);
 }
 
-void ElasticStick::soften(VectorXd& stuck_force, const VectorXd& force_before) const
+void ElasticStick::soften(VectorXd& stuck_force, const VectorXd& elastic) const
 {
     if (!active()) return;
     stuck_force = (soften_ * stuck_force).eval();
-    stuck_force += carry_ * force_before.tail(compliance_.size());
+    stuck_force -= tangential_ * elastic;
 }
 
 VectorXd ElasticStick::give(const VectorXd& force) const

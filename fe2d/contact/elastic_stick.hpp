@@ -16,16 +16,16 @@ public:
     ElasticStick(Eigen::MatrixXd& stiffness, const Eigen::VectorXd& compliance);
 
     bool active() const { return compliance_.size() > 0; }
-    /// λ⁰ of the rigid stick problem into that of V'; `force_before` is λ at which the gaps of λ⁰ were counted from
-    /// (zero when they are whole gaps).
-    void soften(Eigen::VectorXd& stuck_force, const Eigen::VectorXd& force_before) const;
+    /// λ⁰ of the rigid stick problem into that of V'; `elastic` is the elastic part of the tangential gaps at which λ⁰
+    /// holds them, m values [m].
+    void soften(Eigen::VectorXd& stuck_force, const Eigen::VectorXd& elastic) const;
     /// Elastic part of the tangential gaps, -C λ_t, m values [m].
     Eigen::VectorXd give(const Eigen::VectorXd& force) const;
 
 private:
     Eigen::VectorXd compliance_; ///< m values
     Eigen::MatrixXd soften_;     ///< (I + V C)⁻¹
-    Eigen::MatrixXd carry_;      ///< V' C, 2m x m
+    Eigen::MatrixXd tangential_; ///< V' of the tangential gaps, 2m x m
 };
 
 } // namespace damslip::fe2d

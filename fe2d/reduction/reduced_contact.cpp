@@ -55,19 +55,18 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     right_hand_side(c, ground);
     op.stuck_force(load_, massless_, known_, stuck_);
     ContactMemory& memory = state_.contact;
-    op.elastic_stick().soften(stuck_, memory.force);
     const Eigen::MatrixXd& stiffness = op.contact().stiffness();
     for (Index i = 0; i < m; ++i)
         if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
 
     const auto before = std::chrono::steady_clock::now();
     solution_.states = memory.states;
-    const ContactReport report = op.contact().solve(stuck_, law, solution_);
+    solution_.force = memory.force;
+    const VectorXd elastic = memory.elastic;
+    const ContactReport report = op.contact().solve(stuck_, law, memory.elastic, solution_);
     counts_.contact_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 
-    VectorXd tangential = solution_.displacement.tail(m);
-    if (op.elastic_stick().active())
-        tangential += op.elastic_stick().give(solution_.force) - op.elastic_stick().give(memory.force);
+    const VectorXd tangential = solution_.displacement.tail(m) + memory.elastic - elastic;
     const double slip = system_.weights.dot(tangential);
     op.finish(load_, massless_, known_, solution_.force, slip, modal_step_, massless_step_);
 

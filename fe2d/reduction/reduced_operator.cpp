@@ -49,8 +49,7 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
-    elastic_stick_ = fe2d::elastic_stick(plane, options, stiffness);
-    contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
+    contact_ = std::make_unique<JointSolver>(std::move(stiffness), plane.area, options);
 }
 
 void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known,

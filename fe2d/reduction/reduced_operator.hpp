@@ -1,7 +1,6 @@
 #pragma once
 
-#include "fe2d/contact/contact_solver.hpp"
-#include "fe2d/contact/elastic_stick.hpp"
+#include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/reduction/dam_modes.hpp"
 #include "fe2d/run/dynamic_operator.hpp"
 #include "fe2d/time/scheme.hpp"
@@ -37,8 +36,7 @@ public:
                     const ContactOptions& options);
 
     const StepConstants& constants() const { return constants_; }
-    ContactSolver& contact() { return *contact_; }
-    const ElasticStick& elastic_stick() const { return elastic_stick_; }
+    JointSolver& contact() { return *contact_; }
 
     /// λ⁰ for a gap that stays as it is.
     /// @param load  b [..], modal @param massless  π [N/m] @param known  α λ₀ + λ_rest - (slip damping) [N/m]
@@ -57,8 +55,7 @@ private:
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd z_; ///< Φ d⁻¹ μ
-    ElasticStick elastic_stick_;
-    std::unique_ptr<ContactSolver> contact_;
+    std::unique_ptr<JointSolver> contact_;
 };
 
 } // namespace damslip::fe2d

@@ -63,7 +63,7 @@ struct ReducedRun::Motion {
 };
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
-    : full_(full), scene_(scene), options_(std::move(options)),
+    : full_(full), scene_(scene), options_(completed(std::move(options), scene)),
       stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
 {
     const auto start = Clock::now();
@@ -138,7 +138,7 @@ double ReducedRun::truncation_error(const Motion& motion, const Contact& contact
     const ContactMemory memory = coarse_.coarsened(rest);
     const auto slip = [&](const ReducedSystem& system) {
         Strength strength(contact, coarse_.plane());
-        strength.set_separation(options_.separation);
+        strength.set_separation(*options_.separation);
         strength.follow(memory);
         ReducedResult result;
         shake(motion, coarse_.plane(), system, strength, memory, result);
@@ -172,7 +172,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     auto clock = Clock::now();
     StaticContact statics(structure, options_.contact);
     Strength strength(contact.value_or(scene_.contact), structure.plane());
-    strength.set_separation(options_.separation);
+    strength.set_separation(*options_.separation);
     ContactMemory memory(structure.plane().pairs());
     result.stages = full_.statics(statics, strength, memory);
     result.seconds.statics = seconds_since(clock);
@@ -198,7 +198,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         const double coarser = result.slip;
         shake_with(k);
         result.step_error = std::abs(result.slip - coarser);
-        if (result.step_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
+        if (result.step_error <= *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
             break;
     }
     result.truncation_error = truncation_error(loop, contact.value_or(scene_.contact), memory);

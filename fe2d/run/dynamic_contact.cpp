@@ -162,20 +162,20 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
     op.solve_free(free_, structure_.slides_far() ? VectorXd(trace_ * rock_gap_) : rock_gap_);
     op.stuck_force(free_, known_, stuck_);
     ContactMemory& memory = state_.contact;
-    op.elastic_stick().soften(stuck_, memory.force);
     const Eigen::MatrixXd& stiffness = op.contact().stiffness();
     for (Index i = 0; i < m; ++i) // Δg = x - (opening at the start, 0)
         if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
 
     const auto before_contact = Clock::now();
     solution_.states = memory.states;
-    const ContactReport report = op.contact().solve(stuck_, law, solution_);
+    solution_.force = memory.force;
+    elastic_ = memory.elastic;
+    const ContactReport report = op.contact().solve(stuck_, law, memory.elastic, solution_);
     counts_.contact_seconds += seconds_since(before_contact);
 
     gap_ = solution_.displacement;
     gap_.head(m) -= memory.opening;
-    if (op.elastic_stick().active())
-        gap_.tail(m) += op.elastic_stick().give(solution_.force) - op.elastic_stick().give(memory.force);
+    gap_.tail(m) += memory.elastic - elastic_;
     const VectorXd& tilde = op.finish(free_, solution_.force, known_, gap_, dam_interface_);
     du_.swap(free_.dam);
     if (structure_.slides_far())

@@ -106,6 +106,7 @@ private:
     Products products_;          ///< K u, K y, M v, M a of the state, y = b_K (cv v + ca a)
     Eigen::VectorXd rock_force_; ///< K_c r
     Eigen::VectorXd deformation_, combined_, known_, rock_gap_, stuck_, gap_, dam_interface_; ///< work space
+    Eigen::VectorXd elastic_; ///< elastic part of the tangential gaps before the step [m]
     Eigen::VectorXd rate_t_;  ///< tangential gap rates ġ_t
     Eigen::VectorXd accel_t_; ///< and accelerations
     DynamicOperator::Free free_;

@@ -87,8 +87,7 @@ void DynamicOperator::set_contact(const Pairing::Matrix* trace)
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
-    elastic_stick_ = fe2d::elastic_stick(structure_.plane(), options_, stiffness);
-    contact_ = std::make_unique<ContactSolver>(std::move(stiffness), options_);
+    contact_ = std::make_unique<JointSolver>(std::move(stiffness), structure_.plane().area, options_);
 }
 
 void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const

@@ -43,8 +43,7 @@ public:
 
     bool regular() const { return factor_.regular(); }
     const StepConstants& constants() const { return constants_; }
-    ContactSolver& contact() { return *contact_; }
-    const ElasticStick& elastic_stick() const { return elastic_stick_; }
+    JointSolver& contact() { return *contact_; }
     double rock_share() const { return rock_share_; } ///< A_r⁻¹ K_c [-]
 
     /// The step without contact forces at its end.
@@ -89,8 +88,7 @@ private:
     Eigen::VectorXd on_base_;  ///< its interface part on the plane
     Eigen::VectorXd z_;        ///< D A_d⁻¹ m̂
     Eigen::VectorXd tilde_;    ///< λ̃
-    ElasticStick elastic_stick_;
-    std::unique_ptr<ContactSolver> contact_;
+    std::unique_ptr<JointSolver> contact_;
 };
 
 } // namespace damslip::fe2d

@@ -36,12 +36,26 @@ ModelOptions model_options(const RunOptions& options, Base base)
 
 } // namespace
 
-EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
+RunOptions completed(RunOptions options, const Scene& scene)
+{
+    if (!options.separation)
+        options.separation = scene.contact.separation == JointOpening::none ? Separation::none : Separation::allowed;
+    if (!options.range)
+        options.range = scene.contact.sliding == JointPath::finite ? SlidingRange::finite : SlidingRange::small;
+    if (!options.max_slip) options.max_slip = scene.contact.max_slip;
+    if (!options.slip_tolerance) options.slip_tolerance = scene.time.slip_tolerance;
+    if (!options.halvings) options.halvings = scene.time.substeps;
+    if (scene.contact.enforcement == ContactEnforcement::penalty && options.contact.tangential_stiffness == 0.0)
+        options.contact.tangential_stiffness = scene.contact.tangential_stiffness.value();
+    if (scene.contact.enforcement == ContactEnforcement::slip_tolerance && options.contact.slip_tolerance == 0.0)
+        options.contact.slip_tolerance = scene.contact.slip_tolerance;
+    return options;
+}
+
+EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
+    : scene_(scene), options_(completed(std::move(options), scene))
 {
     const auto start = Clock::now();
-    if (!options_.range)
-        options_.range = scene.contact.sliding == JointPath::finite ? SlidingRange::finite : SlidingRange::small;
-    if (!options_.max_slip) options_.max_slip = scene.contact.max_slip;
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
     structure_ = std::make_unique<ContactStructure>(*model_, *options_.range);
     stages_ = load_stages(scene_, *model_, options_.uplift);
@@ -116,7 +130,7 @@ bool at_rest(const RunHistory& history, double rest_time)
 bool diverges(const Energy& energy)
 {
     return !std::isfinite(energy.kinetic) ||
-           energy.contact_normal > 10.0 + 0.05 * (std::abs(energy.external) + energy.friction);
+           energy.contact_normal > 10.0 + 0.05 * (std::abs(energy.external) + std::abs(energy.friction));
 }
 
 } // namespace
@@ -262,7 +276,7 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
     auto clock = Clock::now();
     StaticContact statics_solver(*structure_, options_.contact);
     Strength strength(contact.value_or(scene_.contact), structure_->plane());
-    strength.set_separation(options_.separation);
+    strength.set_separation(*options_.separation);
     ContactMemory memory(structure_->plane().pairs());
     result.stages = statics(statics_solver, strength, memory);
     result.seconds.statics = seconds_since(clock);
@@ -292,7 +306,7 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
         // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
         result.slip_error = std::abs(result.slip - coarser);
         if (result.status == RunStatus::left_plane) break;
-        if (result.slip_error <= options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
+        if (result.slip_error <= *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
             break;
     }
     result.seconds.dynamics = seconds_since(clock);

@@ -19,21 +19,26 @@ struct RunOptions {
     Polyline uplift;                          ///< x = distance from the heel [m], y = pressure [Pa]; empty: none
     Polyline uplift_after;                    ///< the same after the earthquake; empty: as before
     std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
-    Separation separation = Separation::allowed;
-    std::optional<SlidingRange> range; ///< default: the scene's
-    std::optional<double> max_slip; ///< with a finite range the rock's plane is meshed this far past the toe, > 0 [m];
-                                    ///< default: the scene's
-    double slip_tolerance = 0.01;   ///< of the time step: wanted error of the slip over its size, > 0 [-]
-    std::optional<int> halvings;    ///< sub-steps Δt/2^k with this k, 0 ... 10; none: chosen by slip_tolerance
-    int largest_halvings = 5;       ///< when chosen
-    double smallest_slip = 1e-6;    ///< errors below this share of slip_tolerance do not matter [m]
-    double rest_time = 0.5;         ///< the run-out ends when the dam has not slid for this long [s]
-    ContactOptions contact;
+    std::optional<Separation> separation;     ///< default: the scene's
+    std::optional<SlidingRange> range;        ///< default: the scene's
+    std::optional<double> max_slip;           ///< with a finite range the rock's plane is meshed this far past the toe,
+                                              ///< > 0 [m]; default: the scene's
+    std::optional<double> slip_tolerance;     ///< of the time step: wanted error of the slip over its size, > 0 [-];
+                                              ///< default: the scene's
+    std::optional<int> halvings; ///< sub-steps Δt/2^k with this k, 0 ... 10; default: the scene's, else chosen by
+                                 ///< slip_tolerance
+    int largest_halvings = 5;    ///< when chosen
+    double smallest_slip = 1e-6; ///< errors below this share of slip_tolerance do not matter [m]
+    double rest_time = 0.5;      ///< the run-out ends when the dam has not slid for this long [s]
+    ContactOptions contact;      ///< tangential stiffness and slip tolerance, where zero: the scene's
     PairSeries pair_series = PairSeries::none;
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
 };
+
+/// What the options leave open, from the scene: separation, contact law, sub-steps.
+RunOptions completed(RunOptions options, const Scene& scene);
 
 enum class RunStatus {
     at_rest,        ///< the dam has come to rest: the slip is final

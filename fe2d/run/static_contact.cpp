@@ -8,12 +8,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, MatrixXd& stiffness)
-{
-    if (!(options.tangential_stiffness > 0.0)) return {};
-    return {stiffness, (options.tangential_stiffness * plane.area).cwiseInverse()};
-}
-
 namespace {
 
 /// Pᵀ S P
@@ -46,8 +40,7 @@ StaticContact::StaticContact(const ContactStructure& structure, const ContactOpt
         }
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
-    elastic_stick_ = elastic_stick(structure.plane(), options, stiffness);
-    solver_ = std::make_unique<ContactSolver>(std::move(stiffness), options);
+    solver_ = std::make_unique<JointSolver>(std::move(stiffness), structure.plane().area, options);
 }
 
 VectorXd StaticContact::condensed(const SplitLoad& load) const
@@ -72,11 +65,12 @@ ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law,
         stuck += dam_stiffness_ * (trace_ * tied(on_base, load));
     else if (structure_.has_rock())
         stuck = load.rock - structure_.rock_stiffness() * tied(on_base, load);
-    elastic_stick_.soften(stuck, VectorXd::Zero(2 * m));
-    stuck += solver_->stiffness().rightCols(m) * memory.slip;
-    ContactSolution solution{memory.states, {}, {}};
-    const ContactReport report = solver_->solve(stuck, law, solution);
+    stuck += solver_->stiffness().rightCols(m) * (memory.slip + memory.elastic);
+    ContactSolution solution{memory.states, {}, memory.force};
+    VectorXd elastic = memory.elastic;
+    const ContactReport report = solver_->solve(stuck, law, elastic, solution);
     if (!report.resolved()) return report;
+    memory.elastic = elastic;
     memory.states = solution.states;
     memory.force = solution.force;
     memory.opening = solution.displacement.head(m);
@@ -88,8 +82,7 @@ StaticState StaticContact::displacements(const SplitLoad& load, const ContactMem
 {
     const Index m = structure_.plane().pairs();
     VectorXd gap(2 * m);
-    gap << memory.opening, memory.slip;
-    if (elastic_stick_.active()) gap.tail(m) += elastic_stick_.give(memory.force);
+    gap << memory.opening, memory.slip + memory.elastic;
     StaticState state;
     VectorXd u = gap;
     if (structure_.slides_far()) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "fe2d/contact/contact_solver.hpp"
-#include "fe2d/contact/elastic_stick.hpp"
+#include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
 namespace damslip::fe2d {
@@ -12,11 +11,14 @@ struct ContactMemory {
     Eigen::VectorXd opening; ///< g_N [m], m values
     Eigen::VectorXd
         slip; ///< accumulated, positive downstream, without the elastic give of a penalty [m], m values; kept exactly while a pair sticks
+    Eigen::VectorXd elastic; ///< elastic part of the tangential gaps, on top of `slip`; zero where sticking is rigid
+                             ///< [m], m values
     ContactStates states;
 
     explicit ContactMemory(Eigen::Index pairs = 0)
         : force(Eigen::VectorXd::Zero(2 * pairs)), opening(Eigen::VectorXd::Zero(pairs)),
-          slip(Eigen::VectorXd::Zero(pairs)), states(static_cast<std::size_t>(pairs), ContactState::stick)
+          slip(Eigen::VectorXd::Zero(pairs)), elastic(Eigen::VectorXd::Zero(pairs)),
+          states(static_cast<std::size_t>(pairs), ContactState::stick)
     {
     }
 };
@@ -26,9 +28,6 @@ struct StaticState {
     Eigen::VectorXd dam;  ///< of the dam, in its node order [m]
     Eigen::VectorXd rock; ///< of the rock's contact nodes, plane [m]
 };
-
-/// Penalty of the options on this plane; inactive when sticking is rigid. Replaces V by V'.
-ElasticStick elastic_stick(const Plane& plane, const ContactOptions& options, Eigen::MatrixXd& stiffness);
 
 /// Static equilibrium of dam, contact and rock. Nothing but contact holds the dam, so its stiffness is singular; but
 /// with all pairs tied dam and rock together are not. From there (S: the dam's Schur complement, T = S + K_c, g: gaps)
@@ -56,8 +55,7 @@ private:
     Pairing::Matrix trace_;            ///< P; empty: the identity
     Eigen::MatrixXd dam_stiffness_;    ///< S on the plane, where P is not the identity
     Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
-    ElasticStick elastic_stick_;
-    std::unique_ptr<ContactSolver> solver_;
+    std::unique_ptr<JointSolver> solver_;
 };
 
 } // namespace damslip::fe2d

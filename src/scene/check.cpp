@@ -207,6 +207,25 @@ void check_strength(const Scene& s, Findings& f)
         }
 }
 
+void check_joint(const Scene& s, Findings& f)
+{
+    const Contact& c = s.contact;
+    const bool penalty = c.enforcement == ContactEnforcement::penalty;
+    if (penalty && !c.tangential_stiffness)
+        f.wrong("contact.enforcement", "contact.enforcement = \"penalty\" without contact.tangential_stiffness_N_m3.",
+                "both", "add  tangential_stiffness_N_m3 = 1e11  to [contact]");
+    if (!penalty && c.tangential_stiffness)
+        f.wrong("contact.tangential_stiffness",
+                "contact.tangential_stiffness_N_m3 is given, but contact.enforcement is not \"penalty\".",
+                "enforcement = \"penalty\" with tangential_stiffness_N_m3",
+                "write  enforcement = \"penalty\"  or delete tangential_stiffness_N_m3");
+    if (c.enforcement != ContactEnforcement::slip_tolerance && f.given("contact.slip_tolerance"))
+        f.wrong("contact.slip_tolerance",
+                "contact.slip_tolerance is given, but contact.enforcement is not \"slip-tolerance\".",
+                "enforcement = \"slip-tolerance\" with slip_tolerance",
+                "write  enforcement = \"slip-tolerance\"  or delete slip_tolerance");
+}
+
 void check_water(const Scene& s, Findings& f)
 {
     if (s.silt && s.silt->level > crest_level(s.section))
@@ -307,6 +326,12 @@ void check_fe(const Scene& s, Findings& f)
                 fmt::format("{} is above {}.", value("mesh.contact_size_m", *s.mesh.contact_size),
                             value("mesh.size_m", *s.mesh.size)),
                 "at most mesh.size_m", "exchange the two values");
+    if (s.time.substeps && (*s.time.substeps < 0 || *s.time.substeps > 10))
+        f.wrong("time.substeps", fmt::format("time.substeps = {} is not allowed.", *s.time.substeps),
+                "0 ... 10: k of the steps dt / 2^k", "write  substeps = 2  for steps of dt / 4");
+    if (f.given("time.substeps") && f.given("time.slip_tolerance"))
+        f.wrong("time.slip_tolerance", "time.slip_tolerance and time.substeps are both given.",
+                "one of them: fixed sub-steps, or sub-steps chosen to a tolerance", "delete one");
     if (s.time.scheme == TimeScheme::newmark && f.given("time.alpha"))
         f.wrong("time.alpha", "time.alpha belongs to time.scheme = \"hht\", but the scheme is \"newmark\".",
                 "gamma and beta for newmark", "delete alpha or choose hht");
@@ -335,6 +360,19 @@ Section make_section(const SectionInput& in, Findings& findings)
     }
     if (!findings.any()) check_polygon(section.polygon, findings);
     return section;
+}
+
+void apply_preset(Scene& scene, const Findings& findings)
+{
+    if (scene.analysis.preset != AnalysisPreset::goldgruber_2015) return;
+    const auto open = [&findings](const char* key) { return !findings.given(key); };
+    if (open("contact.enforcement")) scene.contact.enforcement = ContactEnforcement::slip_tolerance;
+    if (open("contact.slip_tolerance")) scene.contact.slip_tolerance = 0.005;
+    if (open("contact.separation")) scene.contact.separation = JointOpening::none;
+    if (open("damping.mass")) scene.damping.mass = MassDamping::relative;
+    if (open("time.alpha")) scene.time.alpha = -1.0 / 3.0;
+    if (open("time.dt")) scene.time.dt = 0.01;
+    if (open("time.substeps") && open("time.slip_tolerance")) scene.time.substeps = 0;
 }
 
 void fill_defaults(Scene& scene, const Findings& findings)
@@ -367,6 +405,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
 {
     check_base(scene, findings);
     check_strength(scene, findings);
+    check_joint(scene, findings);
     check_water(scene, findings);
     check_motion(scene, findings, files);
     check_combinations(scene, findings);

@@ -35,7 +35,8 @@ Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
         if (const auto* either = std::get_if<NumberOrWord>(&slot)) return {{"anyOf", {j, {{"const", either->word}}}}};
         return j;
     }
-    if (std::holds_alternative<int*>(slot)) return {{"type", "integer"}};
+    if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot))
+        return {{"type", "integer"}};
     if (std::holds_alternative<bool*>(slot)) return {{"type", "boolean"}};
     if (const auto* c = std::get_if<Choice>(&slot)) return {{"enum", c->words}};
     if (std::holds_alternative<std::vector<Point>*>(slot))
@@ -92,7 +93,7 @@ std::string allowed(const Key& key, const Slot& slot)
 {
     if (const auto* c = std::get_if<Choice>(&slot)) return fmt::format("`{}`", fmt::join(c->words, "`, `"));
     if (std::holds_alternative<bool*>(slot)) return "`true`, `false`";
-    if (std::holds_alternative<int*>(slot)) return "whole number";
+    if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot)) return "whole number";
     if (const auto* either = std::get_if<NumberOrWord>(&slot))
         return key.range.text() + " or `\"" + either->word + "\"`";
     if (is_number(slot)) return key.range.text();

@@ -56,9 +56,9 @@ struct NumberOrWord {
 };
 
 /// Where the value of a key lives in its struct.
-using Slot = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, std::optional<std::string>*,
-                          std::filesystem::path*, std::optional<std::filesystem::path>*, std::vector<Point>*, Choice,
-                          NumberOrWord>;
+using Slot = std::variant<double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
+                          std::optional<std::string>*, std::filesystem::path*, std::optional<std::filesystem::path>*,
+                          std::vector<Point>*, Choice, NumberOrWord>;
 
 struct Key {
     std::string name;   ///< without unit suffix
@@ -71,7 +71,8 @@ struct Key {
     std::string meaning; ///< one sentence
     std::string example; ///< as written in a file: "0.77"
     std::function<Slot(void*)> slot;
-    std::function<bool(const void*)> applies = {}; ///< false: left out of resolved scenes, another choice makes it meaningless
+    std::function<bool(const void*)> applies =
+        {}; ///< false: left out of resolved scenes, another choice makes it meaningless
 
     std::string canonical() const;              ///< name with the first suffix: "level_m"
     std::vector<std::string> spellings() const; ///< all accepted names

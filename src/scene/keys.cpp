@@ -20,6 +20,7 @@ const Units line_force{{"kN_m", 1e3}, {"MN_m", 1e6}, {"N_m", 1.0}};
 const Units unit_weight{{"kN_m3", 1e3}, {"N_m3", 1.0}};
 const Units conductivity{{"m_s", 1.0}, {"cm_s", 0.01}};
 const Units friction{{"", 1.0}, {"deg", 1.0, true}};
+const Units subgrade{{"N_m3", 1.0}, {"MN_m3", 1e6}, {"GN_m3", 1e9}};
 const Units per_second{{"1_s", 1.0}};
 
 template <class T, class Member>
@@ -223,6 +224,20 @@ Key only_with(TimeScheme scheme, Key key)
     return key;
 }
 
+Key only_with(ContactEnforcement enforcement, Key key)
+{
+    key.applies = [enforcement](const void* contact) {
+        return static_cast<const Contact*>(contact)->enforcement == enforcement;
+    };
+    return key;
+}
+
+Key without_substeps(Key key)
+{
+    key.applies = [](const void* options) { return !static_cast<const TimeOptions*>(options)->substeps; };
+    return key;
+}
+
 Key with_residual(Key key)
 {
     key.applies = [](const void* contact) {
@@ -283,19 +298,34 @@ std::vector<KeyGroup> fe_groups()
                                                {"deformation-only", MassDamping::deformation_only},
                                                {"relative", MassDamping::relative},
                                                {"total", MassDamping::total}}))}));
+    groups.push_back(group(
+        "time", "Time integration of the FE model.", &Scene::time,
+        {word("scheme", "hht", "integrator", "\"newmark\"",
+              choice(&TimeOptions::scheme,
+                     std::vector<std::pair<std::string, TimeScheme>>{{"hht", TimeScheme::hht},
+                                                                     {"newmark", TimeScheme::newmark}})),
+         only_with(TimeScheme::hht, number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha", "-0.05",
+                                           at(&TimeOptions::alpha))),
+         only_with(TimeScheme::newmark, number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma", "0.5",
+                                               at(&TimeOptions::gamma))),
+         only_with(TimeScheme::newmark, number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta", "0.25",
+                                               at(&TimeOptions::beta))),
+         number("dt", seconds, Range::above(0), "the record's", "time step", "0.005", at(&TimeOptions::dt)),
+         word("substeps", "chosen by slip_tolerance",
+              "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
+              at(&TimeOptions::substeps)),
+         without_substeps(number("slip_tolerance", none, Range::half_open(0, 1), "0.01",
+                                 "error of the FE slip over its size, to which the sub-steps are chosen", "0.01",
+                                 at(&TimeOptions::slip_tolerance)))}));
     groups.push_back(
-        group("time", "Time integration of the FE model.", &Scene::time,
-              {word("scheme", "hht", "integrator", "\"newmark\"",
-                    choice(&TimeOptions::scheme,
-                           std::vector<std::pair<std::string, TimeScheme>>{{"hht", TimeScheme::hht},
-                                                                           {"newmark", TimeScheme::newmark}})),
-               only_with(TimeScheme::hht, number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha",
-                                                 "-0.05", at(&TimeOptions::alpha))),
-               only_with(TimeScheme::newmark, number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma",
-                                                     "0.5", at(&TimeOptions::gamma))),
-               only_with(TimeScheme::newmark, number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta",
-                                                     "0.25", at(&TimeOptions::beta))),
-               number("dt", seconds, Range::above(0), "the record's", "time step", "0.005", at(&TimeOptions::dt))}));
+        group("analysis", "Settings of a published study as defaults; keys of the file win.", &Scene::analysis,
+              {word("preset", "none",
+                    "goldgruber-2015: slip-tolerance 0.005, no separation, HHT alpha -1/3, time step 0.01 s without "
+                    "sub-steps, mass damping of the relative velocity",
+                    "\"goldgruber-2015\"",
+                    choice(&Analysis::preset, std::vector<std::pair<std::string, AnalysisPreset>>{
+                                                  {"none", AnalysisPreset::none},
+                                                  {"goldgruber-2015", AnalysisPreset::goldgruber_2015}}))}));
     return groups;
 }
 
@@ -403,7 +433,33 @@ std::vector<KeyGroup> base_groups()
                                                                         {"linear", Interpolation::linear}})),
          pairs("friction_table", small_length, none, Range::between(0, 10), "none",
                "mu over accumulated slip, instead of peak and residual; steps or linear as residual_path says",
-               "[[0, 0.84], [0.01, 0.7]]", at(&Contact::friction_table))}));
+               "[[0, 0.84], [0.01, 0.7]]", at(&Contact::friction_table)),
+         word("separation", "allowed",
+              "FE: the joint opens (allowed), or carries tension without shear (none), which lowers the slip and "
+              "breaks the rigid limit",
+              "\"none\"",
+              choice(&Contact::separation,
+                     std::vector<std::pair<std::string, JointOpening>>{{"allowed", JointOpening::allowed},
+                                                                       {"none", JointOpening::none}})),
+         word("enforcement", "exact",
+              "FE, before slip: rigid (exact), elastic with tangential_stiffness (penalty), or with elastic slip "
+              "up to slip_tolerance x contact element length (slip-tolerance); the last two also run exact and "
+              "state the error of the slip",
+              "\"penalty\"",
+              choice(&Contact::enforcement,
+                     std::vector<std::pair<std::string, ContactEnforcement>>{
+                         {"exact", ContactEnforcement::exact},
+                         {"penalty", ContactEnforcement::penalty},
+                         {"slip-tolerance", ContactEnforcement::slip_tolerance}})),
+         only_with(ContactEnforcement::penalty,
+                   number("tangential_stiffness", subgrade, Range::above(0), "required with penalty",
+                          "enforcement penalty: shear stress per elastic slip", "1e11",
+                          at(&Contact::tangential_stiffness))),
+         only_with(ContactEnforcement::slip_tolerance,
+                   number("slip_tolerance", none, Range::half_open(0, 1), "0.005",
+                          "enforcement slip-tolerance: F_f, elastic slip at the strength over the mean length of "
+                          "the contact elements (4-10)",
+                          "0.005", at(&Contact::slip_tolerance)))}));
     groups.push_back(optional_group(
         "uplift", "Water pressure in the base. Without this table: seepage where a [curtain] is given, else none.",
         &Scene::uplift,

@@ -165,6 +165,14 @@ private:
         return std::nullopt;
     }
 
+    std::optional<int> whole_number(const Key& key, const std::string& spelling, const toml::node& node)
+    {
+        const auto v = node.value_exact<int64_t>();
+        if (v && *v >= -1000 && *v <= 1000) return static_cast<int>(*v);
+        not_allowed(key, spelling, node, "a whole number: " + key.meaning);
+        return std::nullopt;
+    }
+
     void assign(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,
                 void* object)
     {
@@ -180,11 +188,9 @@ private:
                          number(key, unit, key.units, key.range, spelling, node, " or \"" + either->word + "\""))
                 *either->number = *v;
         } else if (auto* const* i = std::get_if<int*>(&slot)) {
-            const auto v = node.value_exact<int64_t>();
-            if (v && *v >= -1000 && *v <= 1000)
-                **i = static_cast<int>(*v);
-            else
-                not_allowed(key, spelling, node, "a whole number: " + key.meaning);
+            if (const auto v = whole_number(key, spelling, node)) **i = *v;
+        } else if (auto* const* oi = std::get_if<std::optional<int>*>(&slot)) {
+            if (const auto v = whole_number(key, spelling, node)) **oi = *v;
         } else if (auto* const* b = std::get_if<bool*>(&slot)) {
             if (const auto v = node.value_exact<bool>())
                 **b = *v;
@@ -392,6 +398,7 @@ Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
     if (scene.title.empty()) scene.title = file.stem().string();
     if (!findings.any()) { // a second look at values only when each is right by itself
         resolve_paths(scene);
+        apply_preset(scene, findings);
         fill_defaults(scene, findings);
         check_consistency(scene, findings, check);
     }

@@ -118,6 +118,9 @@ struct Drains {
 enum class Interpolation { steps, linear };
 enum class JointPath { small, finite }; ///< FE: nodes stay opposite each other, or face the rock they have slid to
 
+enum class JointOpening { allowed, none };                        ///< none: a modelling shortcut, see Contact
+enum class ContactEnforcement { exact, penalty, slip_tolerance }; ///< of sticking: rigid, or with elastic slip first
+
 /// Strength of the base. Cohesion acts on the compressed length until the first slip.
 struct Contact {
     double friction = 0.0;                   ///< Coulomb mu, peak [-]
@@ -126,10 +129,16 @@ struct Contact {
     std::optional<double> residual_friction; ///< mu after `residual_slip` [-]
     double residual_slip = 0.0; ///< accumulated slip at which the residual value is reached [m]; 0: at first slip
     Interpolation residual_path =
-        Interpolation::steps;             ///< between peak and residual: a step at residual_slip, or linear in slip
-    JointPath sliding = JointPath::small; ///< FE
-    double max_slip = 1.0;                ///< FE, sliding finite: the dam may slide this far downstream [m]
-    std::vector<Point> friction_table;    ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
+        Interpolation::steps;          ///< between peak and residual: a step at residual_slip, or linear in slip
+    std::vector<Point> friction_table; ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
+
+    // FE runs only.
+    JointOpening separation = JointOpening::allowed; ///< none: the joint pulls; lowers the slip, breaks the rigid limit
+    ContactEnforcement enforcement = ContactEnforcement::exact;
+    std::optional<double> tangential_stiffness; ///< of enforcement `penalty` [N/m^3]
+    double slip_tolerance = 0.005; ///< F_f of enforcement `slip_tolerance`: elastic slip F_f x element length [-]
+    JointPath sliding = JointPath::small;
+    double max_slip = 1.0; ///< with finite sliding the dam may go this far downstream [m]
 };
 
 struct RecordFiles {
@@ -228,6 +237,15 @@ struct TimeOptions {
     double alpha = -0.05;            ///< HHT, -1/3 ... 0 [-]
     double gamma = 0.5, beta = 0.25; ///< Newmark [-]
     std::optional<double> dt;        ///< [s]; default: the record's
+    std::optional<int> substeps;     ///< k of FE steps dt / 2^k, 0 ... 10; none: chosen by slip_tolerance
+    double slip_tolerance = 0.01;    ///< error of the slip over its size wanted of the time step [-]
+};
+
+enum class AnalysisPreset { none, goldgruber_2015 };
+
+/// A preset sets defaults (apply_preset); what the file says itself wins.
+struct Analysis {
+    AnalysisPreset preset = AnalysisPreset::none;
 };
 
 /// A figure the scene's author knows by other means; examples are tests by these.
@@ -263,6 +281,7 @@ struct Scene {
     Stages stages;
     Damping damping;
     TimeOptions time;
+    Analysis analysis;
     std::vector<Expectation> expectations;
 };
 

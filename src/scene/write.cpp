@@ -92,8 +92,15 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
         std::string operator()(double* v) const { return number_line(key, *v); }
         std::string operator()(std::optional<double>* v) const { return *v ? number_line(key, **v) : ""; }
         std::string operator()(int* v) const { return key.name + " = " + std::to_string(*v) + "\n"; }
+        std::string operator()(std::optional<int>* v) const
+        {
+            return *v ? key.name + " = " + std::to_string(**v) + "\n" : "";
+        }
         std::string operator()(bool* v) const { return key.name + (*v ? " = true\n" : " = false\n"); }
-        std::string operator()(std::string* v) const { return v->empty() ? "" : key.name + " = " + toml_text(*v) + "\n"; }
+        std::string operator()(std::string* v) const
+        {
+            return v->empty() ? "" : key.name + " = " + toml_text(*v) + "\n";
+        }
         std::string operator()(std::optional<std::string>* v) const
         {
             return *v ? key.name + " = " + toml_text(**v) + "\n" : "";

@@ -1,0 +1,45 @@
+#include "fe2d/contact/joint_solver.hpp"
+
+#include <algorithm>
+
+namespace damslip::fe2d {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// γ_e = F_f l, l the mean length of the contact elements (Goldgruber 2015, 4-10): m pairs are m - 1 elements.
+VectorXd elastic_slip(const VectorXd& area, double slip_tolerance)
+{
+    const auto elements = static_cast<double>(std::max<Eigen::Index>(1, area.size() - 1));
+    return VectorXd::Constant(area.size(), slip_tolerance * area.sum() / elements);
+}
+
+} // namespace
+
+JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
+    : stiffness_(std::move(stiffness))
+{
+    if (options.slip_tolerance > 0.0) {
+        slip_tolerance_ =
+            std::make_unique<SlipTolerance>(stiffness_, elastic_slip(area, options.slip_tolerance), options);
+        return;
+    }
+    MatrixXd softened = stiffness_;
+    if (options.tangential_stiffness > 0.0)
+        elastic_stick_ = ElasticStick(softened, (options.tangential_stiffness * area).cwiseInverse());
+    rigid_ = std::make_unique<ContactSolver>(std::move(softened), options);
+}
+
+ContactReport JointSolver::solve(VectorXd stuck_force, const ContactLaw& law, VectorXd& elastic,
+                                 ContactSolution& solution)
+{
+    if (slip_tolerance_) return slip_tolerance_->solve(stuck_force, law, elastic, solution);
+    elastic_stick_.soften(stuck_force, elastic);
+    const ContactReport report = rigid_->solve(stuck_force, law, solution);
+    if (elastic_stick_.active()) elastic = elastic_stick_.give(solution.force);
+    return report;
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fe2d/contact/elastic_stick.hpp"
+#include "fe2d/contact/slip_tolerance.hpp"
+
+#include <memory>
+
+namespace damslip::fe2d {
+
+/// Contact of one plane by the law the options choose: sticking is rigid (ContactSolver), gives way by a constant
+/// stiffness (ElasticStick) or by elastic slip that follows the pressure (SlipTolerance).
+class JointSolver {
+public:
+    /// @param stiffness  V of rigid sticking
+    /// @param area       length of the base that belongs to each pair [m]
+    JointSolver(Eigen::MatrixXd stiffness, const Eigen::VectorXd& area, const ContactOptions& options);
+    JointSolver(const JointSolver&) = delete;
+    JointSolver& operator=(const JointSolver&) = delete;
+
+    const Eigen::MatrixXd& stiffness() const { return stiffness_; } ///< V of rigid sticking
+
+    /// @param stuck_force  λ⁰ of a gap that stays as it is, elastic part included [N/m]
+    /// @param elastic      elastic part of the tangential gaps, at the start and at the end, m values [m]; zero where
+    ///                     sticking is rigid
+    /// @param solution     on entry states and forces of the start; its slips are net of the elastic part
+    ContactReport solve(Eigen::VectorXd stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
+                        ContactSolution& solution);
+
+private:
+    Eigen::MatrixXd stiffness_;
+    ElasticStick elastic_stick_;
+    std::unique_ptr<SlipTolerance> slip_tolerance_;
+    std::unique_ptr<ContactSolver> rigid_; ///< of V, or of V' behind the elastic stick
+};
+
+} // namespace damslip::fe2d
