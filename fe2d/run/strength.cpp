@@ -23,7 +23,9 @@ double Strength::friction_at(double slip) const
     if (!table.empty()) {
         if (slip <= table.front().x) return table.front().y;
         for (std::size_t k = 0; k + 1 < table.size(); ++k)
-            if (slip < table[k + 1].x)
+            if (slip < table[k + 1].x && contact_.residual_path == Interpolation::steps)
+                return table[k].y;
+            else if (slip < table[k + 1].x)
                 return table[k].y + (slip - table[k].x) / (table[k + 1].x - table[k].x) * (table[k + 1].y - table[k].y);
         return table.back().y;
     }

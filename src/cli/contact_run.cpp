@@ -1,5 +1,6 @@
 #include "cli/contact_run.hpp"
 
+#include "cli/contact_law.hpp"
 #include "cli/contact_options.hpp"
 #include "cli/contact_tables.hpp"
 #include "cli/explain_command.hpp"
@@ -24,9 +25,9 @@ namespace damslip::cli {
 
 namespace {
 
-std::vector<std::string> run_messages(const std::vector<ContactRun>& runs)
+std::vector<std::string> run_messages(const Scene& scene, const std::vector<ContactRun>& runs)
 {
-    std::vector<std::string> messages;
+    std::vector<std::string> messages = contact_law_notes(scene);
     for (const ContactRun& r : runs)
         if (r.fe.status != fe2d::RunStatus::at_rest) messages.push_back(r.record + ": " + r.fe.message);
     return messages;
@@ -78,6 +79,15 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const fe2d::EarthquakeRun model(scene, options);
+    const std::optional<Scene> exact_scene = with_exact_contact(scene);
+    std::optional<fe2d::EarthquakeRun> exact;
+    if (exact_scene) {
+        options.pair_series = fe2d::PairSeries::none;
+        options.progress = [&](const fe2d::RunProgress&) {
+            return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+        };
+        exact.emplace(*exact_scene, options);
+    }
     const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
 
     FieldSeries fields(arguments.out, model.model());
@@ -85,8 +95,9 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
         const GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
-        runs.push_back({pair.files.name, model.run(motion), std::nullopt});
+        runs.push_back({pair.files.name, model.run(motion), std::nullopt, std::nullopt});
         ContactRun& r = runs.back();
+        if (exact && !interrupt.interrupted()) r.exact = exact->run(motion);
         if (rigid.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene, rigid, motion, 1);
         if (!arguments.out.empty()) write_run(arguments.out, scene, r);
         if (r.fe.displacement.size())
@@ -108,7 +119,8 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["slip"] = json_of(contact_slip_table(runs));
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
-    j["messages"] = run_messages(runs);
+    if (exact) j["contact_law"] = json_of(contact_law_table(runs));
+    j["messages"] = run_messages(scene, runs);
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
@@ -119,7 +131,8 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
                     << report::text(contact_stage_table(runs)) << "\n"
                     << report::text(contact_run_table(runs)) << "\n"
                     << report::text(contact_slip_table(runs));
-        for (const std::string& message : run_messages(runs)) streams.out << "note: " << message << "\n";
+        if (exact) streams.out << "\n" << report::text(contact_law_table(runs));
+        for (const std::string& message : run_messages(scene, runs)) streams.out << "note: " << message << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
     const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };

@@ -80,7 +80,9 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
 Table contact_run_table(const std::vector<ContactRun>& runs)
 {
     Table t;
-    t.title = "Earthquake runs, exact contact";
+    const bool gives_way =
+        std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.exact.has_value(); });
+    t.title = gives_way ? "Earthquake runs" : "Earthquake runs, exact contact";
     t.columns = {{"record", "record", "", 4},
                  {"status", "status", "", 4},
                  {"slip_mm", "slip FE", "mm", 5},

@@ -15,6 +15,7 @@ struct ContactRun {
     std::string record;
     fe2d::RunResult fe;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
 };
 
 /// "at rest", "sliding at end", "static failure", ...
