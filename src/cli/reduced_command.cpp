@@ -71,7 +71,8 @@ Table stage_table(const std::vector<NamedResult>& runs)
 {
     std::vector<ContactRun> as_contact;
     for (const auto& [record, result] : runs) {
-        ContactRun run{record, {}, std::nullopt};
+        ContactRun run;
+        run.record = record;
         run.fe.stages = result.stages;
         run.fe.after = result.after;
         as_contact.push_back(std::move(run));

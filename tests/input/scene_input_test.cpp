@@ -55,7 +55,8 @@ TEST(SceneInput, UnknownKeyGetsASuggestion)
 {
     EXPECT_EQ(message(with("friction = 0.77", "friction = 0.77\nresidual_pth = 3")),
               "dam.toml:10:1: error: unknown key contact.residual_pth. Did you mean contact.residual_path?\n"
-              "  expected: keys of [contact]: friction, cohesion_kPa, cohesion_lost_at_slip, residual_friction, "
+              "  expected: keys of [contact]: friction, cohesion_kPa, cohesion_lost_at_slip, sliding, max_slip_m, "
+              "residual_friction, "
               "residual_slip_m, residual_path, friction_table_m, separation, enforcement, "
               "tangential_stiffness_N_m3, slip_tolerance\n"
               "  fix:      write  residual_path");

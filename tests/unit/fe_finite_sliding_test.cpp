@@ -159,6 +159,18 @@ TEST(FeFiniteSliding, leaving_the_meshed_plane_is_a_status)
     EXPECT_GT(result.history.time.size(), 100u);
 }
 
+TEST(FeFiniteSliding, is_asked_for_in_the_scene)
+{
+    Scene scene = sliding_dam(0.70);
+    EXPECT_FALSE(EarthquakeRun(scene, options_of(scene)).structure().slides_far());
+    scene.contact.sliding = JointPath::finite;
+    scene.contact.max_slip = 3.0;
+    const EarthquakeRun run(scene, options_of(scene));
+    ASSERT_TRUE(run.structure().slides_far());
+    EXPECT_GE(run.structure().pairing().reach_downstream(), 3.0);
+    EXPECT_LT(run.structure().pairing().reach_downstream(), 3.0 + *scene.mesh.contact_size);
+}
+
 // Without motion nothing happens, whatever the rock it stands on.
 TEST(FeFiniteSliding, start_is_in_equilibrium)
 {
