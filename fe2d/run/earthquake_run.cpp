@@ -196,6 +196,7 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
     result.pair_slip = end.contact.slip - memory.slip;
     result.pair_opening = end.contact.opening;
     result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
+    if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
     result.bytes = dynamics.bytes();
     result.seconds.contact += result.counts.contact_seconds;
 
@@ -264,6 +265,18 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     return results;
 }
 
+/// Displacements at the end of the gravity stage where the scene counts from there; else empty.
+VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength& strength) const
+{
+    if (!scene_.stages.geostatic) return {};
+    ContactMemory memory(structure_->plane().pairs());
+    Strength trial = strength;
+    const SplitLoad load = split(0);
+    if (solve_stage(statics, *structure_, stages_.names[0], load, trial, memory).status != StageStatus::ok) return {};
+    const StaticState state = statics.displacements(load, memory);
+    return structure_->assemble(state.dam, state.rock, stages_.loads[0]);
+}
+
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
 {
     RunResult result;
@@ -278,6 +291,7 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
     Strength strength(contact.value_or(scene_.contact), structure_->plane());
     strength.set_separation(*options_.separation);
     ContactMemory memory(structure_->plane().pairs());
+    result.zero_displacement = zero_displacement(statics_solver, strength);
     result.stages = statics(statics_solver, strength, memory);
     result.seconds.statics = seconds_since(clock);
     if (result.stages.back().status != StageStatus::ok) {

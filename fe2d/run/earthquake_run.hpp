@@ -76,7 +76,8 @@ struct RunResult {
     double energy_error = 0.0;                ///< |imbalance| at the end over the largest term [-]
     Eigen::VectorXd pair_distance, pair_area; ///< [m]
     Eigen::VectorXd pair_pressure, pair_shear, pair_slip, pair_opening; ///< at the end [Pa, Pa, m, m]
-    Eigen::VectorXd displacement; ///< at the end, on all unknowns of the model [m]
+    Eigen::VectorXd displacement;      ///< at the end, on all unknowns of the model, from `zero_displacement` on [m]
+    Eigen::VectorXd zero_displacement; ///< of the gravity stage where scene.stages.geostatic is set; else empty [m]
     RunSeconds seconds;
     std::size_t bytes = 0;
 };
@@ -107,6 +108,7 @@ public:
 private:
     void find_damping();
     SplitLoad split(std::size_t stage) const;
+    Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     void shake(const GroundMotion& motion, int halvings, const Strength& strength, const ContactMemory& memory,
                const StaticState& start, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;

@@ -66,6 +66,27 @@ TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
     EXPECT_NE(run.run(silence(0.5, 0.01), with_friction(expected + 1e-4)).status, RunStatus::static_failure);
 }
 
+// Displacements counted from the end of the gravity stage: the rest of the run does not know. What gravity alone makes
+// is the displacement of a scene without water and uplift.
+TEST(FeRun, geostatic_start_counts_displacements_from_gravity_on)
+{
+    Scene scene = sliding_dam(0.77);
+    const RunResult plain = EarthquakeRun(scene, options_of(scene)).run(silence(0.2, 0.01));
+    Scene dry = scene;
+    dry.reservoir.reset();
+    dry.uplift.reset();
+    RunOptions options = options_of(scene);
+    options.uplift.clear();
+    const RunResult gravity = EarthquakeRun(dry, options).run(silence(0.2, 0.01));
+    scene.stages.geostatic = true;
+    const RunResult zero = EarthquakeRun(scene, options_of(scene)).run(silence(0.2, 0.01));
+    EXPECT_EQ(zero.slip, plain.slip);
+    ASSERT_EQ(zero.displacement.size(), gravity.displacement.size());
+    const VectorXd expected = plain.displacement - gravity.displacement;
+    EXPECT_LT((zero.displacement - expected).norm(), 1e-9 * plain.displacement.norm());
+    EXPECT_GT(gravity.displacement.norm(), 0.1 * plain.displacement.norm());
+}
+
 // Nothing moves without shaking: 1000 s at 95 % of the static limit. A sticking pair keeps its slip to the last bit.
 TEST(FeRun, no_creep)
 {
