@@ -85,6 +85,10 @@ Table stage_table(const std::vector<NamedResult>& runs)
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
                 const std::vector<RecordPair>& records, const Streams& streams)
 {
+    if (scene.contact.sliding == JointPath::finite)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
+                                    "contact.sliding = \"small\", the modes are those of one place on the rock",
+                                    "run without --reduced, or write  sliding = \"small\"  in [contact]"});
     SeepageSource seepage;
     const InterruptGuard interrupt;
     fe2d::RunOptions options = contact_options(scene, records, seepage);

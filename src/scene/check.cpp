@@ -224,6 +224,9 @@ void check_joint(const Scene& s, Findings& f)
                 "contact.slip_tolerance is given, but contact.enforcement is not \"slip-tolerance\".",
                 "enforcement = \"slip-tolerance\" with slip_tolerance",
                 "write  enforcement = \"slip-tolerance\"  or delete slip_tolerance");
+    if (c.sliding != JointPath::finite && f.given("contact.max_slip"))
+        f.wrong("contact.max_slip", "contact.max_slip_m is given, but contact.sliding is not \"finite\".",
+                "sliding = \"finite\" with max_slip_m", "write  sliding = \"finite\"  or delete max_slip_m");
 }
 
 void check_water(const Scene& s, Findings& f)

@@ -232,6 +232,12 @@ Key only_with(ContactEnforcement enforcement, Key key)
     return key;
 }
 
+Key only_with(JointPath sliding, Key key)
+{
+    key.applies = [sliding](const void* contact) { return static_cast<const Contact*>(contact)->sliding == sliding; };
+    return key;
+}
+
 Key without_substeps(Key key)
 {
     key.applies = [](const void* options) { return !static_cast<const TimeOptions*>(options)->substeps; };
@@ -417,10 +423,12 @@ std::vector<KeyGroup> base_groups()
               "\"finite\"",
               choice(&Contact::sliding, std::vector<std::pair<std::string, JointPath>>{{"small", JointPath::small},
                                                                                        {"finite", JointPath::finite}})),
-         number("max_slip", length, Range::between(0.01, 100), "1",
-                "FE, sliding finite: largest slip downstream, 1 m upstream; a run that goes further stops and "
-                "says so",
-                "5", at(&Contact::max_slip)),
+         only_with(
+             JointPath::finite,
+             number("max_slip", length, Range::between(0.01, 100), "1",
+                    "FE, sliding finite: largest slip downstream, 1 m upstream; a run that goes further stops and "
+                    "says so",
+                    "5", at(&Contact::max_slip))),
          number("residual_friction", friction, Range::between(0, 10), "the peak value",
                 "Coulomb mu after residual_slip", "0.65", at(&Contact::residual_friction)),
          with_residual(number("residual_slip", small_length, Range::at_least(0), "0 (at first slip)",

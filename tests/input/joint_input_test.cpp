@@ -38,6 +38,15 @@ TEST(JointInput, StiffnessAndPenaltyBelongTogether)
               "  fix:      for example  tangential_stiffness_N_m3 = 1e11");
 }
 
+TEST(JointInput, ReachBelongsToFiniteSliding)
+{
+    EXPECT_EQ(joint_message("max_slip_m = 5\n"),
+              "dam.toml:8:1: error: contact.max_slip_m is given, but contact.sliding is not \"finite\".\n"
+              "  expected: sliding = \"finite\" with max_slip_m\n"
+              "  fix:      write  sliding = \"finite\"  or delete max_slip_m");
+    EXPECT_EQ(joint_message("sliding = \"finite\"\nmax_slip_m = 5\n"), "(accepted)");
+}
+
 TEST(JointInput, SlipToleranceBelongsToItsLaw)
 {
     EXPECT_EQ(joint_message("slip_tolerance = 0.005\n"),
