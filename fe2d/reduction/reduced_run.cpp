@@ -21,26 +21,12 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr int coarse_pairs = 22;    ///< of the plane of the estimate
-constexpr double rest_share = 1e-4; ///< as in the full run: change of the slip within the rest time that is rest [-]
-constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
+constexpr int coarse_pairs = 22; ///< of the plane of the estimate
 
 /// Modes of the estimate's reference: four times as many, or twice where that would cost more than the run.
 int reference_modes(int modes)
 {
     return std::max(2 * modes, std::min(4 * modes, 64));
-}
-
-/// Has the mean slip stayed the same for the rest time?
-bool at_rest(const ReducedHistory& history, double rest_time)
-{
-    const double now = history.time.back(), slip = history.slip.back();
-    const double limit = std::max(rest_slip, rest_share * std::abs(slip));
-    for (std::size_t k = history.time.size(); k-- > 0;) {
-        if (std::abs(history.slip[k] - slip) > limit) return false;
-        if (now - history.time[k] >= rest_time - 1e-9) return true;
-    }
-    return false;
 }
 
 void record(const ReducedContact& dynamics, ReducedHistory& history)
@@ -117,7 +103,8 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
             result.status = RunStatus::diverged;
             break;
         }
-        if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
+        if (n + 1 >= record_steps + rest_steps &&
+            at_rest(result.history.time, result.history.slip, options_.rest_time)) {
             result.status = RunStatus::at_rest;
             break;
         }

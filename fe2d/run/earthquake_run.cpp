@@ -111,21 +111,6 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
 
 namespace {
 
-constexpr double rest_share = 1e-4; ///< change of the slip within the rest time that counts as rest [-]
-constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
-
-/// Has the mean slip stayed the same for the rest time?
-bool at_rest(const RunHistory& history, double rest_time)
-{
-    const double now = history.time.back(), slip = history.slip.back();
-    const double limit = std::max(rest_slip, rest_share * std::abs(slip));
-    for (std::size_t k = history.time.size(); k-- > 0;) {
-        if (std::abs(history.slip[k] - slip) > limit) return false;
-        if (now - history.time[k] >= rest_time - 1e-9) return true;
-    }
-    return false;
-}
-
 /// Energy that contact or the scheme has made up, beyond what the ground and the weights gave.
 bool diverges(const Energy& energy)
 {
@@ -176,7 +161,8 @@ void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Streng
             result.status = RunStatus::diverged;
             break;
         }
-        if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
+        if (n + 1 >= record_steps + rest_steps &&
+            at_rest(result.history.time, result.history.slip, options_.rest_time)) {
             result.status = RunStatus::at_rest;
             break;
         }

@@ -1,5 +1,7 @@
 #include "fe2d/run/run_history.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace damslip::fe2d {
@@ -8,6 +10,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
+
+constexpr double rest_share = 1e-4; ///< change of the slip within the rest time that counts as rest [-]
+constexpr double rest_slip = 1e-7;  ///< the same, absolute [m]
 
 double middle_of(const Plane& plane)
 {
@@ -29,6 +34,16 @@ VectorXd weights_at_middle(const Plane& plane)
 }
 
 } // namespace
+
+bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, double rest_time)
+{
+    const double limit = std::max(rest_slip, rest_share * std::abs(slip.back()));
+    for (std::size_t k = time.size(); k-- > 0;) {
+        if (std::abs(slip[k] - slip.back()) > limit) return false;
+        if (time.back() - time[k] >= rest_time - 1e-9) return true;
+    }
+    return false;
+}
 
 double base_rotation(const Plane& plane, const VectorXd& opening)
 {

@@ -58,6 +58,9 @@ struct RunHistory {
 /// positive where the heel opens more than the toe, zero for a joint that is shut.
 double base_rotation(const Plane& plane, const Eigen::VectorXd& opening);
 
+/// Has the mean slip stayed the same, to 1e-4 of it or 0.1 µm, for the rest time? Both histories [s, m] of one length.
+bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, double rest_time);
+
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
