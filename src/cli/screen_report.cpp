@@ -146,12 +146,11 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
-    if (motions.size() > 1) {
-        section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
-        section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
-    }
+    const bool slides = !s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding;
+    if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
+    if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
-    if (motions.size() > 2) section.parts.push_back(slip_over_ratio(s));
+    if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
     if (!s.regressions.empty())
         section.parts.push_back(
             TablePart{regression_table(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
