@@ -1,11 +1,9 @@
 #include "verification/modules.hpp"
 
 #include "fe2d/run/earthquake_run.hpp"
-#include "fe2d/time/linear_integrator.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 #include "verification/fe_run_scenes.hpp"
-#include "verification/fe_time_models.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -98,58 +96,6 @@ std::vector<Check> incline()
     return checks;
 }
 
-/// Oscillator (m, k) on a rough plane under F0 cos(Omega t), long after the start; amplitude in units of F0/k.
-double coulomb_amplitude(double frequency_ratio, double friction_ratio, double dt_share, double periods = 100.0)
-{
-    const double omega = 2.0 * pi, drive = frequency_ratio * omega, period = 2.0 * pi / drive;
-    const double force = omega * omega; // F0/k = 1 with m = 1
-    fe2d::LinearIntegrator integrator(oscillator(omega, 0.0), fe2d::average_acceleration());
-    const double dt = period * dt_share;
-    const fe2d::StepOperator& op = integrator.step_operator(dt);
-    const double flexibility = op.solve(VectorXd::Ones(1))[0];
-    // One pair: pressed with a constant force, free to slide.
-    fe2d::ContactSolver solver(Eigen::Vector2d(1.0 / flexibility, 1.0 / flexibility).asDiagonal().toDenseMatrix());
-    const fe2d::ContactLaw law = fe2d::uniform_law(1, friction_ratio);
-    fe2d::ContactSolution contact;
-    const auto load = [&](double t) { return VectorXd::Constant(1, force * std::cos(drive * t)); };
-    fe2d::State before = integrator.start(VectorXd::Zero(1), VectorXd::Zero(1), load(0.0)), after;
-    double largest = 0.0;
-    const int steps = static_cast<int>(std::lround(periods / dt_share));
-    for (int n = 1; n <= steps; ++n) {
-        const double t = static_cast<double>(n) * dt;
-        const fe2d::FreeStep free = integrator.free_step(op, before, load(t));
-        solver.solve(Eigen::Vector2d(force, -free.increment[0] / flexibility), law, contact);
-        const VectorXd friction = contact.force.tail(1);
-        integrator.finish_step(op, before, load(t), free, {friction, flexibility * friction}, after);
-        std::swap(before, after);
-        if (n > steps - static_cast<int>(std::lround(1.0 / dt_share)))
-            largest = std::max(largest, std::abs(before.displacement[0]));
-    }
-    return largest;
-}
-
-/// Den Hartog (1931): non-stop motion, r = Omega/omega, R = F_f/F0:  X k/F0 = sqrt(V² - R² U²),  V = 1/(1 - r²),
-/// U = sin(pi/r) / (r (1 + cos(pi/r))).
-double den_hartog(double r, double friction)
-{
-    const double v = 1.0 / (1.0 - r * r), u = std::sin(pi / r) / (r * (1.0 + std::cos(pi / r)));
-    return std::sqrt(v * v - friction * friction * u * u);
-}
-
-std::vector<Check> coulomb_oscillator()
-{
-    std::vector<Check> checks;
-    // Beats of the start die out by friction alone; after 100 periods the peak changes by less than 3e-4.
-    for (const double r : {0.7, 1.3, 1.5})
-        for (const double friction : {0.3, 0.5}) {
-            checks.push_back({"amplitude, r = " + std::to_string(r).substr(0, 3) +
-                                  ", F_f/F_0 = " + std::to_string(friction).substr(0, 3),
-                              "F0/k", den_hartog(r, friction), coulomb_amplitude(r, friction, 1.0 / 2000.0), 5e-3,
-                              Measure::relative});
-        }
-    return checks;
-}
-
 std::vector<Check> energy_and_creep()
 {
     const Scene scene = fe2d::test::sliding_dam(0.70);
@@ -190,10 +136,6 @@ void add_fe_contact_cases(Registry& registry)
     registry.push_back({"fe.contact.incline", "A stiff block on an inclined plane slides as the rigid block.",
                         "event-located rigid block, base inclined", "1 %: first order in the step of 0.0025 s",
                         incline});
-    registry.push_back({"fe.contact.coulomb-oscillator", "Steady amplitude of an oscillator with Coulomb friction.",
-                        "Den Hartog (1931), Trans. ASME 53, 107-115, non-stop motion",
-                        "5e-3: a reversal is known to one of 2000 steps, 2 pi/2000 = 3e-3 of a radian each",
-                        coulomb_oscillator});
     registry.push_back({"fe.contact.energy-and-creep",
                         "The energy of a sliding dam closes, and a dam at rest below its limit does not creep.",
                         "balance of energy; Coulomb's law",
