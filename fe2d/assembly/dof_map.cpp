@@ -30,11 +30,19 @@ DofMap displacement_dofs(const Mesh& mesh, Base base)
         for (const int component : {0, 1}) fix(plane.dam_nodes, component);
     if (base == Base::tied && mesh.has_rock())
         for (const int component : {0, 1}) fix(plane.rock_nodes, component); // replaced below by the dam's unknowns
+    if (base == Base::tied)
+        for (const LiftPlane& lift : mesh.lifts)
+            for (const int component : {0, 1}) fix(lift.upper_nodes, component); // replaced below as well
     number(map);
     if (base == Base::tied && mesh.has_rock())
         for (std::size_t i = 0; i < plane.dam_nodes.size(); ++i)
             for (const int component : {0, 1})
                 map.dofs[2 * plane.rock_nodes[i] + component] = map.dofs[2 * plane.dam_nodes[i] + component];
+    if (base == Base::tied)
+        for (const LiftPlane& lift : mesh.lifts)
+            for (std::size_t i = 0; i < lift.upper_nodes.size(); ++i)
+                for (const int component : {0, 1})
+                    map.dofs[2 * lift.upper_nodes[i] + component] = map.dofs[2 * lift.lower_nodes[i] + component];
     return map;
 }
 

@@ -22,7 +22,7 @@ struct DofMap {
     int node_count() const { return static_cast<int>(dofs.size()) / components; }
 };
 
-/// How the dam stands on the rock.
+/// How the dam stands on the rock, and the blocks above lift joints on what is below them.
 enum class Base {
     tied,    ///< the two nodes of every pair share their unknowns; without rock the base nodes are fixed
     separate ///< the two sides are independent: contact is elsewhere; without rock the dam floats

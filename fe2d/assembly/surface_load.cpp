@@ -54,6 +54,7 @@ void for_each_wet_edge(const Mesh& mesh, const NodeChain& chain, double level, V
                   .from = 0,
                   .to = 0};
         edge.length = std::hypot(edge.pb.x - edge.pa.x, edge.pb.y - edge.pa.y);
+        if (edge.length == 0.0) continue; // the two nodes of a lift joint
         clip(edge, level);
         if (edge.to > edge.from) visit(edge);
     }

@@ -56,7 +56,7 @@ std::vector<double> base_stations(const Scene& scene)
     return stations;
 }
 
-/// Layer stations of the dam: all kinks, and the water level where it is not a sliver away from one of them.
+/// Layer stations of the dam: all kinks and joints, and the water level where it is not a sliver away from one of them.
 std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const Grading& heights)
 {
     std::vector<double> stations = faces.kinks();
@@ -72,6 +72,13 @@ std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const
     return stations;
 }
 
+int index_of(const std::vector<double>& values, double value)
+{
+    const auto nearest = std::min_element(
+        values.begin(), values.end(), [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+    return static_cast<int>(nearest - values.begin());
+}
+
 DamLayout dam_layout(const Scene& scene, const Faces& faces, const MeshSizes& sizes)
 {
     DamLayout layout;
@@ -83,14 +90,8 @@ DamLayout dam_layout(const Scene& scene, const Faces& faces, const MeshSizes& si
     layout.rows = graded_positions(levels, layout.heights);
     for (double& s : layout.rows) s /= height;
     layout.rows.back() = 1.0;
+    for (const Faces::Layer& joint : faces.layers) layout.joints.push_back(index_of(layout.rows, joint.s));
     return layout;
-}
-
-int index_of(const std::vector<double>& values, double value)
-{
-    const auto nearest = std::min_element(
-        values.begin(), values.end(), [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
-    return static_cast<int>(nearest - values.begin());
 }
 
 /// The base's columns with the extensions on both sides, in whole elements of the contact size.

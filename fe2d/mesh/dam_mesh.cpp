@@ -67,6 +67,17 @@ public:
         return row;
     }
 
+    /// The same row again, for the block above a joint.
+    Row again(const Row& below)
+    {
+        Row row{.s = below.s, .fractions = below.fractions, .nodes = {}};
+        for (const int n : below.nodes) {
+            row.nodes.push_back(mesh_.node_count());
+            mesh_.nodes.push_back(Point(mesh_.nodes[n]));
+        }
+        return row;
+    }
+
     Row point(const Row& below)
     {
         Row row{.s = 1.0, .fractions = {0.0}, .nodes = {node(1.0, 0.0)}};
@@ -121,6 +132,13 @@ bool wants_joining(const Row& row, double s_next, const Faces& faces, const DamL
     return row.columns() >= 4 && faces.width_at(s_next) / row.columns() < narrowest_column * wanted;
 }
 
+LiftPlane lift_plane(const Mesh& mesh, const Row& lower, const Row& upper)
+{
+    LiftPlane plane{.lower_nodes = lower.nodes, .upper_nodes = upper.nodes, .distance = {}};
+    for (const int n : lower.nodes) plane.distance.push_back(mesh.nodes[n].x - mesh.nodes[lower.nodes.front()].x);
+    return plane;
+}
+
 } // namespace
 
 void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
@@ -129,8 +147,11 @@ void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
     Row row = build.first_row(layout);
     mesh.contact.dam_nodes = row.nodes;
     mesh.contact.distance = layout.base;
-    mesh.upstream_face.push_back(row.nodes.front());
-    mesh.downstream_face.push_back(row.nodes.back());
+    const auto add_to_faces = [&mesh](const Row& added) {
+        mesh.upstream_face.push_back(added.nodes.front());
+        mesh.downstream_face.push_back(added.nodes.back());
+    };
+    add_to_faces(row);
     for (std::size_t j = 1; j < layout.rows.size(); ++j) {
         const double s = layout.rows[j];
         const bool last = j + 1 == layout.rows.size();
@@ -140,8 +161,12 @@ void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
             row = build.joined(row, s);
         else
             row = build.plain(row, s);
-        mesh.upstream_face.push_back(row.nodes.front());
-        mesh.downstream_face.push_back(row.nodes.back());
+        add_to_faces(row);
+        if (!std::binary_search(layout.joints.begin(), layout.joints.end(), static_cast<int>(j))) continue;
+        const Row upper = build.again(row);
+        mesh.lifts.push_back(lift_plane(mesh, row, upper));
+        row = upper;
+        add_to_faces(row);
     }
     std::reverse(mesh.upstream_face.begin(), mesh.upstream_face.end());
     mesh.crest.assign(row.nodes.rbegin(), row.nodes.rend());

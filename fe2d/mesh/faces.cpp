@@ -75,31 +75,64 @@ Polyline points_of(const Polyline& polygon, const std::vector<std::size_t>& chai
     return points;
 }
 
-Point at(const Polyline& face, double s)
+using Layers = std::vector<Faces::Layer>;
+
+/// Ends of the interval of a face's (s, y) between base, layers and crest that `inside` is true for first.
+template <class Inside>
+std::pair<Faces::Layer, Faces::Layer> interval(const Polyline& face, const Layers& layers, Inside inside)
 {
-    const double y = face.front().y + s * (face.back().y - face.front().y);
+    Faces::Layer from{0.0, face.front().y};
+    for (const Faces::Layer& layer : layers) {
+        if (inside(layer)) return {from, layer};
+        from = layer;
+    }
+    return {from, {1.0, face.back().y}};
+}
+
+Point at(const Polyline& face, const Layers& layers, double s)
+{
     if (s <= 0.0) return face.front();
     if (s >= 1.0) return face.back();
+    const auto [from, to] = interval(face, layers, [s](const Faces::Layer& layer) { return s <= layer.s; });
+    const double y = s == to.s ? to.level : from.level + (s - from.s) / (to.s - from.s) * (to.level - from.level);
     std::size_t i = 0;
     while (i + 2 < face.size() && face[i + 1].y < y) ++i;
     const double t = (y - face[i].y) / (face[i + 1].y - face[i].y);
     return {face[i].x + t * (face[i + 1].x - face[i].x), y};
 }
 
-double parameter(const Polyline& face, double y)
+double parameter(const Polyline& face, const Layers& layers, double y)
 {
-    return (y - face.front().y) / (face.back().y - face.front().y);
+    const auto [from, to] = interval(face, layers, [y](const Faces::Layer& layer) { return y <= layer.level; });
+    if (y == to.level) return to.s;
+    return from.s + (y - from.level) / (to.level - from.level) * (to.s - from.s);
+}
+
+/// The lift joints as layers; s is the mean of where the two faces have the level.
+Layers joint_layers(const Scene& scene, const Polyline& upstream, const Polyline& downstream)
+{
+    const double low = std::max(upstream.front().y, downstream.front().y);
+    const double high = std::min(upstream.back().y, downstream.back().y);
+    Layers layers;
+    for (const LiftJoint& joint : scene.lift_joints) {
+        const double y = joint.elevation;
+        if (!(y > low && y < high))
+            refuse(scene, "lift_joint.elevation_m = " + shortest(y) + " is not between base and crest on both faces.",
+                   "above " + shortest(low) + " m and below " + shortest(high) + " m", "move the joint");
+        layers.push_back({0.5 * (parameter(upstream, {}, y) + parameter(downstream, {}, y)), y});
+    }
+    return layers;
 }
 
 } // namespace
 
 Point Faces::upstream_at(double s) const
 {
-    return at(upstream, s);
+    return at(upstream, layers, s);
 }
 Point Faces::downstream_at(double s) const
 {
-    return at(downstream, s);
+    return at(downstream, layers, s);
 }
 
 double Faces::width_at(double s) const
@@ -117,7 +150,8 @@ std::vector<double> Faces::kinks() const
 {
     std::vector<double> all;
     for (const Polyline* face : {&upstream, &downstream})
-        for (const Point& p : *face) all.push_back(parameter(*face, p.y));
+        for (const Point& p : *face) all.push_back(parameter(*face, layers, p.y));
+    for (const Layer& layer : layers) all.push_back(layer.s);
     std::sort(all.begin(), all.end());
     std::vector<double> distinct;
     for (const double s : all)
@@ -129,7 +163,7 @@ std::vector<double> Faces::kinks() const
 
 double Faces::parameter_of_level(double y) const
 {
-    return parameter(upstream, y);
+    return parameter(upstream, layers, y);
 }
 bool Faces::ends_in_point() const
 {
@@ -157,7 +191,9 @@ Faces split_faces(const Scene& scene)
                "list the vertices from the heel to the toe, then up the downstream face");
     check_rising(scene, up, "upstream");
     check_rising(scene, down, "downstream");
-    return {points_of(polygon, up), points_of(polygon, down)};
+    Faces faces{points_of(polygon, up), points_of(polygon, down), {}};
+    faces.layers = joint_layers(scene, faces.upstream, faces.downstream);
+    return faces;
 }
 
 } // namespace damslip::fe2d

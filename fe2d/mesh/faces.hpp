@@ -9,16 +9,24 @@ namespace damslip::fe2d {
 /// The section as its two faces, each from the base up to the crest. Both are functions of a height parameter s: s = 0
 /// is the base (heel, toe), s = 1 the crest's upstream and downstream end; along each face y is linear in s. For a
 /// horizontal base and crest a line s = const is a horizontal layer; an inclined base or crest is blended linearly over
-/// the height.
+/// the height, piecewise between the lift joints, which are horizontal layers always.
 struct Faces {
-    Polyline upstream;   ///< heel to the upstream end of the crest, y strictly increasing
-    Polyline downstream; ///< toe to the downstream end of the crest, y strictly increasing
+    /// A layer that is horizontal whatever base and crest are.
+    struct Layer {
+        double s = 0.0;     ///< its height parameter
+        double level = 0.0; ///< above the heel [m]
+    };
+
+    Polyline upstream;         ///< heel to the upstream end of the crest, y strictly increasing
+    Polyline downstream;       ///< toe to the downstream end of the crest, y strictly increasing
+    std::vector<Layer> layers; ///< the lift joints, from the bottom up
 
     Point upstream_at(double s) const;
     Point downstream_at(double s) const;
-    double width_at(double s) const;           ///< between the faces at s [m]
-    double height() const;                     ///< mean of both faces' heights [m]
-    std::vector<double> kinks() const;         ///< s of all vertices of both faces, 0 and 1 included, increasing
+    double width_at(double s) const; ///< between the faces at s [m]
+    double height() const;           ///< mean of both faces' heights [m]
+    std::vector<double>
+    kinks() const; ///< s of all vertices of both faces and of the layers, 0 and 1 included, increasing
     double parameter_of_level(double y) const; ///< s at which the upstream face reaches the level y [m]
     bool ends_in_point() const;                ///< the crest is a single point
 };
@@ -27,7 +35,7 @@ struct Faces {
 /// vertex that is flatter than 35 degrees; without that, the highest vertex itself.
 /// @throws InputError naming the vertices (counted from 1) where a face is horizontal or leads downwards, or the
 /// polygon is not
-///         counter-clockwise or has fewer than three vertices.
+///         counter-clockwise or has fewer than three vertices, or a lift joint does not go through both faces.
 Faces split_faces(const Scene& scene);
 
 } // namespace damslip::fe2d

@@ -38,15 +38,24 @@ struct ContactPlane {
         rock_distance; ///< of rock_line from the heel, along the plane; negative upstream of the heel [m]
 };
 
+/// A horizontal joint through the dam: its nodes exist twice, as those of the base do.
+struct LiftPlane {
+    std::vector<int> lower_nodes; ///< of the dam below, upstream to downstream
+    std::vector<int> upper_nodes; ///< of the block above, at the same places
+    std::vector<double> distance; ///< of these nodes from the upstream face, along the joint [m]
+};
+
 struct Mesh {
-    std::vector<Point> nodes;      ///< dam nodes first, then the rock's
+    std::vector<Point> nodes;      ///< dam nodes first (those of lift joints twice), then the rock's
     std::vector<Element> elements; ///< dam first, then rock and curtain
     int dam_node_count = 0;
     int dam_element_count = 0;
 
     ContactPlane contact;
-    NodeChain upstream_face;       ///< of the dam, crest to heel
-    NodeChain downstream_face;     ///< of the dam, toe to crest
+    std::vector<LiftPlane> lifts;  ///< from the bottom up, in the order of Scene::lift_joints
+    NodeChain upstream_face;       ///< of the dam, crest to heel; at a lift joint through both nodes, upper first: an
+                                   ///< edge of no length
+    NodeChain downstream_face;     ///< of the dam, toe to crest; at a lift joint through both nodes, lower first
     NodeChain crest;               ///< downstream end to upstream end; one node where the section ends in a point
     NodeChain floor;               ///< rock surface upstream of the heel, heel to the edge of the box
     NodeChain ground;              ///< rock surface downstream of the toe, edge of the box to the toe

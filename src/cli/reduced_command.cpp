@@ -89,6 +89,11 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
                                     "contact.sliding = \"small\", the modes are those of one place on the rock",
                                     "run without --reduced, or write  sliding = \"small\"  in [contact]"});
+    if (!scene.lift_joints.empty())
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
+                                    fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
+                                    "no [[lift_joint]], the modes are those of a dam of one piece",
+                                    "run without --reduced, or delete the [[lift_joint]]"});
     SeepageSource seepage;
     const InterruptGuard interrupt;
     fe2d::RunOptions options = contact_options(scene, records, seepage);

@@ -182,29 +182,81 @@ void check_base(const Scene& s, Findings& f)
                 fmt::format("from 0 (heel) to {} (toe)", shortest(base)), "add the missing end");
 }
 
-void check_strength(const Scene& s, Findings& f)
+/// @param table  "contact" or "lift_joint[1]"
+void check_strength(const Contact& c, const std::string& table, Findings& f)
 {
-    const Contact& c = s.contact;
+    const auto key = [&table](const char* name) { return table + "." + name; };
     if (c.residual_friction && *c.residual_friction > c.friction)
-        f.wrong("contact.residual_friction",
-                fmt::format("{} is above the peak value, {}.", value("contact.residual_friction", *c.residual_friction),
-                            value("contact.friction", c.friction)),
-                "at most contact.friction", "exchange the two values");
-    if (!c.residual_friction && (f.given("contact.residual_slip")))
-        f.wrong("contact.residual_slip", "contact.residual_slip_m is given without contact.residual_friction.",
-                "both or neither", "add  residual_friction = 0.65  to [contact]");
+        f.wrong(key("residual_friction"),
+                fmt::format("{} = {} is above the peak value, {} = {}.", key("residual_friction"),
+                            shortest(*c.residual_friction), key("friction"), shortest(c.friction)),
+                "at most " + key("friction"), "exchange the two values");
+    if (!c.residual_friction && f.given(key("residual_slip")))
+        f.wrong(key("residual_slip"),
+                fmt::format("{} is given without {}.", key("residual_slip_m"), key("residual_friction")),
+                "both or neither",
+                table == "contact" ? "add  residual_friction = 0.65  to [contact]" : "add  residual_friction = 0.65");
     if (!c.friction_table.empty() && c.residual_friction)
-        f.wrong("contact.friction_table", "contact.friction_table_m and contact.residual_friction are both given.",
+        f.wrong(key("friction_table"),
+                fmt::format("{} and {} are both given.", key("friction_table_m"), key("residual_friction")),
                 "one of them", "delete one");
     for (std::size_t i = 0; i < c.friction_table.size(); ++i)
         if (c.friction_table[i].x < 0 || (i == 0 && c.friction_table[i].x != 0) ||
             (i && c.friction_table[i].x <= c.friction_table[i - 1].x)) {
-            f.wrong("contact.friction_table",
-                    fmt::format("contact.friction_table_m has the slip {} at place {}.",
+            f.wrong(key("friction_table"),
+                    fmt::format("{} has the slip {} at place {}.", key("friction_table_m"),
                                 shortest(c.friction_table[i].x), i + 1),
                     "slips from 0, increasing", "put the pairs in order, the first at slip 0");
             break;
         }
+}
+
+/// The other end of the way a joint must keep, and what is there.
+struct Neighbour {
+    double level;
+    std::string name;
+};
+
+void check_lift_joints(const Scene& s, Findings& f)
+{
+    const double low = std::max(heel(s.section).y, toe(s.section).y), high = crest_level(s.section);
+    const double size = s.mesh.size.value_or((high - std::min(heel(s.section).y, toe(s.section).y)) / 40.0);
+    std::vector<Neighbour> below{{low, "the base"}, {high, "the crest"}};
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.lift_joints.size(); ++i) {
+        const LiftJoint& joint = s.lift_joints[i];
+        const std::string label = fmt::format("lift_joint[{}]", i + 1);
+        check_strength(joint.strength, label, f);
+        if (!names.insert(joint.name).second)
+            f.wrong(label + ".name", fmt::format("two lift joints are named \"{}\".", joint.name), "names that differ",
+                    "rename one");
+        const std::string given = label + "." + value("elevation_m", joint.elevation);
+        const std::string inside =
+            fmt::format("above the base at {} m and below the crest at {} m", shortest(low), shortest(high));
+        if (!(joint.elevation > low && joint.elevation < high)) {
+            f.wrong(label + ".elevation", given + " is not inside the dam.", inside, "move the joint, or delete it");
+            continue;
+        }
+        const double width = width_at_level(s.section, joint.elevation);
+        if (width < size)
+            f.wrong(label + ".elevation",
+                    fmt::format("{}: the section is {:.4g} m wide there, less than one element of {:.4g} m.", given,
+                                width, size),
+                    "a joint at least one element wide", "lower the joint, or give a smaller mesh.size_m");
+        for (const Neighbour& other : below)
+            if (std::abs(other.level - joint.elevation) < 0.5 * size)
+                f.wrong(label + ".elevation",
+                        fmt::format("{} is {:.4g} m from {}: no room for an element of {:.4g} m.", given,
+                                    std::abs(other.level - joint.elevation), other.name, size),
+                        fmt::format("at least half an element, {:.4g} m, between base, joints and crest", 0.5 * size),
+                        "move the joint, or give a smaller mesh.size_m");
+        below.push_back({joint.elevation, label});
+    }
+    if (s.lift_joints.empty()) return;
+    if (s.contact.sliding == JointPath::finite)
+        f.wrong("contact.sliding", "contact.sliding = \"finite\" with a [[lift_joint]].",
+                "sliding = \"small\" where the dam has lift joints",
+                "write  sliding = \"small\"  or delete the [[lift_joint]]");
 }
 
 void check_joint(const Scene& s, Findings& f)
@@ -402,12 +454,15 @@ void fill_defaults(Scene& scene, const Findings& findings)
                                                             : UpliftModel::linear;
     for (PointForce& force : scene.forces)
         if (force.name.empty()) force.name = "force";
+    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
+        if (scene.lift_joints[i].name.empty()) scene.lift_joints[i].name = fmt::format("lift joint {}", i + 1);
 }
 
 void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
 {
     check_base(scene, findings);
-    check_strength(scene, findings);
+    check_strength(scene.contact, "contact", findings);
+    check_lift_joints(scene, findings);
     check_joint(scene, findings);
     check_water(scene, findings);
     check_motion(scene, findings, files);

@@ -174,6 +174,9 @@ Decision decide(Effect effect, const Scene& s, Method method)
                 : s.damping.method != DampingMethod::none ? "damping.method"
                                                           : "damping.method = \"none\"",
                 "a matrix with the pattern of the stiffness"};
+    case Effect::lift_joints:
+        return fe_only(!s.lift_joints.empty(), fmt::format("{} [[lift_joint]]", s.lift_joints.size()),
+                       "no [[lift_joint]]", "each node of a joint twice, one contact pair each");
     }
     return {false, "", ""};
 }
@@ -202,7 +205,8 @@ const std::vector<std::pair<Effect, const char*>>& names()
         {Effect::rock_flexibility, "rock flexibility"},
         {Effect::curtain_stiffness, "curtain stiffness"},
         {Effect::curtain_sealing, "curtain sealing"},
-        {Effect::structural_damping, "structural damping"}};
+        {Effect::structural_damping, "structural damping"},
+        {Effect::lift_joints, "lift joints"}};
     return list;
 }
 
@@ -248,6 +252,7 @@ Scene called_for(const EffectPlan& plan, Scene scene)
     scene.sliding.two_way = plan.on(Effect::upstream_sliding);
     if (!plan.on(Effect::run_out)) scene.sliding.run_out_max = 0.0;
     if (plan.method == Method::finite_elements && !plan.on(Effect::rock_flexibility)) scene.foundation.reset();
+    if (!plan.on(Effect::lift_joints)) scene.lift_joints.clear();
     if (!plan.on(Effect::structural_damping)) scene.damping.method = DampingMethod::none;
     return scene;
 }

@@ -30,7 +30,8 @@ enum class Effect {
     rock_flexibility,
     curtain_stiffness,
     curtain_sealing,
-    structural_damping
+    structural_damping,
+    lift_joints
 };
 
 enum class Method { rigid_block, finite_elements };

@@ -1,6 +1,8 @@
 #include "core/units.hpp"
 #include "scene/key_table.hpp"
 
+#include <set>
+
 namespace damslip {
 
 namespace {
@@ -252,6 +254,38 @@ Key with_residual(Key key)
     return key;
 }
 
+/// A key of the contact strength as a key of the lift joint that has it.
+Key of_joint(Key key)
+{
+    const auto strength = [](const void* joint) { return &static_cast<const LiftJoint*>(joint)->strength; };
+    key.slot = [slot = key.slot, strength](void* joint) { return slot(const_cast<Contact*>(strength(joint))); };
+    if (key.applies)
+        key.applies = [applies = key.applies, strength](const void* joint) { return applies(strength(joint)); };
+    return key;
+}
+
+/// @param contact  keys of [contact]; those of the strength are keys of every joint
+std::vector<Key> lift_joint_keys(const std::vector<Key>& contact)
+{
+    using J = LiftJoint;
+    static const std::set<std::string> of_strength{"friction",      "cohesion",      "cohesion_lost_at_slip",
+                                                   "residual_slip", "residual_path", "residual_friction",
+                                                   "friction_table"};
+    std::vector<Key> keys{word("name", "lift joint and its number", "name in the tables", "\"neck\"", at(&J::name)),
+                          number("elevation", length, Range::any(), "required", "of the joint above the heel", "51.5",
+                                 at(&J::elevation))};
+    for (const Key& key : contact)
+        if (of_strength.contains(key.name)) keys.push_back(of_joint(key));
+    keys.push_back(word(
+        "water", "none",
+        "water in the joint, open or not: none, or linear from the head of the reservoir at the upstream face to that "
+        "of the tailwater at the downstream face, 0 at a dry face",
+        "\"linear\"",
+        choice(&J::water, std::vector<std::pair<std::string, JointWater>>{{"none", JointWater::none},
+                                                                          {"linear", JointWater::linear}})));
+    return keys;
+}
+
 std::vector<KeyGroup> fe_groups()
 {
     std::vector<KeyGroup> groups;
@@ -468,6 +502,11 @@ std::vector<KeyGroup> base_groups()
                           "enforcement slip-tolerance: F_f, elastic slip at the strength over the mean length of "
                           "the contact elements (4-10)",
                           "0.005", at(&Contact::slip_tolerance)))}));
+    groups.push_back(list_group<LiftJoint>(
+        "lift_joint",
+        "A horizontal joint through the dam that may slide and open, for `fe`: the block above a lift or a crack. Its "
+        "separation, enforcement and slip tolerance are those of [contact].",
+        [](Scene& s) -> std::vector<LiftJoint>& { return s.lift_joints; }, lift_joint_keys(groups.back().keys)));
     groups.push_back(optional_group(
         "uplift", "Water pressure in the base. Without this table: seepage where a [curtain] is given, else none.",
         &Scene::uplift,

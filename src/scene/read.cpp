@@ -401,6 +401,8 @@ Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
         apply_preset(scene, findings);
         fill_defaults(scene, findings);
         check_consistency(scene, findings, check);
+        std::sort(scene.lift_joints.begin(), scene.lift_joints.end(),
+                  [](const LiftJoint& a, const LiftJoint& b) { return a.elevation < b.elevation; });
     }
     findings.throw_if_any();
     return scene;

@@ -141,6 +141,21 @@ struct Contact {
     double max_slip = 1.0; ///< with finite sliding the dam may go this far downstream [m]
 };
 
+enum class JointWater {
+    none,
+    linear ///< full head of the upstream water at the upstream face to that of the tailwater at the downstream face
+};
+
+/// A horizontal joint through the dam that may slide and open: a lift joint, a crack below the crest. FE runs only; in
+/// limit equilibrium and for the rigid block the dam is one piece.
+struct LiftJoint {
+    std::string name;
+    double elevation = 0.0; ///< above the heel [m]
+    Contact strength;       ///< friction, cohesion, residual values and table only; the members for FE runs keep their
+                            ///< defaults, [contact] says them for all planes
+    JointWater water = JointWater::none;
+};
+
 struct RecordFiles {
     std::string name;
     std::filesystem::path horizontal; ///< resolved against the scene's folder
@@ -263,6 +278,7 @@ struct Scene {
     Section section;
     Material dam;
     Contact contact;
+    std::vector<LiftJoint> lift_joints; ///< from the bottom up
     std::optional<Foundation> foundation;
     std::optional<Curtain> curtain;
     std::optional<Reservoir> reservoir;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace damslip {
 
@@ -62,6 +63,20 @@ double crest_level(const Section& section)
 {
     return std::max_element(section.polygon.begin(), section.polygon.end(), [](Point a, Point b) { return a.y < b.y; })
         ->y;
+}
+
+double width_at_level(const Section& section, double y)
+{
+    const Polyline& p = section.polygon;
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Point a = p[i], b = p[(i + 1) % p.size()];
+        if (std::min(a.y, b.y) > y || std::max(a.y, b.y) < y || a.y == b.y) continue;
+        const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+        first = std::min(first, x);
+        last = std::max(last, x);
+    }
+    return std::max(0.0, last - first);
 }
 
 Polyline upstream_face(const Section& section)
