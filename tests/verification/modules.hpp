@@ -18,5 +18,6 @@ void add_fe_friction_cases(Registry& registry);
 void add_fe_wave_contact_cases(Registry& registry);
 void add_fe_reduction_cases(Registry& registry);
 void add_fe_seepage_cases(Registry& registry);
+void add_fe_sliding_cases(Registry& registry);
 
 } // namespace damslip::verification
