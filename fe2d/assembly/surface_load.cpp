@@ -82,6 +82,25 @@ std::array<double, 3> edge_mass(const Edge& edge, const AddedMassLaw& law)
     return sum;
 }
 
+/// Adds integral of N^T p dS times `direction`, p piecewise linear over the distance along a straight line of nodes.
+void add_profile(Eigen::VectorXd& sum, const DofMap& dofs, const std::vector<int>& nodes,
+                 const std::vector<double>& distance, const Polyline& profile, const Eigen::Vector2d& direction)
+{
+    for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
+        for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+            const double a = distance[e], b = distance[e + 1], pa = profile[k].x, pb = profile[k + 1].x;
+            const double from = std::max(a, pa), to = std::min(b, pb);
+            if (!(to > from)) continue;
+            for (const LinePoint& g : two_points) { // linear pressure times linear shape: exact
+                const double x = from + g.t * (to - from), t = (x - a) / (b - a);
+                const double p = profile[k].y + (x - pa) / (pb - pa) * (profile[k + 1].y - profile[k].y);
+                const Eigen::Vector2d force = p * g.weight * (to - from) * direction;
+                add(sum, dofs, nodes[e], (1.0 - t) * force);
+                add(sum, dofs, nodes[e + 1], t * force);
+            }
+        }
+}
+
 } // namespace
 
 Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeChain& chain,
@@ -143,19 +162,16 @@ Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline
     const Point first = mesh.nodes[nodes.front()], last = mesh.nodes[nodes.back()];
     const double length = plane.distance.back(), sign = side == ContactSide::dam ? 1.0 : -1.0;
     const Eigen::Vector2d up = sign / length * Eigen::Vector2d(first.y - last.y, last.x - first.x);
-    for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
-        for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
-            const double a = plane.distance[e], b = plane.distance[e + 1], pa = profile[k].x, pb = profile[k + 1].x;
-            const double from = std::max(a, pa), to = std::min(b, pb);
-            if (!(to > from)) continue;
-            for (const LinePoint& g : two_points) { // linear pressure times linear shape: exact
-                const double x = from + g.t * (to - from), t = (x - a) / (b - a);
-                const double p = profile[k].y + (x - pa) / (pb - pa) * (profile[k + 1].y - profile[k].y);
-                const Eigen::Vector2d force = p * g.weight * (to - from) * up;
-                add(sum, dofs, nodes[e], (1.0 - t) * force);
-                add(sum, dofs, nodes[e + 1], t * force);
-            }
-        }
+    add_profile(sum, dofs, nodes, plane.distance, profile, up);
+    return sum;
+}
+
+Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const Polyline& profile)
+{
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
+    const LiftPlane& lift = mesh.lifts.at(joint);
+    add_profile(sum, dofs, lift.upper_nodes, lift.distance, profile, {0.0, 1.0});
+    add_profile(sum, dofs, lift.lower_nodes, lift.distance, profile, {0.0, -1.0});
     return sum;
 }
 

@@ -1,5 +1,7 @@
 #include "fe2d/run/stages.hpp"
 
+#include "fe2d/model/lift_water.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,9 +43,11 @@ LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& u
         stages.names.push_back("water");
         stages.loads.push_back(sum);
     }
-    if (!uplift.empty()) {
+    const VectorXd in_joints = lift_water(scene, model);
+    if (!uplift.empty() || in_joints.size() > 0) {
         sum += uplift_load(model.mesh, model.dofs, uplift, ContactSide::dam);
         sum += uplift_load(model.mesh, model.dofs, uplift, ContactSide::rock);
+        if (in_joints.size() > 0) sum += in_joints;
         stages.names.push_back("uplift");
         stages.loads.push_back(sum);
     }

@@ -47,7 +47,7 @@ struct LoadStages {
     const Eigen::VectorXd& last() const { return loads.back(); }
 };
 
-/// Gravity, water, uplift; stages without loads are left out.
+/// Gravity, water, uplift with the water in lift joints; stages without loads are left out.
 /// @param uplift  pressure profile under the base: x = distance from the heel [m], y = pressure [Pa]; empty: none. It
 /// acts on both sides of the joint, open or not, so contact forces are effective
 LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift);

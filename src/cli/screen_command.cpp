@@ -112,7 +112,11 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                 for (const std::string& warning : r->warnings)
                     streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
 
-    const Screening s = run_screening(scene, plan, records, arguments.jobs);
+    Screening s = run_screening(scene, plan, records, arguments.jobs);
+    if (!given.lift_joints.empty())
+        s.warnings.push_back(fmt::format("Limit equilibrium and rigid block are of the base only; sliding on the {} "
+                                         "[[lift_joint]] is left to `damslip fe`.",
+                                         given.lift_joints.size()));
     if (streams.form == Form::json)
         streams.out << summary(scene, s, records).dump(2) << "\n";
     else

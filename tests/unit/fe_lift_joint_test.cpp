@@ -2,6 +2,7 @@
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "fe2d/mesh/reservoir_mesh.hpp"
+#include "fe2d/model/lift_water.hpp"
 #include "fe2d/model/static_loads.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/statics/static_solution.hpp"
@@ -180,6 +181,48 @@ TEST(FeLiftJoint, TiedModelIsTheUncrackedDam)
     EXPECT_NEAR(v.norm(), u.norm(), 1e-10 * u.norm());
     EXPECT_NEAR((b.stages.back().resultant - a.stages.back().resultant).norm(), 0.0,
                 1e-10 * a.stages.back().resultant.norm());
+}
+
+Eigen::Vector3d lift_resultant(const Mesh& mesh, const DofMap& dofs, const std::vector<int>& nodes,
+                               const Eigen::VectorXd& load)
+{
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero(); // x, y, moment about the upstream end, counter-clockwise
+    for (const int n : nodes) {
+        const double fx = load[dofs(n, 0)], fy = load[dofs(n, 1)];
+        sum += Eigen::Vector3d(fx, fy, (mesh.nodes[n].x - mesh.nodes[nodes.front()].x) * fy);
+    }
+    return sum;
+}
+
+// Water at 60 m over a joint at 51.5 m, dry downstream: a triangle of 8.5 m head over 12 m, 1/2 p L up at L/3 from the
+// upstream face; with 3 m of tailwater over the joint a trapezoid. Both faces, equal and opposite; nothing when tied.
+TEST(FeLiftJoint, WaterPressesOnBothFacesWithTheResultantOfItsProfile)
+{
+    Scene scene = cracked(test::reference_dam_on_rock(), {51.5});
+    scene.reservoir = Reservoir{.level = 60.0};
+    const Mesh mesh = build_mesh(scene);
+    const LiftPlane& lift = mesh.lifts.front();
+    const DofMap separate = displacement_dofs(mesh, Base::separate), tied = displacement_dofs(mesh, Base::tied);
+    EXPECT_TRUE(lift_water_profile(scene, scene.lift_joints[0], 12.0).empty()); // water = none
+    scene.lift_joints[0].water = JointWater::linear;
+    for (const double tail : {0.0, 3.0}) {
+        scene.tailwater = Tailwater{.level = 51.5 + tail};
+        const double p = 9810.0 * 8.5, q = 9810.0 * tail, length = 12.0;
+        const Polyline profile = lift_water_profile(scene, scene.lift_joints[0], length);
+        ASSERT_EQ(profile.size(), 2u);
+        EXPECT_NEAR(profile[0].y, p, 1e-9);
+        EXPECT_NEAR(profile[1].y, q, 1e-9);
+        const Eigen::VectorXd load = lift_water_load(mesh, separate, 0, profile);
+        const Eigen::Vector3d up = lift_resultant(mesh, separate, lift.upper_nodes, load);
+        EXPECT_NEAR(up[0], 0.0, 1e-9);
+        EXPECT_NEAR(up[1], 0.5 * (p + q) * length, 1e-12 * p * length);
+        EXPECT_NEAR(up[2], (p + 2 * q) * length * length / 6, 1e-12 * p * length * length);
+        EXPECT_NEAR((up + lift_resultant(mesh, separate, lift.lower_nodes, load)).norm(), 0.0, 1e-9 * up.norm());
+        EXPECT_NEAR(lift_water_load(mesh, tied, 0, profile).norm(), 0.0, 1e-9 * load.norm());
+    }
+    scene.reservoir->level = 51.5;
+    scene.tailwater->level = 20.0;
+    EXPECT_TRUE(lift_water_profile(scene, scene.lift_joints[0], 12.0).empty()); // dry on both faces
 }
 
 } // namespace
