@@ -1,6 +1,7 @@
 #include "fe2d/assembly/dof_map.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace damslip::fe2d {
 
@@ -26,6 +27,7 @@ DofMap displacement_dofs(const Mesh& mesh, Base base)
     fix(mesh.box_right, 0);
     fix(mesh.box_bottom, 1);
     const ContactPlane& plane = mesh.contact;
+    assert((base == Base::separate || plane.matching) && "only facing nodes can be tied");
     if (base == Base::tied && !mesh.has_rock())
         for (const int component : {0, 1}) fix(plane.dam_nodes, component);
     if (base == Base::tied && mesh.has_rock())

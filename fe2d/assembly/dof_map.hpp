@@ -29,6 +29,7 @@ enum class Base {
 };
 
 /// Displacements (x, y). The rock's sides are fixed in x, its bottom in y: normal to its outer boundaries.
+/// A tied base needs a mesh whose contact plane is `matching`.
 /// Order: all unknowns of dam nodes first (dam_dof_count of them), then the rock's, each side in node order.
 DofMap displacement_dofs(const Mesh& mesh, Base base);
 

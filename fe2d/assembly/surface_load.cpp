@@ -159,10 +159,11 @@ Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline
     const ContactPlane& plane = mesh.contact;
     const std::vector<int>& nodes = side == ContactSide::dam ? plane.dam_nodes : plane.rock_nodes;
     if (nodes.empty()) return sum;
+    const std::vector<double>& distance = side == ContactSide::dam ? plane.distance : plane.rock_node_distance;
     const Point first = mesh.nodes[nodes.front()], last = mesh.nodes[nodes.back()];
     const double length = plane.distance.back(), sign = side == ContactSide::dam ? 1.0 : -1.0;
     const Eigen::Vector2d up = sign / length * Eigen::Vector2d(first.y - last.y, last.x - first.x);
-    add_profile(sum, dofs, nodes, plane.distance, profile, up);
+    add_profile(sum, dofs, nodes, distance, profile, up);
     return sum;
 }
 

@@ -152,11 +152,13 @@ void place_rows(const Scene& scene, RockLayout& layout, const Grading& grading)
 RockLayout rock_layout(const Scene& scene, const DamLayout& dam, const MeshSizes& sizes,
                        const ContactExtension& extension)
 {
-    const Grading grading{
-        .first = sizes.contact, .growth = scene.mesh.growth, .largest = std::max(sizes.rock, sizes.contact)};
+    const double size = scene.mesh.rock_contact_size.value_or(sizes.contact);
+    const Grading grading{.first = size, .growth = scene.mesh.growth, .largest = std::max(sizes.rock, size)};
     RockLayout layout;
+    layout.matching = !scene.mesh.rock_contact_size.has_value();
     layout.inclination = base_inclination(scene.section);
-    place_plane(layout, dam.base, sizes.contact, extension);
+    const std::vector<double> base = layout.matching ? dam.base : even_positions(base_stations(scene), size);
+    place_plane(layout, base, size, extension);
     if (curtain_is_meshed(scene)) {
         layout.curtain_begin = index_of(layout.plane, scene.curtain->distance);
         layout.curtain_end = index_of(layout.plane, scene.curtain->distance + scene.curtain->thickness);

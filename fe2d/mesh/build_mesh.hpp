@@ -22,8 +22,8 @@ MeshSizes mesh_sizes(const Scene& scene);
 /// Meshes the dam and, where the scene has a foundation, the rock box (scene.mesh gives sizes, growth and element kind;
 /// with ElementKind::t3 every quadrilateral is split along its shorter diagonal). A curtain is a zone of its own where
 /// its stiffness differs from the rock's, or its permeability does and scene.stages.pore_pressure puts the flow on this
-/// mesh; any other curtain is rock, and the mesh that of the scene without it. Node places depend on the scene only:
-/// same scene, same bits.
+/// mesh; any other curtain is rock, and the mesh that of the scene without it. With scene.mesh.rock_contact_size the
+/// rock's nodes on the contact plane are its own. Node places depend on the scene only: same scene, same bits.
 /// @throws InputError when the section cannot be meshed (faces.hpp, quality.hpp), or the box does not hold the base,
 ///         its extensions or the curtain.
 Mesh build_mesh(const Scene& scene, const ContactExtension& extension = {});

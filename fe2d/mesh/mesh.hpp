@@ -8,8 +8,9 @@
 /// Mesh of one scene: dam and, where the scene has one, the rock below it with the grout curtain.
 ///
 /// Axes of the scene: x downstream, y up, heel at the origin [m]. The dam-foundation plane is always split: every node
-/// of the base exists twice, once on the dam and once on the rock, at the same place; whether the two are tied, free or
-/// in contact is said by the degrees of freedom (assembly/dof_map.hpp), not by the mesh.
+/// of the base exists twice, once on the dam and once on the rock, at the same place unless the scene gives the rock an
+/// element size of its own there. Lift joints split the dam in the same way. Whether the two sides are tied, free or in
+/// contact is said by the degrees of freedom (assembly/dof_map.hpp), not by the mesh.
 namespace damslip::fe2d {
 
 enum class Region : unsigned char { dam, rock, curtain, reservoir };
@@ -30,10 +31,12 @@ using NodeChain = std::vector<int>;
 /// The plane between dam and rock, always straight, from the heel to the toe.
 struct ContactPlane {
     std::vector<int> dam_nodes;   ///< on the dam, heel to toe
-    std::vector<int> rock_nodes;  ///< on the rock at the same places; empty: rigid base
-    std::vector<double> distance; ///< of these nodes from the heel, along the plane [m]
-    std::vector<int> rock_line;   ///< rock surface nodes of the whole plane: it goes on straight past heel and toe,
-                                  ///< upstream to downstream
+    std::vector<int> rock_nodes;  ///< on the rock, heel to toe; at the same places if `matching`; empty: rigid base
+    std::vector<double> distance; ///< of the dam's nodes from the heel, along the plane [m]
+    std::vector<double> rock_node_distance; ///< of rock_nodes; `distance` itself if `matching` [m]
+    bool matching = true;       ///< rock_nodes[i] lies where dam_nodes[i] does; otherwise only heel and toe coincide
+    std::vector<int> rock_line; ///< rock surface nodes of the whole plane: it goes on straight past heel and toe,
+                                ///< upstream to downstream
     std::vector<double>
         rock_distance; ///< of rock_line from the heel, along the plane; negative upstream of the heel [m]
 };

@@ -49,10 +49,15 @@ void append_rock(Mesh& mesh, const RockLayout& layout)
         }
 
     const int heel = surface.offset + layout.base_begin, toe = surface.offset + layout.base_end;
+    ContactPlane& plane = mesh.contact;
+    plane.matching = layout.matching;
     for (int i = heel; i <= toe; ++i) {
-        mesh.contact.rock_nodes.push_back(node(i, 0));
-        mesh.nodes[node(i, 0)] = mesh.nodes[mesh.contact.dam_nodes[i - heel]]; // the same bits on both sides
+        plane.rock_nodes.push_back(node(i, 0));
+        plane.rock_node_distance.push_back(layout.plane[i - surface.offset]);
+        if (plane.matching) mesh.nodes[node(i, 0)] = mesh.nodes[plane.dam_nodes[i - heel]]; // the same bits
     }
+    mesh.nodes[plane.rock_nodes.front()] = mesh.nodes[plane.dam_nodes.front()];
+    mesh.nodes[plane.rock_nodes.back()] = mesh.nodes[plane.dam_nodes.back()];
     for (int i = 0; i < static_cast<int>(layout.plane.size()); ++i)
         mesh.contact.rock_line.push_back(node(surface.offset + i, 0));
     mesh.contact.rock_distance = layout.plane;

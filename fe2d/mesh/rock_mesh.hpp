@@ -10,6 +10,7 @@ namespace damslip::fe2d {
 struct RockLayout {
     double inclination = 0.0;  ///< of the contact plane, positive: dips downstream [rad]
     std::vector<double> plane; ///< columns on the contact plane and its extensions: distance from the heel along it [m]
+    bool matching = true;      ///< the columns below the base are the dam's; otherwise only heel and toe are
     int base_begin = 0;        ///< index of the heel in `plane`
     int base_end = 0;          ///< index of the toe in `plane`
     std::vector<double>

@@ -52,13 +52,20 @@ void assemble_water(const Scene& scene, const AddedMassLaw& law, Model& model)
     }
 }
 
+/// A tied base shares the unknowns of facing nodes.
+Scene with_facing_nodes(Scene scene)
+{
+    scene.mesh.rock_contact_size.reset();
+    return scene;
+}
+
 } // namespace
 
 Model build_model(const Scene& scene, const ModelOptions& options)
 {
     Model model;
     model.materials = materials_of(scene);
-    model.mesh = build_mesh(scene, options.extension);
+    model.mesh = build_mesh(options.base == Base::tied ? with_facing_nodes(scene) : scene, options.extension);
     model.dofs = displacement_dofs(model.mesh, options.base);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
     model.mass = mass_matrix(model.mesh, model.dofs, model.materials, options.mass);

@@ -35,7 +35,8 @@ struct Model {
     SparseMatrix moving_mass() const { return mass + added_mass; }
 };
 
-/// Meshes the scene and assembles its matrices.
+/// Meshes the scene and assembles its matrices. With a tied base scene.mesh.rock_contact_size is left aside: the nodes
+/// of both sides face each other.
 /// @throws InputError when the section cannot be meshed or a Young's modulus is missing.
 Model build_model(const Scene& scene, const ModelOptions& options = {});
 

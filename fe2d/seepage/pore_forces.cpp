@@ -82,6 +82,7 @@ Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std
 Eigen::VectorXd pore_pressure_loads(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure,
                                     PorePressure form)
 {
+    assert(mesh.contact.matching);
     // Uplift on the dam: its base runs from heel to toe with the dam on the left.
     Eigen::VectorXd on_dam = pressure;
     for (std::size_t i = 0; i < mesh.contact.dam_nodes.size(); ++i)

@@ -89,6 +89,10 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
                                     "contact.sliding = \"small\", the modes are those of one place on the rock",
                                     "run without --reduced, or write  sliding = \"small\"  in [contact]"});
+    if (scene.mesh.rock_contact_size)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with mesh.rock_contact_size_m.",
+                                    "facing nodes on both sides of the plane",
+                                    "run without --reduced, or delete rock_contact_size_m"});
     if (!scene.lift_joints.empty())
         throw UsageError(Diagnostic{scene.file.string(), 0, 0,
                                     fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),

@@ -381,6 +381,15 @@ void check_fe(const Scene& s, Findings& f)
                 fmt::format("{} is above {}.", value("mesh.contact_size_m", *s.mesh.contact_size),
                             value("mesh.size_m", *s.mesh.size)),
                 "at most mesh.size_m", "exchange the two values");
+    if (s.mesh.rock_contact_size && !s.foundation)
+        f.wrong("mesh.rock_contact_size", "mesh.rock_contact_size_m is given without [foundation]: there is no rock.",
+                "both or neither", "add [foundation] or delete rock_contact_size_m");
+    if (s.mesh.rock_contact_size && *s.mesh.rock_contact_size > 0.5 * base_length(s.section))
+        f.wrong("mesh.rock_contact_size",
+                fmt::format("{} leaves less than two elements below the base of {} m.",
+                            value("mesh.rock_contact_size_m", *s.mesh.rock_contact_size),
+                            shortest(base_length(s.section))),
+                "at most half the base; near contact_size_m is usual", "lessen it or leave it out");
     if (s.time.substeps && (*s.time.substeps < 0 || *s.time.substeps > 10))
         f.wrong("time.substeps", fmt::format("time.substeps = {} is not allowed.", *s.time.substeps),
                 "0 ... 10: k of the steps dt / 2^k", "write  substeps = 2  for steps of dt / 4");

@@ -295,6 +295,10 @@ std::vector<KeyGroup> fe_groups()
                 at(&MeshOptions::size)),
          number("contact_size", length, Range::above(0), "base / 60, at most size", "element size on the contact plane",
                 "0.75", at(&MeshOptions::contact_size)),
+         number("rock_contact_size", length, Range::above(0), "the dam's nodes",
+                "element size on the rock's side of the contact plane, whose nodes then need not face the dam's; runs "
+                "with a tied base have facing nodes always",
+                "1.125", at(&MeshOptions::rock_contact_size)),
          number("growth", none, Range::between(1, 3), "1.15",
                 "ratio of neighbouring element sizes away from the contact plane", "1.2", at(&MeshOptions::growth)),
          word("element", "q4-incompatible", "element type", "\"q4\"",

@@ -219,9 +219,10 @@ struct Criteria {
 enum class ElementKind { q4_incompatible, q4, t3 };
 
 struct MeshOptions {
-    std::optional<double> size;         ///< target element size in the dam [m]; default height / 40
-    std::optional<double> contact_size; ///< on the contact plane [m]; default min(size, base / 60)
-    double growth = 1.15;               ///< ratio of neighbouring sizes away from the contact plane [-]
+    std::optional<double> size;              ///< target element size in the dam [m]; default height / 40
+    std::optional<double> contact_size;      ///< on the contact plane [m]; default min(size, base / 60)
+    std::optional<double> rock_contact_size; ///< on the rock's side of it [m]; none: the dam's nodes, face to face
+    double growth = 1.15;                    ///< ratio of neighbouring sizes away from the contact plane [-]
     ElementKind element = ElementKind::q4_incompatible;
 };
 

@@ -89,3 +89,25 @@ TEST(LiftJointInput, GoesWithSmallSliding)
 }
 
 } // namespace
+
+namespace {
+
+TEST(RockSizeInput, NeedsRockAndTwoElementsBelowTheBase)
+{
+    const std::string mesh = "[mesh]\nrock_contact_size_m = 2\n";
+    const std::string rock = "[foundation]\nyoung_modulus_GPa = 30\n";
+    EXPECT_EQ(lift_joint_message(mesh),
+              "dam.toml:9:1: error: mesh.rock_contact_size_m is given without [foundation]: there is no rock.\n"
+              "  expected: both or neither\n"
+              "  fix:      add [foundation] or delete rock_contact_size_m");
+    EXPECT_EQ(lift_joint_message(mesh + rock), "(accepted)");
+    EXPECT_EQ(lift_joint_message("[mesh]\nrock_contact_size_m = 23\n" + rock),
+              "dam.toml:9:1: error: mesh.rock_contact_size_m = 23 leaves less than two elements below the base of 45 "
+              "m.\n"
+              "  expected: at most half the base; near contact_size_m is usual\n"
+              "  fix:      lessen it or leave it out");
+    EXPECT_NE(lift_joint_message("[mesh]\nrock_contact_size_m = 0\n" + rock).find("a number > 0 [m]"),
+              std::string::npos);
+}
+
+} // namespace
