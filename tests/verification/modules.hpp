@@ -17,6 +17,7 @@ void add_fe_contact_cases(Registry& registry);
 void add_fe_friction_cases(Registry& registry);
 void add_fe_wave_contact_cases(Registry& registry);
 void add_fe_pairing_cases(Registry& registry);
+void add_fe_moreau_cases(Registry& registry);
 void add_fe_reduction_cases(Registry& registry);
 void add_fe_seepage_cases(Registry& registry);
 void add_fe_sliding_cases(Registry& registry);

@@ -41,6 +41,7 @@ Registry all_cases()
     add_fe_wave_contact_cases(registry);
     add_fe_sliding_cases(registry);
     add_fe_pairing_cases(registry);
+    add_fe_moreau_cases(registry);
     add_fe_reduction_cases(registry);
     add_fe_seepage_cases(registry);
     return registry;
