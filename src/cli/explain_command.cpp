@@ -29,20 +29,42 @@ Table effect_table(const EffectPlan& plan)
 
 namespace {
 
-/// Counts of the FE model that a run of this scene would hold, from the assembled matrices themselves; nothing for the rigid block.
-std::optional<Table> model_table(const Scene& scene, const EffectPlan& plan)
+/// Pairs of nodes of every lift joint.
+Table joint_table(const Scene& scene, const fe2d::Mesh& mesh)
 {
-    if (plan.method != Method::finite_elements) return std::nullopt;
-    fe2d::ModelOptions options;
-    options.added_mass = added_mass_law(scene);
-    return count_table(fe2d::build_model(called_for(plan, scene), options).counts);
+    Table t;
+    t.title = "Lift joints";
+    t.columns = {{"joint", "joint", "", 4},
+                 {"elevation_m", "elevation", "m", 5},
+                 {"length_m", "length", "m", 5},
+                 {"pairs", "contact pairs", "", 4}};
+    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
+        t.rows.push_back({scene.lift_joints[i].name, scene.lift_joints[i].elevation, mesh.lifts[i].distance.back(),
+                          static_cast<std::int64_t>(mesh.lifts[i].upper_nodes.size())});
+    return t;
 }
 
-/// Nothing for the rigid block, nor for a reservoir that contact runs do not have.
+struct ModelTables {
+    Table counts, joints;
+};
+
+/// Counts of the FE model that a run of this scene would hold, from the assembled matrices themselves; nothing for the rigid block.
+std::optional<ModelTables> model_tables(const Scene& given, const EffectPlan& plan)
+{
+    if (plan.method != Method::finite_elements) return std::nullopt;
+    const Scene scene = called_for(plan, given);
+    fe2d::ModelOptions options;
+    options.added_mass = added_mass_law(scene);
+    const fe2d::Model model = fe2d::build_model(scene, options);
+    return ModelTables{count_table(model.counts), joint_table(scene, model.mesh)};
+}
+
+/// Nothing for the rigid block, nor for what contact runs do not have.
 std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
 {
     if (plan.method != Method::finite_elements) return std::nullopt;
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic) return std::nullopt;
+    if (!scene.lift_joints.empty()) return std::nullopt; // not computed yet: contact_options refuses it
     return contact_cost(scene, plan);
 }
 
@@ -78,14 +100,15 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const EffectPlan plan =
         make_effect_plan(scene, arguments.method == "fe" ? Method::finite_elements : Method::rigid_block);
     const Table table = effect_table(plan);
-    const std::optional<Table> model = model_table(scene, plan);
+    const std::optional<ModelTables> model = model_tables(scene, plan);
     const std::optional<ContactCost> cost = cost_of(scene, plan);
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
         j["method"] = arguments.method;
         j["effects"] = json_of(table);
-        if (model) j["model"] = json_of(*model);
+        if (model) j["model"] = json_of(model->counts);
+        if (model && !model->joints.rows.empty()) j["lift_joints"] = json_of(model->joints);
         if (cost) j["contact"] = cost_json(*cost);
         streams.out << j.dump(2) << "\n";
         return exit_ok;
@@ -98,8 +121,9 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
                                plan.effects.size());
     if (model)
         streams.out << "\n"
-                    << report::text(*model)
+                    << report::text(model->counts)
                     << "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
+    if (model && !model->joints.rows.empty()) streams.out << "\n" << report::text(model->joints);
     if (cost) streams.out << "\n" << cost_text(*cost);
     return exit_ok;
 }

@@ -1,6 +1,7 @@
 #include "cli/screen_command.hpp"
 
 #include "cli/explain_command.hpp"
+#include "cli/lift_joint_table.hpp"
 #include "cli/screen_report.hpp"
 #include "cli/screen_tables.hpp"
 #include "cli/usage_error.hpp"
@@ -34,7 +35,8 @@ nlohmann::ordered_json record_provenance(const std::vector<RecordPair>& records)
     return list;
 }
 
-nlohmann::ordered_json summary(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records)
+nlohmann::ordered_json summary(const Scene& given, const Scene& scene, const Screening& s,
+                               const std::vector<RecordPair>& records)
 {
     auto j = json_header("screen");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -43,6 +45,7 @@ nlohmann::ordered_json summary(const Scene& scene, const Screening& s, const std
     j["limit_equilibrium"] = json_of(sliding::equilibrium_table(s.combinations));
     j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
     j["yield"] = json_of(yield_table(s));
+    if (!given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(given));
     j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
     j["statistics"] = json_of(statistics_table(s));
@@ -69,7 +72,7 @@ Table judged(Table verdicts)
     return verdicts;
 }
 
-void print_text(const Scene& scene, const Screening& s, std::ostream& out)
+void print_text(const Scene& given, const Scene& scene, const Screening& s, std::ostream& out)
 {
     out << scene.title << "   (" << scene.file.string() << ", scene " << scene_hash(scene).substr(0, 12) << ")\n"
         << effects_line(s.plan) << "\n";
@@ -82,6 +85,7 @@ void print_text(const Scene& scene, const Screening& s, std::ostream& out)
         out << "verdicts: no required values are given; name criteria.document, or required_... in [[combination]]\n\n";
     show(verdicts);
     show(yield_table(s));
+    show(lift_joint_table(given));
     show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));
     show(slip_table(s, scene.criteria.allowable_slip));
@@ -114,16 +118,16 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
 
     Screening s = run_screening(scene, plan, records, arguments.jobs);
     if (!given.lift_joints.empty())
-        s.warnings.push_back(fmt::format("Limit equilibrium and rigid block are of the base only; sliding on the {} "
+        s.warnings.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
                                          "[[lift_joint]] is left to `damslip fe`.",
                                          given.lift_joints.size()));
     if (streams.form == Form::json)
-        streams.out << summary(scene, s, records).dump(2) << "\n";
+        streams.out << summary(given, scene, s, records).dump(2) << "\n";
     else
-        print_text(scene, s, streams.out);
+        print_text(given, scene, s, streams.out);
 
     if (!arguments.out.empty()) {
-        write_file(arguments.out / "summary.json", summary(scene, s, records).dump(2) + "\n");
+        write_file(arguments.out / "summary.json", summary(given, scene, s, records).dump(2) + "\n");
         write_file(arguments.out / "displacements.csv",
                    report::csv(slip_table(s, scene.criteria.allowable_slip),
                                {"damslip " + program_version(), "scene " + scene_hash(scene)}));

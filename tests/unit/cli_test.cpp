@@ -245,6 +245,26 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
     EXPECT_EQ(bare["model"][0]["unknowns"], bare["model"][1]["unknowns"]);
 }
 
+// The example's joint at 51.5 m is 12 m long; the FE effects name it, limit equilibrium says that it leaves it out.
+TEST_F(CliScene, LiftJointsAreExplainedAndLeftOutOfScreening)
+{
+    const std::string file = std::string(DAMSLIP_SOURCE_DIR) + "/examples/cracked_upper_block.toml";
+    const ProgramAnswer a = answer_of({"explain", file, "--method", "fe", "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto plan = nlohmann::json::parse(a.out);
+    ASSERT_EQ(plan["lift_joints"].size(), 1u);
+    EXPECT_EQ(plan["lift_joints"][0]["joint"], "neck");
+    EXPECT_NEAR(plan["lift_joints"][0]["length_m"].get<double>(), 12.0, 1e-9);
+    EXPECT_GE(plan["lift_joints"][0]["pairs"].get<int>(), 8);
+    const auto screened = nlohmann::json::parse(answer_of({"screen", file, "--json"}).out);
+    EXPECT_EQ(screened["warnings"].back(), "Combinations and displacements are of the base only; slip on the 1 "
+                                           "[[lift_joint]] is left to `damslip fe`.");
+    EXPECT_NEAR(screened["lift_joints"][0]["critical_friction"].get<double>(), 593505.0 / (3237300.0 - 647460.0), 1e-9);
+    const ProgramAnswer reduced = answer_of({"fe", file, "--reduced"});
+    EXPECT_EQ(reduced.code, 2);
+    EXPECT_NE(reduced.talk.find("--reduced with 1 [[lift_joint]]."), std::string::npos) << reduced.talk;
+}
+
 TEST_F(CliScene, ReducedFeRunPrintsSlipWithItsError)
 {
     // The stiff block above: its modes play no part, so few of them give the same slip, and the estimate says so.
