@@ -1,6 +1,7 @@
 #include "fe2d/contact/joint_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace damslip::fe2d {
 
@@ -21,6 +22,7 @@ VectorXd elastic_slip(const VectorXd& area, double slip_tolerance)
 JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
     : stiffness_(std::move(stiffness))
 {
+    assert(!(options.slip_tolerance > 0.0 && options.pressure_at_zero_clearance > 0.0));
     if (options.slip_tolerance > 0.0) {
         slip_tolerance_ =
             std::make_unique<SlipTolerance>(stiffness_, elastic_slip(area, options.slip_tolerance), options);
@@ -29,7 +31,12 @@ JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const Contact
     MatrixXd softened = stiffness_;
     if (options.tangential_stiffness > 0.0)
         elastic_stick_ = ElasticStick(softened, (options.tangential_stiffness * area).cwiseInverse());
-    rigid_ = std::make_unique<ContactSolver>(std::move(softened), options);
+    if (options.pressure_at_zero_clearance > 0.0)
+        soft_normal_ = std::make_unique<ExponentialNormal>(
+            std::move(softened), area,
+            ExponentialPressure(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure), options);
+    else
+        rigid_ = std::make_unique<ContactSolver>(std::move(softened), options);
 }
 
 ContactReport JointSolver::solve(VectorXd stuck_force, const ContactLaw& law, VectorXd& elastic,
@@ -37,7 +44,8 @@ ContactReport JointSolver::solve(VectorXd stuck_force, const ContactLaw& law, Ve
 {
     if (slip_tolerance_) return slip_tolerance_->solve(stuck_force, law, elastic, solution);
     elastic_stick_.soften(stuck_force, elastic);
-    const ContactReport report = rigid_->solve(stuck_force, law, solution);
+    const ContactReport report =
+        soft_normal_ ? soft_normal_->solve(stuck_force, law, solution) : rigid_->solve(stuck_force, law, solution);
     if (elastic_stick_.active()) elastic = elastic_stick_.give(solution.force);
     return report;
 }

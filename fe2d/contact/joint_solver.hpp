@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/contact/elastic_stick.hpp"
+#include "fe2d/contact/exponential_normal.hpp"
 #include "fe2d/contact/slip_tolerance.hpp"
 
 #include <memory>
@@ -8,7 +9,8 @@
 namespace damslip::fe2d {
 
 /// Contact of one plane by the law the options choose: sticking is rigid (ContactSolver), gives way by a constant
-/// stiffness (ElasticStick) or by elastic slip that follows the pressure (SlipTolerance).
+/// stiffness (ElasticStick) or by elastic slip that follows the pressure (SlipTolerance). Across the plane contact is
+/// hard or, with the first two, soft (ExponentialNormal).
 class JointSolver {
 public:
     /// @param stiffness  V of rigid sticking
@@ -30,7 +32,8 @@ private:
     Eigen::MatrixXd stiffness_;
     ElasticStick elastic_stick_;
     std::unique_ptr<SlipTolerance> slip_tolerance_;
-    std::unique_ptr<ContactSolver> rigid_; ///< of V, or of V' behind the elastic stick
+    std::unique_ptr<ExponentialNormal> soft_normal_; ///< of V, or of V' behind the elastic stick
+    std::unique_ptr<ContactSolver> rigid_;           ///< the same
 };
 
 } // namespace damslip::fe2d

@@ -49,6 +49,10 @@ RunOptions completed(RunOptions options, const Scene& scene)
         options.contact.tangential_stiffness = scene.contact.tangential_stiffness.value();
     if (scene.contact.enforcement == ContactEnforcement::slip_tolerance && options.contact.slip_tolerance == 0.0)
         options.contact.slip_tolerance = scene.contact.slip_tolerance;
+    if (scene.contact.normal == NormalContact::exponential && options.contact.pressure_at_zero_clearance == 0.0) {
+        options.contact.pressure_at_zero_clearance = scene.contact.pressure_at_zero_clearance;
+        options.contact.clearance_at_zero_pressure = scene.contact.clearance_at_zero_pressure;
+    }
     return options;
 }
 

@@ -98,6 +98,10 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
                                     fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
                                     "no [[lift_joint]], the modes are those of a dam of one piece",
                                     "run without --reduced, or delete the [[lift_joint]]"});
+    if (scene.contact.normal == NormalContact::exponential)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.normal = \"exponential\".",
+                                    "contact.normal = \"hard\", the reduced base has no springs across it",
+                                    "run without --reduced, or write  normal = \"hard\"  in [contact]"});
     SeepageSource seepage;
     const InterruptGuard interrupt;
     fe2d::RunOptions options = contact_options(scene, records, seepage);

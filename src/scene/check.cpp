@@ -259,6 +259,28 @@ void check_lift_joints(const Scene& s, Findings& f)
                 "write  sliding = \"small\"  or delete the [[lift_joint]]");
 }
 
+void check_normal_contact(const Contact& c, Findings& f)
+{
+    if (c.normal != NormalContact::exponential) {
+        for (const auto& [key, unit] :
+             {std::pair("pressure_at_zero_clearance", "kPa"), std::pair("clearance_at_zero_pressure", "m")})
+            if (f.given(fmt::format("contact.{}", key)))
+                f.wrong(fmt::format("contact.{}", key),
+                        fmt::format("contact.{}_{} is given, but contact.normal is not \"exponential\".", key, unit),
+                        fmt::format("normal = \"exponential\" with {}_{}", key, unit),
+                        fmt::format("write  normal = \"exponential\"  or delete {}_{}", key, unit));
+        return;
+    }
+    if (c.separation == JointOpening::none)
+        f.wrong("contact.normal", "contact.normal = \"exponential\" with contact.separation = \"none\".",
+                "separation = \"allowed\": the exponential pressure ends at its clearance, it cannot pull",
+                "write  separation = \"allowed\"  or  normal = \"hard\"");
+    if (c.enforcement == ContactEnforcement::slip_tolerance)
+        f.wrong("contact.normal", "contact.normal = \"exponential\" with contact.enforcement = \"slip-tolerance\".",
+                "enforcement = \"exact\" or \"penalty\" with the exponential pressure",
+                "write  enforcement = \"penalty\"  with tangential_stiffness_N_m3, or  enforcement = \"exact\"");
+}
+
 void check_joint(const Scene& s, Findings& f)
 {
     const Contact& c = s.contact;
@@ -279,6 +301,7 @@ void check_joint(const Scene& s, Findings& f)
     if (c.sliding != JointPath::finite && f.given("contact.max_slip"))
         f.wrong("contact.max_slip", "contact.max_slip_m is given, but contact.sliding is not \"finite\".",
                 "sliding = \"finite\" with max_slip_m", "write  sliding = \"finite\"  or delete max_slip_m");
+    check_normal_contact(c, f);
 }
 
 void check_water(const Scene& s, Findings& f)

@@ -234,6 +234,12 @@ Key only_with(ContactEnforcement enforcement, Key key)
     return key;
 }
 
+Key only_with(NormalContact normal, Key key)
+{
+    key.applies = [normal](const void* contact) { return static_cast<const Contact*>(contact)->normal == normal; };
+    return key;
+}
+
 Key only_with(JointPath sliding, Key key)
 {
     key.applies = [sliding](const void* contact) { return static_cast<const Contact*>(contact)->sliding == sliding; };
@@ -505,7 +511,22 @@ std::vector<KeyGroup> base_groups()
                    number("slip_tolerance", none, Range::half_open(0, 1), "0.005",
                           "enforcement slip-tolerance: F_f, elastic slip at the strength over the mean length of "
                           "the contact elements (4-10)",
-                          "0.005", at(&Contact::slip_tolerance)))}));
+                          "0.005", at(&Contact::slip_tolerance))),
+         word("normal", "hard",
+              "FE, across the joint: no penetration (hard), or a pressure that falls with the clearance g "
+              "(exponential): p = p0/(e - 1) z (exp z - 1), z = 1 - g/c0; it also runs hard contact and states the "
+              "error of the slip",
+              "\"exponential\"",
+              choice(&Contact::normal,
+                     std::vector<std::pair<std::string, NormalContact>>{{"hard", NormalContact::hard},
+                                                                        {"exponential", NormalContact::exponential}})),
+         only_with(NormalContact::exponential,
+                   number("pressure_at_zero_clearance", stress, Range::above(0), "1000", "normal exponential: p0",
+                          "1000", at(&Contact::pressure_at_zero_clearance))),
+         only_with(NormalContact::exponential,
+                   number("clearance_at_zero_pressure", small_length, Range::between(1e-6, 1), "0.001",
+                          "normal exponential: c0, the pressure acts from this clearance on", "0.001",
+                          at(&Contact::clearance_at_zero_pressure)))}));
     groups.push_back(list_group<LiftJoint>(
         "lift_joint",
         "A horizontal joint through the dam that may slide and open, for `fe`: the block above a lift or a crack. Its "

@@ -121,6 +121,8 @@ enum class JointPath { small, finite }; ///< FE: nodes stay opposite each other,
 enum class JointOpening { allowed, none };                        ///< none: a modelling shortcut, see Contact
 enum class ContactEnforcement { exact, penalty, slip_tolerance }; ///< of sticking: rigid, or with elastic slip first
 
+enum class NormalContact { hard, exponential }; ///< exponential: soft, see Contact
+
 /// Strength of the base. Cohesion acts on the compressed length until the first slip.
 struct Contact {
     double friction = 0.0;                   ///< Coulomb mu, peak [-]
@@ -137,6 +139,9 @@ struct Contact {
     ContactEnforcement enforcement = ContactEnforcement::exact;
     std::optional<double> tangential_stiffness; ///< of enforcement `penalty` [N/m^3]
     double slip_tolerance = 0.005; ///< F_f of enforcement `slip_tolerance`: elastic slip F_f x element length [-]
+    NormalContact normal = NormalContact::hard;
+    double pressure_at_zero_clearance = 1e6;  ///< p0 of normal contact `exponential` [Pa]
+    double clearance_at_zero_pressure = 1e-3; ///< c0 of it: pressure acts from this clearance on [m]
     JointPath sliding = JointPath::small;
     double max_slip = 1.0; ///< with finite sliding the dam may go this far downstream [m]
 };

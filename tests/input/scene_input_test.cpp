@@ -58,7 +58,8 @@ TEST(SceneInput, UnknownKeyGetsASuggestion)
               "  expected: keys of [contact]: friction, cohesion_kPa, cohesion_lost_at_slip, sliding, max_slip_m, "
               "residual_friction, "
               "residual_slip_m, residual_path, friction_table_m, separation, enforcement, "
-              "tangential_stiffness_N_m3, slip_tolerance\n"
+              "tangential_stiffness_N_m3, slip_tolerance, normal, pressure_at_zero_clearance_kPa, "
+              "clearance_at_zero_pressure_m\n"
               "  fix:      write  residual_path");
     EXPECT_SAYS(message(with("friction = 0.77", "friction = 0.77\ncohesion_kpa = 3")),
                 "fix:      write  cohesion_kPa = 100");

@@ -1,0 +1,244 @@
+#include "fe2d/contact/exponential_normal.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int newton_steps = 40;
+constexpr int renewals = 100;
+constexpr int whole_renewals = 15; ///< later ones go half the way
+
+double direction(ContactState state)
+{
+    return state == ContactState::slip_downstream ? 1.0 : -1.0;
+}
+
+ContactState slipping(bool downstream)
+{
+    return downstream ? ContactState::slip_downstream : ContactState::slip_upstream;
+}
+
+} // namespace
+
+ExponentialNormal::ExponentialNormal(MatrixXd stiffness, VectorXd area, const ExponentialPressure& pressure,
+                                     const ContactOptions& options)
+    : stiffness_(std::move(stiffness)), area_(std::move(area)), pressure_(pressure), options_(options)
+{
+    options_.tangential_stiffness = options_.slip_tolerance = options_.pressure_at_zero_clearance = 0.0;
+    assert(stiffness_.rows() == 2 * area_.size());
+}
+
+ExponentialNormal::Iterate ExponentialNormal::start(const ContactSolution& given) const
+{
+    const Index m = area_.size();
+    Iterate it{given, VectorXd::Zero(m)};
+    if (it.at.states.size() != static_cast<std::size_t>(m))
+        it.at.states.assign(static_cast<std::size_t>(m), ContactState::stick);
+    const bool remembers = given.force.size() == 2 * m && !given.force.isZero(0.0);
+    for (Index i = 0; i < m; ++i) {
+        if (remembers)
+            it.point[i] = given.force[i] > 0.0 ? pressure_.clearance(given.force[i] / area_[i]) : pressure_.range();
+        ContactState& state = it.at.states[static_cast<std::size_t>(i)];
+        if (it.point[i] >= pressure_.range())
+            state = ContactState::open;
+        else if (state == ContactState::open || state == ContactState::pulled)
+            state = ContactState::stick;
+    }
+    it.at.displacement.setZero(2 * m);
+    return it;
+}
+
+ExponentialNormal::Tangent ExponentialNormal::tangent(const VectorXd& point) const
+{
+    Tangent t{VectorXd(point.size()), VectorXd(point.size())};
+    for (Index i = 0; i < point.size(); ++i) {
+        t.stiffness[i] = area_[i] * pressure_.stiffness(point[i]);
+        t.constant[i] = area_[i] * pressure_.pressure(point[i]) + t.stiffness[i] * point[i];
+    }
+    return t;
+}
+
+/// Rows λ_n + D g = constant of all pairs, λ_t + κ λ_n = ∓c of those that slip, λ_t = 0 of the open ones.
+bool ExponentialNormal::linear_solution(const Step& step, Iterate& it) const
+{
+    const Index m = area_.size();
+    std::vector<Index> unknowns(static_cast<std::size_t>(m));
+    for (Index i = 0; i < m; ++i) unknowns[static_cast<std::size_t>(i)] = i;
+    for (Index i = 0; i < m; ++i)
+        if (it.at.states[static_cast<std::size_t>(i)] != ContactState::stick) unknowns.push_back(m + i);
+    const auto size = static_cast<Index>(unknowns.size());
+    const Tangent law = tangent(it.point);
+    MatrixXd matrix = stiffness_(unknowns, unknowns);
+    VectorXd right = -step.stuck_force(unknowns);
+    matrix.diagonal().head(m) += law.stiffness;
+    right.head(m) += law.constant;
+    for (Index row = m; row < size; ++row) {
+        const Index pair = unknowns[static_cast<std::size_t>(row)] - m;
+        const ContactState state = it.at.states[static_cast<std::size_t>(pair)];
+        if (state == ContactState::open) continue;
+        const double coupling = direction(state) * step.law.friction[pair];
+        for (Index k = 0; k < size; ++k)
+            matrix(row, k) += coupling * stiffness_(unknowns[static_cast<std::size_t>(k)], pair);
+        right[row] -= coupling * step.stuck_force[pair] + direction(state) * step.law.cohesion[pair];
+    }
+    const Eigen::PartialPivLU<MatrixXd> lu(matrix);
+    const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
+    if (!(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) return false;
+    const VectorXd x = lu.solve(right);
+    it.at.displacement.setZero(2 * m);
+    it.at.displacement(unknowns) = x;
+    it.at.force = step.stuck_force;
+    for (Index k = 0; k < size; ++k) it.at.force += x[k] * stiffness_.col(unknowns[static_cast<std::size_t>(k)]);
+    return it.at.force.allFinite();
+}
+
+double ExponentialNormal::next_point(const Iterate& it, Index pair) const
+{
+    const double clearance = it.at.displacement[pair], before = it.point[pair];
+    if (clearance >= before) return clearance;
+    if (before < pressure_.range()) return pressure_.clearance(it.at.force[pair] / area_[pair]);
+    return std::max(clearance, 0.0); // closes: nothing tells how far, p0 is a start
+}
+
+ContactState ExponentialNormal::next_state(const Step& step, const Iterate& it, Index pair, double point) const
+{
+    if (point >= pressure_.range()) return ContactState::open;
+    const Index t = area_.size() + pair;
+    const ContactState now = it.at.states[static_cast<std::size_t>(pair)];
+    const double slip = it.at.displacement[t], shear = it.at.force[t];
+    if (now == ContactState::open) { // where the trial force of a penalty lies, as for hard contact
+        const double closing = pressure_.range() - it.at.displacement[pair];
+        return std::abs(slip) > step.law.friction[pair] * closing ? slipping(slip > 0.0) : ContactState::stick;
+    }
+    if (is_slip(now)) return direction(now) * slip * stiffness_(t, t) < -step.tolerance ? ContactState::stick : now;
+    const double strength = step.law.strength(pair, it.at.force[pair]);
+    return std::abs(shear) > strength + step.tolerance ? slipping(shear < 0.0) : ContactState::stick;
+}
+
+double ExponentialNormal::residual(const Step& step, const ContactSolution& at) const
+{
+    const Index m = area_.size();
+    double largest = 0.0;
+    for (Index i = 0; i < m; ++i) {
+        const Index t = m + i;
+        const double normal_residual = at.force[i] - area_[i] * pressure_.pressure(at.displacement[i]);
+        const double slip = at.displacement[t] * stiffness_(t, t);
+        const bool closed = at.states[static_cast<std::size_t>(i)] != ContactState::open;
+        const double strength = closed ? step.law.strength(i, at.force[i]) : 0.0;
+        const double shear_residual = at.force[t] - std::clamp(at.force[t] - slip, -strength, strength);
+        if (!std::isfinite(normal_residual) || !std::isfinite(shear_residual)) return HUGE_VAL;
+        largest = std::max({largest, std::abs(normal_residual), std::abs(shear_residual)});
+    }
+    return largest;
+}
+
+bool ExponentialNormal::newton(const Step& step, Iterate& it, ContactReport& report) const
+{
+    const Index m = area_.size();
+    for (int k = 0; k < newton_steps; ++k) {
+        ++report.iterations;
+        if (!linear_solution(step, it)) {
+            report.mechanism = true;
+            return false;
+        }
+        if (residual(step, it.at) <= step.tolerance) return true;
+        for (Index i = 0; i < m; ++i) {
+            const double point = next_point(it, i);
+            it.at.states[static_cast<std::size_t>(i)] = next_state(step, it, i, point);
+            it.point[i] = point;
+        }
+    }
+    return false;
+}
+
+/// Coulomb's law exactly, with the normal forces along their tangents: the clearances eliminated,
+/// g = -K (λ⁰_n + V_nt s - constant), K = (V_nn + D)⁻¹, leave a contact problem without openings in
+/// V' = V - V_:n K V_n: and λ⁰' = λ⁰ - V_:n K (λ⁰_n - constant). Normal forces below zero carry no shear in it.
+bool ExponentialNormal::friction_solution(const Step& step, Iterate& it, ContactReport& report) const
+{
+    const Index m = area_.size();
+    const Tangent law = tangent(it.point);
+    MatrixXd normal = stiffness_.topLeftCorner(m, m);
+    normal.diagonal() += law.stiffness;
+    const Eigen::LLT<MatrixXd> llt(normal);
+    if (llt.info() != Eigen::Success) return false;
+    const auto to_normal = stiffness_.topRows(m);
+    MatrixXd condensed = stiffness_;
+    condensed.noalias() -= to_normal.transpose() * llt.solve(to_normal);
+    condensed = (0.5 * (condensed + condensed.transpose())).eval();
+    const VectorXd held = llt.solve(VectorXd(step.stuck_force.head(m) - law.constant));
+    const VectorXd stuck = step.stuck_force - to_normal.transpose() * held;
+    ContactLaw friction = step.law;
+    friction.separation = Separation::none;
+    ContactSolution solution{it.at.states, {}, {}};
+    for (Index i = 0; i < m; ++i) {
+        if (it.point[i] < pressure_.range()) continue;
+        friction.cohesion[i] = 0.0;
+        solution.states[static_cast<std::size_t>(i)] = ContactState::pulled;
+    }
+    ContactSolver solver(std::move(condensed), options_);
+    const ContactReport inner = solver.solve(stuck, friction, solution);
+    report.iterations += inner.iterations;
+    if (!inner.resolved()) return false;
+    const VectorXd slip = solution.displacement.tail(m);
+    it.at.displacement.tail(m) = slip;
+    it.at.displacement.head(m) = -held - llt.solve(VectorXd(stiffness_.topRightCorner(m, m) * slip));
+    it.at.force = step.stuck_force + stiffness_ * it.at.displacement;
+    it.at.states = std::move(solution.states);
+    return it.at.force.allFinite();
+}
+
+bool ExponentialNormal::renewed_tangents(const Step& step, Iterate& it, ContactReport& report) const
+{
+    const Index m = area_.size();
+    for (int k = 0; k < renewals; ++k) {
+        if (!friction_solution(step, it, report)) return false;
+        for (Index i = 0; i < m; ++i) {
+            const double point = next_point(it, i);
+            it.point[i] = k < whole_renewals ? point : 0.5 * (it.point[i] + point);
+            ContactState& state = it.at.states[static_cast<std::size_t>(i)];
+            if (it.point[i] >= pressure_.range())
+                state = ContactState::open;
+            else if (state == ContactState::pulled)
+                state = slipping(it.at.displacement[m + i] > 0.0);
+        }
+        if (residual(step, it.at) <= step.tolerance) return true;
+    }
+    return false;
+}
+
+ContactReport ExponentialNormal::solve(const VectorXd& stuck_force, const ContactLaw& law,
+                                       ContactSolution& solution) const
+{
+    const double scale = stuck_force.cwiseAbs().maxCoeff();
+    const Step step{stuck_force, law, options_.tolerance * scale};
+    const Iterate first = start(solution);
+    ContactReport report;
+    Iterate it = first;
+    if (!newton(step, it, report)) {
+        it = first;
+        const bool settled = renewed_tangents(step, it, report);
+        Iterate polished = it;
+        const bool done = newton(step, polished, report);
+        if (done) it = std::move(polished);
+        report.path = done || settled ? ContactPath::gauss_seidel : ContactPath::unresolved;
+    }
+    report.residual = scale > 0.0 ? residual(step, it.at) / scale : 0.0;
+    // What round-off leaves of an open pair's force is no pull.
+    it.at.force.head(area_.size()) = it.at.force.head(area_.size()).cwiseMax(0.0);
+    solution = std::move(it.at);
+    return report;
+}
+
+} // namespace damslip::fe2d
