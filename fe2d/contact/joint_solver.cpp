@@ -19,6 +19,15 @@ VectorXd elastic_slip(const VectorXd& area, double slip_tolerance)
 
 } // namespace
 
+double stored_energy(const ContactOptions& options, const VectorXd& area, const VectorXd& opening)
+{
+    if (!(options.pressure_at_zero_clearance > 0.0)) return 0.0;
+    const ExponentialPressure law(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < area.size(); ++i) sum += area[i] * law.energy(opening[i]);
+    return sum;
+}
+
 JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
     : stiffness_(std::move(stiffness))
 {

@@ -36,4 +36,7 @@ private:
     std::unique_ptr<ContactSolver> rigid_;           ///< the same
 };
 
+/// Energy that soft normal contact stores at these openings, Σ A w(g) [J/m]; zero where contact is hard.
+double stored_energy(const ContactOptions& options, const Eigen::VectorXd& area, const Eigen::VectorXd& opening);
+
 } // namespace damslip::fe2d

@@ -47,7 +47,8 @@ DynamicContact::DynamicContact(const ContactStructure& structure, RunDamping dam
     }
     rate_t_ = accel_t_ = VectorXd::Zero(m);
     multiply(step_constants(scheme, 1.0)); // at rest the step size does not matter
-    energy_.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
+    stored_ = stored_energy(options_, structure.plane().area, memory.opening);
+    energy_.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_)) + stored_;
     energy_start_ = energy_;
     energy_scale_ = 0.0;
     gather_forces(forces_);
@@ -255,9 +256,16 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
     const double s_rate = 0.5 * (forces_.slip_rate + forces_before_.slip_rate);
     const double m_rate = 0.5 * (forces_.mean_velocity + forces_before_.mean_velocity);
 
+    // Over the gap step alone: the opening also changes where the dam has slid to another place on bent rock.
+    const VectorXd& area = structure_.plane().area;
+    const VectorXd& opening = state_.contact.opening;
+    const double stored =
+        stored_energy(options_, area, opening) - stored_energy(options_, area, opening - gap_step.head(m));
+    stored_ += stored;
+
     Energy& e = energy_;
     e.kinetic = 0.5 * v1.dot(products_.mass_1);
-    e.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_));
+    e.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_)) + stored_;
     e.damping += 0.5 * a_m * du_.dot(products_.mass_1 + before_.mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
                  0.5 * b_k * k_dr.dot(forces_.rock_v + forces_before_.rock_v) +
                  slip_damping_.coefficient * (slip * (s_rate - m_rate) - mean * s_rate);
@@ -265,7 +273,7 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
                   0.5 * (state_.ground.h + ground_before_.h) * du_.dot(structure_.inertia_x()) -
                   0.5 * (state_.ground.v + ground_before_.v) * du_.dot(structure_.inertia_y());
     const VectorXd force = 0.5 * (force_before + state_.contact.force);
-    e.contact_normal += force.head(m).dot(gap_step.head(m));
+    e.contact_normal += force.head(m).dot(gap_step.head(m)) + stored; // of soft contact, what is not in `strain`
     if (structure_.slides_far()) {
         e.contact_normal += 0.5 * (1.0 + alpha) * dr_.dot(load_jump_);
         load_jump_.setZero();

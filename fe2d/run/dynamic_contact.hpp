@@ -117,6 +117,7 @@ private:
     GroundAcceleration ground_before_;
     Energy energy_, energy_start_;
     double energy_scale_ = 0.0;
+    double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     DynamicCounts counts_;
 };
 

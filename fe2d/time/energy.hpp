@@ -16,13 +16,13 @@ struct InterfaceWork {
 /// the rest is summed over the steps from the start.
 struct Energy {
     double kinetic = 0.0;        ///< ½ vᵀ M v
-    double strain = 0.0;         ///< ½ uᵀ K u
+    double strain = 0.0;         ///< ½ uᵀ K u, and what soft normal contact stores
     double damping = 0.0;        ///< C v, dissipated
     double numerical = 0.0;      ///< dissipated by the scheme (gained, when negative); computed from the states
     double friction = 0.0;       ///< dissipated
     double radiated = 0.0;       ///< left the model
     double external = 0.0;       ///< done by R: static loads and ground motion
-    double contact_normal = 0.0; ///< done by contact pressures
+    double contact_normal = 0.0; ///< done by contact pressures beyond what soft contact stores or gives back
 
     /// Δ(kinetic + strain) + damping + numerical + friction + radiated - external - contact_normal since the start
     /// [J/m].
