@@ -80,4 +80,38 @@ TEST(JointInput, UnknownPreset)
               std::string::npos);
 }
 
+TEST(JointInput, SoftPressureBelongsToItsLaw)
+{
+    EXPECT_EQ(joint_message("pressure_at_zero_clearance_MPa = 2\n"),
+              "dam.toml:8:1: error: contact.pressure_at_zero_clearance_kPa is given, but contact.normal is not "
+              "\"exponential\".\n"
+              "  expected: normal = \"exponential\" with pressure_at_zero_clearance_kPa\n"
+              "  fix:      write  normal = \"exponential\"  or delete pressure_at_zero_clearance_kPa");
+    EXPECT_EQ(joint_message("clearance_at_zero_pressure_mm = 1\n"),
+              "dam.toml:8:1: error: contact.clearance_at_zero_pressure_m is given, but contact.normal is not "
+              "\"exponential\".\n"
+              "  expected: normal = \"exponential\" with clearance_at_zero_pressure_m\n"
+              "  fix:      write  normal = \"exponential\"  or delete clearance_at_zero_pressure_m");
+    EXPECT_EQ(joint_message("normal = \"exponential\"\nclearance_at_zero_pressure_m = 0\n"),
+              "dam.toml:9:32: error: contact.clearance_at_zero_pressure_m = 0 is not allowed.\n"
+              "  expected: a number 1e-06 ... 1 [m]: normal exponential: c0, the pressure acts from this clearance "
+              "on\n"
+              "  fix:      for example  clearance_at_zero_pressure_m = 0.001");
+    EXPECT_EQ(joint_message("normal = \"exponential\"\npressure_at_zero_clearance_MPa = 2\n"), "(accepted)");
+}
+
+TEST(JointInput, SoftPressureNeitherPullsNorFollowsASlipTolerance)
+{
+    EXPECT_EQ(joint_message("normal = \"exponential\"\nseparation = \"none\"\n"),
+              "dam.toml:8:1: error: contact.normal = \"exponential\" with contact.separation = \"none\".\n"
+              "  expected: separation = \"allowed\": the exponential pressure ends at its clearance, it cannot pull\n"
+              "  fix:      write  separation = \"allowed\"  or  normal = \"hard\"");
+    EXPECT_EQ(joint_message("normal = \"exponential\"\nenforcement = \"slip-tolerance\"\n"),
+              "dam.toml:8:1: error: contact.normal = \"exponential\" with contact.enforcement = "
+              "\"slip-tolerance\".\n"
+              "  expected: enforcement = \"exact\" or \"penalty\" with the exponential pressure\n"
+              "  fix:      write  enforcement = \"penalty\"  with tangential_stiffness_N_m3, or  enforcement = "
+              "\"exact\"");
+}
+
 } // namespace
