@@ -1,7 +1,7 @@
 #include "fe2d/mesh/reservoir_mesh.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/mesh/build_mesh.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "fe2d/mesh/grading.hpp"
 #include "fe2d/mesh/quality.hpp"
 
@@ -15,60 +15,55 @@ namespace damslip::fe2d {
 
 namespace {
 
-/// Elements over the depth far from the dam: 12 resolve three quarter waves with an error of 0.2 %.
-constexpr double elements_over_depth = 12.0;
+constexpr double rows_over_depth = 20.0;   ///< by default
+constexpr double columns_per_depth = 12.0; ///< far from the dam: 12 resolve three quarter waves with an error of 0.2 %
 
-/// Points of the wet face from the heel up to the surface, and how many of them are dam nodes.
-struct WetFace {
-    Polyline points;
-    std::vector<int> dam_nodes;
-};
-
-WetFace wet_face(const Scene& scene, const Mesh& structure, double size)
+/// Points of the wet face from the heel up to the surface.
+Polyline wet_face(const Scene& scene, double size)
 {
     const double level = scene.reservoir->level;
-    WetFace face;
-    for (auto node = structure.upstream_face.rbegin(); node != structure.upstream_face.rend(); ++node) {
-        const Point p = structure.nodes[*node];
-        if (p.y > level + 0.02 * size) break;
-        face.points.push_back(p);
-        face.dam_nodes.push_back(*node);
+    const Polyline upstream = split_faces(scene).upstream;
+    std::vector<double> stations;
+    for (const Point& p : upstream)
+        if (p.y < level - 1e-6 * size) stations.push_back(p.y);
+    stations.push_back(level);
+    Polyline points;
+    std::size_t edge = 0;
+    for (const double y : even_positions(stations, size)) {
+        while (edge + 2 < upstream.size() && y > upstream[edge + 1].y) ++edge;
+        const Point a = upstream[edge], b = upstream[edge + 1];
+        const double t = std::min(1.0, (y - a.y) / (b.y - a.y)); // above the crest: over its upstream end
+        points.push_back({a.x + t * (b.x - a.x), y});
     }
-    const Point top = face.points.back();
-    if (face.points.size() == structure.upstream_face.size() && level > top.y + 0.02 * size)
-        for (const double y : even_positions({top.y, level}, size))
-            if (y > top.y) face.points.push_back({top.x, y});
-    return face;
+    return points;
 }
 
 } // namespace
 
-ReservoirMesh build_reservoir_mesh(const Scene& scene, const Mesh& structure)
+ReservoirMesh build_reservoir_mesh(const Scene& scene)
 {
     assert(scene.reservoir && scene.reservoir->level > 0.0);
     const Reservoir& water = *scene.reservoir;
-    const MeshSizes sizes = mesh_sizes(scene);
-    const WetFace face = wet_face(scene, structure, sizes.dam);
+    const double size = water.mesh_size.value_or(water.level / rows_over_depth);
+    const Polyline face = wet_face(scene, size);
     const double length = water.length > 0.0 ? water.length : 2.4 * water.level;
-    const double leftmost =
-        std::min_element(face.points.begin(), face.points.end(), [](Point a, Point b) { return a.x < b.x; })->x;
-    if (!(-length < leftmost - sizes.dam))
+    const double leftmost = std::min_element(face.begin(), face.end(), [](Point a, Point b) { return a.x < b.x; })->x;
+    if (!(-length < leftmost - size))
         throw InputError(
             Diagnostic{.file = scene.file.string(),
                        .problem = fmt::format("reservoir.length_m = {:g} ends inside the dam's upstream face.", length),
-                       .expected = fmt::format("more than {:g} m", sizes.dam - leftmost),
+                       .expected = fmt::format("more than {:g} m", size - leftmost),
                        .fix = "use at least twice the water depth"});
-    const double largest = std::max(sizes.dam, water.level / elements_over_depth);
+    const double largest = std::max(size, water.level / columns_per_depth);
     const std::vector<double> columns =
-        graded_positions({0.0, length}, {.first = sizes.dam, .growth = scene.mesh.growth, .largest = largest});
+        graded_positions({0.0, length}, {.first = size, .growth = scene.mesh.growth, .largest = largest});
 
     ReservoirMesh result;
-    result.dam_face = face.dam_nodes;
-    result.depth = face.points.back().y - face.points.front().y;
+    result.depth = face.back().y - face.front().y;
     Mesh& mesh = result.mesh;
-    const int n = static_cast<int>(columns.size()), rows = static_cast<int>(face.points.size());
+    const int n = static_cast<int>(columns.size()), rows = static_cast<int>(face.size());
     const auto node = [n](int column, int row) { return row * n + column; }; // column 0 is the face
-    for (const Point& p : face.points)
+    for (const Point& p : face)
         for (const double d : columns) mesh.nodes.push_back({p.x + d / length * (-length - p.x), p.y});
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < n; ++i)

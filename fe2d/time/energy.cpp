@@ -51,7 +51,7 @@ void EnergyLedger::add_step(const State& before, const State& after, const StepC
     energy_.strain = 0.5 * after.displacement.dot(after.stiffness_force);
     energy_.damping += 0.5 * step.dot(before.damping_force + after.damping_force);
     energy_.external += 0.5 * step.dot(before.load + after.load);
-    energy_.numerical += numerical_dissipation(before, after, constants);
+    energy_.numerical += numerical_dissipation(before, after, constants) + work.numerical;
     energy_.friction += work.friction;
     energy_.radiated += work.radiated;
     energy_.contact_normal += work.normal;

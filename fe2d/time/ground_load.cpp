@@ -9,9 +9,14 @@ GroundHistory::GroundHistory(const GroundMotion& motion) : dt_(motion.dt)
 {
     assert(dt_ > 0.0 && (motion.accel_v.empty() || motion.accel_v.size() == motion.accel_h.size()));
     GroundState now;
+    const auto advance = [this](double& displacement, double velocity, double a, double b) {
+        displacement += dt_ * (velocity + dt_ * (a / 3.0 + b / 6.0)); // acceleration linear from a to b
+    };
     for (std::size_t k = 0; k < motion.accel_h.size(); ++k) {
         const double h = motion.accel_h[k], v = motion.accel_v.empty() ? 0.0 : motion.accel_v[k];
         if (k > 0) {
+            advance(now.displacement_h, now.velocity_h, now.accel_h, h);
+            advance(now.displacement_v, now.velocity_v, now.accel_v, v);
             now.velocity_h += 0.5 * dt_ * (now.accel_h + h);
             now.velocity_v += 0.5 * dt_ * (now.accel_v + v);
         }
@@ -29,7 +34,16 @@ GroundState GroundHistory::at(double time) const
     const double whole = std::round(position); // a step that divides dt falls on samples up to round-off
     if (std::abs(position - whole) < 1e-9 * std::max(1.0, whole)) position = whole;
     const auto last = static_cast<double>(samples_.size() - 1);
-    if (position > last) return {0.0, 0.0, samples_.back().velocity_h, samples_.back().velocity_v};
+    if (position > last) {
+        const GroundState& end = samples_.back();
+        const double since = (position - last) * dt_;
+        return {0.0,
+                0.0,
+                end.velocity_h,
+                end.velocity_v,
+                end.displacement_h + since * end.velocity_h,
+                end.displacement_v + since * end.velocity_v};
+    }
     const auto k = static_cast<std::size_t>(position);
     const GroundState& a = samples_[k];
     const double share = position - static_cast<double>(k);
@@ -40,6 +54,9 @@ GroundState GroundHistory::at(double time) const
     state.accel_v = a.accel_v + share * (b.accel_v - a.accel_v);
     state.velocity_h = a.velocity_h + 0.5 * share * dt_ * (a.accel_h + state.accel_h);
     state.velocity_v = a.velocity_v + 0.5 * share * dt_ * (a.accel_v + state.accel_v);
+    const double step = share * dt_;
+    state.displacement_h = a.displacement_h + step * (a.velocity_h + step * (a.accel_h / 3.0 + state.accel_h / 6.0));
+    state.displacement_v = a.displacement_v + step * (a.velocity_v + step * (a.accel_v / 3.0 + state.accel_v / 6.0));
     return state;
 }
 
@@ -47,6 +64,9 @@ void GroundLoad::evaluate(const GroundState& ground, Eigen::VectorXd& load) cons
 {
     load = still + ground.accel_h * mass_x - ground.accel_v * mass_y;
     if (damped_x.size() > 0) load += ground.velocity_h * damped_x - ground.velocity_v * damped_y;
+    if (velocity_x.size() > 0)
+        load +=
+            -ground.velocity_h * velocity_x + ground.velocity_v * velocity_y + ground.displacement_v * displacement_y;
 }
 
 } // namespace damslip::fe2d

@@ -8,14 +8,15 @@
 
 namespace damslip::fe2d {
 
-/// Ground acceleration and velocity at one time; a_h positive upstream, a_v positive up, as in the record.
+/// Ground acceleration, velocity and displacement at one time; a_h positive upstream, a_v positive up, as in the record.
 struct GroundState {
-    double accel_h = 0.0, accel_v = 0.0;       ///< [m/s^2]
-    double velocity_h = 0.0, velocity_v = 0.0; ///< integrals from zero [m/s]
+    double accel_h = 0.0, accel_v = 0.0;               ///< [m/s^2]
+    double velocity_h = 0.0, velocity_v = 0.0;         ///< integrals from zero [m/s]
+    double displacement_h = 0.0, displacement_v = 0.0; ///< integrals of these from zero [m]
 };
 
-/// Acceleration linear between samples, zero before the first and after the last; velocity its exact integral. After the end of
-/// the motion the velocity stays.
+/// Acceleration linear between samples, zero before the first and after the last; velocity and displacement its exact
+/// integrals. After the end of the motion the velocity stays.
 class GroundHistory {
 public:
     explicit GroundHistory(const GroundMotion& motion);
@@ -38,6 +39,9 @@ struct GroundLoad {
     Eigen::VectorXd still;              ///< R_static [N/m]
     Eigen::VectorXd mass_x, mass_y;     ///< M r_x, M r_y [kg/m]
     Eigen::VectorXd damped_x, damped_y; ///< a_M M_s r_x, a_M M_s r_y [kg/(m s)]; empty: relative velocity only
+    Eigen::VectorXd velocity_x,
+        velocity_y; ///< load of the water per ground velocity in these axes (CoupledSystem); empty: no water
+    Eigen::VectorXd displacement_y; ///< and per vertical displacement
 
     void evaluate(const GroundState& ground, Eigen::VectorXd& load) const;
 };

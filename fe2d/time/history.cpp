@@ -43,10 +43,13 @@ Table tabulate(const History& history)
 {
     Table table;
     table.title = "history";
+    const bool water = history.peak_water_force > 0.0;
     for (const HistoryColumn& c : columns()) table.columns.push_back(c.column);
+    if (water) table.columns.push_back({"water_force_x_N_m", "hydrodynamic force x", "N/m", 4});
     for (const HistoryRow& row : history.rows) {
         std::vector<Cell> cells;
         for (const HistoryColumn& c : columns()) cells.emplace_back(c.value(row));
+        if (water) cells.emplace_back(row.water_force_x);
         table.rows.push_back(std::move(cells));
     }
     table.notes = history.notes;

@@ -23,6 +23,7 @@ struct HistoryRow {
     double crest_accel_x = 0.0, crest_accel_y = 0.0; ///< absolute, downstream and up [m/s^2]
     double base_shear = 0.0;                         ///< of the dam on the rock, positive downstream [N/m]
     double base_normal = 0.0; ///< of the dam on the rock, compression positive [N/m]; total, without uplift
+    double water_force_x = 0.0; ///< of acoustic water beyond the static one on the dam, positive downstream [N/m]; 0 without
     Energy energy;            ///< [J/m]
     double imbalance = 0.0;   ///< of the energies since the start [J/m]
 };
@@ -42,6 +43,7 @@ struct History {
     double peak_crest_x = 0.0;       ///< largest |crest displacement - the one at the start| in x [m]
     double peak_crest_accel_x = 0.0; ///< largest |absolute crest acceleration| in x [m/s^2]
     double peak_base_shear = 0.0;    ///< largest, downstream [N/m]
+    double peak_water_force = 0.0;   ///< largest |water_force_x| [N/m]
     std::vector<std::string> notes;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/damping/damping_choice.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/time/history.hpp"
 #include "fe2d/time/run_progress.hpp"
@@ -21,6 +22,9 @@ struct TiedRunOptions {
     double free_vibration = 0.0;                ///< time after the motion's end without ground acceleration [s], >= 0
     int keep_every = 1; ///< steps per kept row of the history, >= 1; peaks and energies see every step
     RockTreatment rock = RockTreatment::condensed;
+    const FluidModel* water =
+        nullptr; ///< acoustic water on the upstream face, at rest at the start; null: none. The model then has
+                 ///< no added mass
     SolverOptions solver;
     std::function<RunAnswer(const RunProgress&)> progress; ///< asked after every step; empty: none
 };

@@ -304,6 +304,25 @@ void check_joint(const Scene& s, Findings& f)
     check_normal_contact(c, f);
 }
 
+void check_acoustic_water(const Reservoir& water, Findings& f)
+{
+    if (water.bottom_density.has_value() != water.bottom_modulus.has_value())
+        f.wrong(water.bottom_density ? "reservoir.bottom_density" : "reservoir.bottom_modulus",
+                "one of reservoir.bottom_density_kg_m3 and reservoir.bottom_modulus_GPa is missing.",
+                "both: together they give the wave reflection coefficient (Goldgruber 2015, 3-55)",
+                "add the other one, or give bottom_reflection instead");
+    if ((water.bottom_density || water.bottom_modulus) && f.given("reservoir.bottom_reflection"))
+        f.wrong("reservoir.bottom_reflection",
+                "reservoir.bottom_reflection is given together with the density or modulus of the bottom.",
+                "one of the two descriptions", "delete one");
+    if (water.mesh_size && *water.mesh_size > water.level / 4)
+        f.wrong("reservoir.mesh_size",
+                fmt::format("{} leaves fewer than four elements over the depth of {} m.",
+                            value("reservoir.mesh_size_m", *water.mesh_size), shortest(water.level)),
+                "at most a quarter of the depth; a tenth resolves the waves that matter",
+                fmt::format("write  mesh_size_m = {}", shortest(water.level / 20)));
+}
+
 void check_water(const Scene& s, Findings& f)
 {
     if (s.silt && s.silt->level > crest_level(s.section))
@@ -316,6 +335,7 @@ void check_water(const Scene& s, Findings& f)
                 fmt::format("{} is more than three times the height of the crest, {} m.",
                             value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
                 "metres above the heel", "check datum and unit");
+    if (s.reservoir) check_acoustic_water(*s.reservoir, f);
     if (s.added_mass.period && s.reservoir) {
         const double h = s.reservoir->level, c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
         if (s.added_mass.formula == AddedMassFormula::westergaard && *s.added_mass.period <= 4 * h / c)
@@ -456,6 +476,8 @@ void apply_preset(Scene& scene, const Findings& findings)
     if (open("contact.enforcement")) scene.contact.enforcement = ContactEnforcement::slip_tolerance;
     if (open("contact.slip_tolerance")) scene.contact.slip_tolerance = 0.005;
     if (open("contact.separation")) scene.contact.separation = JointOpening::none;
+    if (scene.reservoir && open("reservoir.far_end")) scene.reservoir->far_end = FarEnd::damper;
+    if (scene.reservoir && open("reservoir.bottom_motion")) scene.reservoir->bottom_motion = BottomMotion::still;
     if (open("damping.mass")) scene.damping.mass = MassDamping::relative;
     if (open("time.alpha")) scene.time.alpha = -1.0 / 3.0;
     if (open("time.dt")) scene.time.dt = 0.01;

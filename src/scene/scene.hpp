@@ -48,6 +48,9 @@ struct Curtain {
 };
 
 enum class ReservoirModel { automatic, hydrostatic, added_mass, acoustic };
+enum class WaterSurface { free, sloshing };            ///< p = 0, or a surface that rises and falls
+enum class FarEnd { absorbing, damper, closed, open }; ///< waves leave; the same at normal incidence only; wall; p = 0
+enum class BottomMotion { ground, still };             ///< the reservoir bottom moves with the ground, or not at all
 
 struct Reservoir {
     double level = 0.0;           ///< water surface above the heel [m]
@@ -56,6 +59,14 @@ struct Reservoir {
     double length = 0.0;          ///< of the acoustic reservoir [m]; default 2.4 x level
     ReservoirModel model = ReservoirModel::automatic;
     bool floor_pressure = false; ///< water pressure on the reservoir floor loads the rock
+
+    // Acoustic water only.
+    WaterSurface surface = WaterSurface::free;
+    FarEnd far_end = FarEnd::absorbing;
+    BottomMotion bottom_motion = BottomMotion::ground;
+    double bottom_reflection = 1.0; ///< alpha of pressure waves on the bottom, -1 (p = 0) ... 1 (rigid) [-]
+    std::optional<double> bottom_density, bottom_modulus; ///< of what lies there [kg/m^3], [Pa]: give alpha instead
+    std::optional<double> mesh_size;                      ///< element height in the water [m]; default level / 20
 };
 
 enum class AddedMassFormula { westergaard_simplified, westergaard, zangar, goldgruber };

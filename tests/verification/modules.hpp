@@ -12,6 +12,7 @@ void add_load_cases(Registry& registry);
 void add_equilibrium_cases(Registry& registry);
 void add_fe_core_cases(Registry& registry);
 void add_fe_modes_cases(Registry& registry);
+void add_fe_fluid_cases(Registry& registry);
 void add_fe_time_cases(Registry& registry);
 void add_fe_contact_cases(Registry& registry);
 void add_fe_friction_cases(Registry& registry);

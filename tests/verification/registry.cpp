@@ -35,6 +35,7 @@ Registry all_cases()
     add_equilibrium_cases(registry);
     add_fe_core_cases(registry);
     add_fe_modes_cases(registry);
+    add_fe_fluid_cases(registry);
     add_fe_time_cases(registry);
     add_fe_contact_cases(registry);
     add_fe_friction_cases(registry);

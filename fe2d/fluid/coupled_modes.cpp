@@ -1,0 +1,205 @@
+#include "fe2d/fluid/coupled_modes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Spectra/SymGEigsSolver.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+using ConstMap = Eigen::Map<const VectorXd>;
+using Map = Eigen::Map<VectorXd>;
+
+/// K, Q and L factorised.
+struct Factors {
+    LinearSolver structure, water_mass, water;
+
+    SolverReport factorise(const CoupledPencil& p)
+    {
+        if (const SolverReport& r = structure.factorise(p.stiffness); !r.ok()) return r;
+        if (const SolverReport& r = water_mass.factorise(p.water_mass); !r.ok()) return r;
+        if (const SolverReport& r = water.factorise(p.water_stiffness); !r.ok()) return r;
+        return structure.report();
+    }
+};
+
+/// z -> B z.
+class Inertia {
+public:
+    using Scalar = double;
+    Inertia(const CoupledPencil& pencil, const Factors& factors) : p_(pencil), f_(factors) {}
+    Index rows() const { return p_.stiffness.rows() + p_.water_mass.rows(); }
+    Index cols() const { return rows(); }
+    void perform_op(const double* in, double* out) const
+    {
+        const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
+        const ConstMap u(in, n), q(in + n, m);
+        const VectorXd potential = f_.water.solve(VectorXd(p_.coupling.transpose() * u + p_.water_mass * q));
+        Map(out, n) = p_.mass * u + p_.coupling * potential;
+        Map(out + n, m) = p_.water_mass * potential;
+    }
+
+private:
+    const CoupledPencil& p_;
+    const Factors& f_;
+};
+
+/// diag(K, Q), product and inverse.
+class Stiffness {
+public:
+    using Scalar = double;
+    Stiffness(const CoupledPencil& pencil, const Factors& factors) : p_(pencil), f_(factors) {}
+    Index rows() const { return p_.stiffness.rows() + p_.water_mass.rows(); }
+    Index cols() const { return rows(); }
+    void perform_op(const double* in, double* out) const
+    {
+        const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
+        Map(out, n) = p_.stiffness * ConstMap(in, n);
+        Map(out + n, m) = p_.water_mass * ConstMap(in + n, m);
+    }
+    void solve(const double* in, double* out) const
+    {
+        const Index n = p_.stiffness.rows(), m = p_.water_mass.rows();
+        Map(out, n) = f_.structure.solve(VectorXd(ConstMap(in, n)));
+        Map(out + n, m) = f_.water_mass.solve(VectorXd(ConstMap(in + n, m)));
+    }
+
+private:
+    const CoupledPencil& p_;
+    const Factors& f_;
+};
+
+struct Pairs {
+    VectorXd values; ///< 1/ω², largest first
+    Eigen::MatrixXd vectors;
+    bool converged = true;
+};
+
+Pairs all_pairs(Inertia& inertia, Stiffness& stiffness)
+{
+    const Index n = inertia.rows();
+    Eigen::MatrixXd a(n, n), b(n, n);
+    for (Index j = 0; j < n; ++j) {
+        const VectorXd unit = VectorXd::Unit(n, j);
+        inertia.perform_op(unit.data(), a.col(j).data());
+        stiffness.perform_op(unit.data(), b.col(j).data());
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (a + a.transpose()), b);
+    return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
+}
+
+Pairs largest_pairs(Inertia& inertia, Stiffness& stiffness, int count)
+{
+    const int n = static_cast<int>(inertia.rows()), space = std::max(2 * count + 1, 20);
+    if (space >= n) return all_pairs(inertia, stiffness);
+    VectorXd start(n); // without symmetry and the same every time
+    std::uint32_t state = 20150101u;
+    for (double& x : start) {
+        state = 1664525u * state + 1013904223u;
+        x = static_cast<double>(state) / 2147483648.0 - 1.0;
+    }
+    VectorXd solved(n);
+    stiffness.solve(start.data(), solved.data()); // energies of both parts of one size
+    Spectra::SymGEigsSolver<Inertia, Stiffness, Spectra::GEigsMode::RegularInverse> solver(inertia, stiffness, count,
+                                                                                           space);
+    solver.init(solved.data());
+    solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-12);
+    return {solver.eigenvalues(), solver.eigenvectors(), solver.info() == Spectra::CompInfo::Successful};
+}
+
+void fill(CoupledModes& modes, const CoupledPencil& p, const Pairs& pairs, Index count)
+{
+    const Index n = p.stiffness.rows(), m = p.water_mass.rows();
+    modes.frequency.resize(count);
+    modes.displacement.resize(n, count);
+    modes.pressure.resize(m, count);
+    modes.water_share.resize(count);
+    modes.effective_mass.resize(2, count);
+    for (Index k = 0; k < count; ++k) {
+        const double w2 = 1.0 / pairs.values[k];
+        VectorXd u = pairs.vectors.col(k).head(n), q = pairs.vectors.col(k).tail(m);
+        const double water = q.dot(p.water_mass * q), energy = u.dot(p.stiffness * u) + water;
+        // zᵀ B z = zᵀ diag(K, Q) z / ω²
+        const double norm = std::sqrt(w2 / energy);
+        Index largest = 0;
+        u.cwiseAbs().maxCoeff(&largest);
+        const double factor = n > 0 && u[largest] < 0.0 ? -norm : norm;
+        u *= factor;
+        q *= factor;
+        modes.frequency[k] = std::sqrt(w2) / (2.0 * std::numbers::pi);
+        modes.displacement.col(k) = u;
+        modes.pressure.col(k) = q;
+        modes.water_share[k] = water / energy;
+        modes.effective_mass(0, k) = std::pow(u.dot(p.inertia_x) + q.dot(p.flux_x) / w2, 2);
+        modes.effective_mass(1, k) = std::pow(u.dot(p.inertia_y) + q.dot(p.flux_y) / w2, 2);
+    }
+}
+
+} // namespace
+
+CoupledModes coupled_modes(const CoupledPencil& pencil, int count)
+{
+    CoupledModes modes;
+    Factors factors;
+    modes.solver = factors.factorise(pencil);
+    if (!modes.solver.ok()) {
+        modes.status = CoupledModesStatus::solver_failed;
+        return modes;
+    }
+    modes.total_mass = pencil.structure_mass;
+    modes.total_mass.x() += pencil.flux_x.dot(factors.water.solve(pencil.flux_x));
+    modes.total_mass.y() += pencil.flux_y.dot(factors.water.solve(pencil.flux_y));
+    Inertia inertia(pencil, factors);
+    Stiffness stiffness(pencil, factors);
+    const Pairs pairs = largest_pairs(inertia, stiffness, count);
+    const Index found = std::min<Index>(count, pairs.values.size());
+    if (!pairs.converged || found < std::min<Index>(count, inertia.rows()))
+        modes.status = CoupledModesStatus::not_converged;
+    fill(modes, pencil, pairs, found);
+    modes.effective_share = modes.total_mass.cwiseInverse().asDiagonal() * modes.effective_mass;
+    return modes;
+}
+
+CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, int least)
+{
+    const auto limit = static_cast<int>(pencil.stiffness.rows() + pencil.water_mass.rows());
+    for (int count = std::max(24, least + 1);; count *= 2) {
+        count = std::min(count, limit);
+        CoupledModes modes = coupled_modes(pencil, count);
+        const Index found = modes.frequency.size();
+        if (modes.status != CoupledModesStatus::ok || count == limit || modes.frequency[found - 1] > frequency) {
+            const auto end = std::partition_point(modes.frequency.begin(), modes.frequency.end(),
+                                                  [=](double f) { return f <= frequency; });
+            const Index kept = std::min<Index>(found, std::max<Index>(least, end - modes.frequency.begin()));
+            modes.frequency.conservativeResize(kept);
+            modes.displacement.conservativeResize(Eigen::NoChange, kept);
+            modes.pressure.conservativeResize(Eigen::NoChange, kept);
+            modes.water_share.conservativeResize(kept);
+            modes.effective_mass.conservativeResize(Eigen::NoChange, kept);
+            modes.effective_share.conservativeResize(Eigen::NoChange, kept);
+            return modes;
+        }
+    }
+}
+
+std::vector<Index> leading_modes(const CoupledModes& modes, int count)
+{
+    std::vector<Index> order(static_cast<std::size_t>(modes.frequency.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return modes.effective_mass(0, a) > modes.effective_mass(0, b); });
+    order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(count)));
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,81 @@
+#include "fe2d/harmonic/harmonic_solver.hpp"
+
+#include <umfpack.h>
+
+#include <array>
+#include <cassert>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+
+struct HarmonicSolver::Implementation {
+    // One pattern for all three; UMFPACK takes real and imaginary parts apart.
+    Eigen::SparseMatrix<double> mass, damping, stiffness;
+    Eigen::VectorXd real, imaginary;
+    void* symbolic = nullptr;
+    void* numeric = nullptr;
+    std::array<double, UMFPACK_CONTROL> control{};
+    bool regular = false;
+
+    ~Implementation()
+    {
+        if (numeric) umfpack_zi_free_numeric(&numeric);
+        if (symbolic) umfpack_zi_free_symbolic(&symbolic);
+    }
+};
+
+HarmonicSolver::HarmonicSolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
+    : implementation_(std::make_unique<Implementation>())
+{
+    assert(mass.rows() == stiffness.rows() && damping.rows() == stiffness.rows());
+    Implementation& s = *implementation_;
+    const auto pattern = [](Matrix m) {
+        m.makeCompressed();
+        m.coeffs().setOnes();
+        return m;
+    };
+    Matrix zero = pattern(mass) + pattern(damping) + pattern(stiffness);
+    zero.makeCompressed();
+    zero.coeffs().setZero();
+    s.mass = mass + zero;
+    s.damping = damping + zero;
+    s.stiffness = stiffness + zero;
+    assert(s.mass.nonZeros() == zero.nonZeros() && s.damping.nonZeros() == zero.nonZeros());
+    umfpack_zi_defaults(s.control.data());
+}
+
+HarmonicSolver::~HarmonicSolver() = default;
+HarmonicSolver::HarmonicSolver(HarmonicSolver&&) noexcept = default;
+
+bool HarmonicSolver::factorise(double frequency)
+{
+    Implementation& s = *implementation_;
+    const auto n = static_cast<int>(s.stiffness.rows());
+    s.real = s.stiffness.coeffs() - frequency * frequency * s.mass.coeffs();
+    s.imaginary = frequency * s.damping.coeffs();
+    const int *columns = s.stiffness.outerIndexPtr(), *rows = s.stiffness.innerIndexPtr();
+    if (s.numeric) umfpack_zi_free_numeric(&s.numeric);
+    if (!s.symbolic)
+        umfpack_zi_symbolic(n, n, columns, rows, s.real.data(), s.imaginary.data(), &s.symbolic, s.control.data(),
+                            nullptr);
+    s.regular = s.symbolic && umfpack_zi_numeric(columns, rows, s.real.data(), s.imaginary.data(), s.symbolic,
+                                                 &s.numeric, s.control.data(), nullptr) == UMFPACK_OK;
+    return s.regular;
+}
+
+Eigen::VectorXcd HarmonicSolver::solve(const Eigen::VectorXcd& right_hand_side) const
+{
+    const Implementation& s = *implementation_;
+    assert(s.regular && right_hand_side.size() == s.stiffness.rows());
+    const Eigen::VectorXd b = right_hand_side.real(), c = right_hand_side.imag();
+    Eigen::VectorXd x(b.size()), y(b.size());
+    umfpack_zi_solve(UMFPACK_A, s.stiffness.outerIndexPtr(), s.stiffness.innerIndexPtr(), s.real.data(),
+                     s.imaginary.data(), x.data(), y.data(), b.data(), c.data(), s.numeric, s.control.data(), nullptr);
+    Eigen::VectorXcd solution(b.size());
+    solution.real() = x;
+    solution.imag() = y;
+    return solution;
+}
+
+} // namespace damslip::fe2d
