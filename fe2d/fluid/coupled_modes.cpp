@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace damslip::fe2d {
 
@@ -15,6 +14,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
+
+constexpr double smallest_dam_share = 1e-3;
+constexpr Index most_modes = 400;
 
 using ConstMap = Eigen::Map<const VectorXd>;
 using Map = Eigen::Map<VectorXd>;
@@ -124,6 +126,7 @@ void fill(CoupledModes& modes, const CoupledPencil& p, const Pairs& pairs, Index
     modes.pressure.resize(m, count);
     modes.water_share.resize(count);
     modes.effective_mass.resize(2, count);
+    modes.dam_share.resize(count);
     for (Index k = 0; k < count; ++k) {
         const double w2 = 1.0 / pairs.values[k];
         VectorXd u = pairs.vectors.col(k).head(n), q = pairs.vectors.col(k).tail(m);
@@ -139,7 +142,9 @@ void fill(CoupledModes& modes, const CoupledPencil& p, const Pairs& pairs, Index
         modes.displacement.col(k) = u;
         modes.pressure.col(k) = q;
         modes.water_share[k] = water / energy;
-        modes.effective_mass(0, k) = std::pow(u.dot(p.inertia_x) + q.dot(p.flux_x) / w2, 2);
+        const double dam = u.dot(p.inertia_x), participation = dam + q.dot(p.flux_x) / w2;
+        modes.effective_mass(0, k) = participation * participation;
+        modes.dam_share[k] = dam * participation / modes.total_mass.x();
         modes.effective_mass(1, k) = std::pow(u.dot(p.inertia_y) + q.dot(p.flux_y) / w2, 2);
     }
 }
@@ -169,23 +174,35 @@ CoupledModes coupled_modes(const CoupledPencil& pencil, int count)
     return modes;
 }
 
-CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, int least)
+namespace {
+
+void keep(CoupledModes& modes, Index count)
 {
-    const auto limit = static_cast<int>(pencil.stiffness.rows() + pencil.water_mass.rows());
-    for (int count = std::max(24, least + 1);; count *= 2) {
-        count = std::min(count, limit);
+    modes.frequency.conservativeResize(count);
+    modes.displacement.conservativeResize(Eigen::NoChange, count);
+    modes.pressure.conservativeResize(Eigen::NoChange, count);
+    modes.water_share.conservativeResize(count);
+    modes.dam_share.conservativeResize(count);
+    modes.effective_mass.conservativeResize(Eigen::NoChange, count);
+    modes.effective_share.conservativeResize(Eigen::NoChange, count);
+}
+
+} // namespace
+
+CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, int leading)
+{
+    const auto limit =
+        static_cast<int>(std::min<Index>(pencil.stiffness.rows() + pencil.water_mass.rows(), most_modes));
+    for (int count = std::min(24, limit);; count = std::min(2 * count, limit)) {
         CoupledModes modes = coupled_modes(pencil, count);
         const Index found = modes.frequency.size();
-        if (modes.status != CoupledModesStatus::ok || count == limit || modes.frequency[found - 1] > frequency) {
-            const auto end = std::partition_point(modes.frequency.begin(), modes.frequency.end(),
-                                                  [=](double f) { return f <= frequency; });
-            const Index kept = std::min<Index>(found, std::max<Index>(least, end - modes.frequency.begin()));
-            modes.frequency.conservativeResize(kept);
-            modes.displacement.conservativeResize(Eigen::NoChange, kept);
-            modes.pressure.conservativeResize(Eigen::NoChange, kept);
-            modes.water_share.conservativeResize(kept);
-            modes.effective_mass.conservativeResize(Eigen::NoChange, kept);
-            modes.effective_share.conservativeResize(Eigen::NoChange, kept);
+        const std::vector<Index> chosen = leading_modes(modes, leading);
+        const bool enough =
+            static_cast<int>(chosen.size()) == leading && found > 0 && modes.frequency[found - 1] > frequency;
+        if (modes.status != CoupledModesStatus::ok || count == limit || enough) {
+            const Index below =
+                std::count_if(modes.frequency.begin(), modes.frequency.end(), [=](double f) { return f <= frequency; });
+            keep(modes, std::max(below, chosen.empty() ? 0 : chosen.back() + 1));
             return modes;
         }
     }
@@ -193,13 +210,10 @@ CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, 
 
 std::vector<Index> leading_modes(const CoupledModes& modes, int count)
 {
-    std::vector<Index> order(static_cast<std::size_t>(modes.frequency.size()));
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return modes.effective_mass(0, a) > modes.effective_mass(0, b); });
-    order.resize(std::min<std::size_t>(order.size(), static_cast<std::size_t>(count)));
-    std::sort(order.begin(), order.end());
-    return order;
+    std::vector<Index> leading;
+    for (Index k = 0; k < modes.frequency.size() && static_cast<int>(leading.size()) < count; ++k)
+        if (modes.dam_share[k] >= smallest_dam_share) leading.push_back(k);
+    return leading;
 }
 
 } // namespace damslip::fe2d

@@ -29,6 +29,9 @@ struct CoupledModes {
     Eigen::VectorXd water_share;     ///< of the mode's potential energy, φ_pᵀQφ_p/(φ_uᵀKφ_u + φ_pᵀQφ_p) [-]
     Eigen::Matrix2Xd effective_mass; ///< in x and y [kg/m]
     Eigen::Matrix2Xd effective_share; ///< over total_mass [-]
+    Eigen::VectorXd
+        dam_share; ///< of the effective mass in x the part the dam's own mass carries, φ_uᵀM r Γ, over total_mass [-]; they sum
+        ///< to the dam's mass; negative where the water pushes the dam against its motion
     Eigen::Vector2d total_mass{
         0.0, 0.0}; ///< of the structure and the added mass of incompressible water, fluxᵀ L⁻¹ flux [kg/m]
 
@@ -42,10 +45,11 @@ struct CoupledModes {
 /// @param count  modes wanted
 CoupledModes coupled_modes(const CoupledPencil& pencil, int count);
 
-/// Every mode up to a frequency [Hz] and at least `least` of them.
-CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, int least);
+/// Every mode up to a frequency [Hz], and more until `leading` leading ones are among them (of 400 modes at most).
+CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, int leading);
 
-/// The modes with the `count` largest effective masses in x, in the order of their frequencies: those a response in x is made of.
+/// The first `count` modes, by frequency, that move the dam in x: dam_share of at least 0.1 %. A long reservoir adds any number of modes
+/// between them that hardly do, and more with its length; the answer of the dam and its damping are ruled by these.
 std::vector<Eigen::Index> leading_modes(const CoupledModes& modes, int count);
 
 } // namespace damslip::fe2d

@@ -136,7 +136,9 @@ void add_modes(Parser& p)
                 "damslip modes examples/reference_dam.toml --count 5");
     add_run_inputs(sub, p.modes.inputs);
     sub->add_option("-n,--count", p.modes.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
-    sub->add_option("--out", p.modes.out, "folder for the mode shapes as VTU files");
+    sub->add_flag("--frf", p.modes.frequency_response,
+                  "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");
+    sub->add_option("--out", p.modes.out, "folder for the mode shapes as VTU files and the transfer functions as CSV");
     sub->callback([&p] { p.chosen = [a = p.modes](const Streams& s) { return modes(a, s); }; });
 }
 

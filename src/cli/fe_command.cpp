@@ -15,9 +15,14 @@ int fe(const FeArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs);
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    Scene scene = fe_scene(given, plan);
+    const bool tied = arguments.base == "tied" && !arguments.reduced;
+    Scene scene = fe_scene(given, plan, tied ? AcousticWater::allowed : AcousticWater::refused);
+    if (tied)
+        if (const auto choice = resolve_reservoir_model(scene); choice && !streams.quiet)
+            streams.talk << choice->reason << "\n";
     const std::vector<RecordPair> records = read_records(scene, plan);
-    if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
+    const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
+    if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass) && !acoustic) {
         const DamPeriod period = resolve_dam_period(scene);
         if (!streams.quiet)
             streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period.frequency);

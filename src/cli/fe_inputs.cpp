@@ -28,14 +28,30 @@ double first_frequency(const Scene& scene)
 
 } // namespace
 
-Scene fe_scene(const Scene& given, const EffectPlan& plan)
+Scene fe_scene(const Scene& given, const EffectPlan& plan, AcousticWater acoustic)
 {
     Scene scene = called_for(plan, given);
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        throw UsageError(
-            Diagnostic{scene.file.string(), 0, 0, "reservoir.model = \"acoustic\" is not available in this version.",
-                       "\"added-mass\", \"hydrostatic\" or \"auto\"", "write  model = \"added-mass\"  in [reservoir]"});
+    if (acoustic == AcousticWater::refused && scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
+                                    "reservoir.model = \"acoustic\" is not available in contact runs of this version.",
+                                    "\"added-mass\", \"hydrostatic\" or \"auto\"; with --base tied \"acoustic\" too",
+                                    "write  model = \"added-mass\"  in [reservoir], or give --base tied"});
     return scene;
+}
+
+std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene)
+{
+    if (!scene.reservoir || scene.reservoir->model != ReservoirModel::automatic || scene.reservoir->level <= 0)
+        return std::nullopt;
+    ReservoirChoice choice{first_frequency(scene), ""};
+    const sliding::CompressibilityCriterion c =
+        sliding::compressibility_criterion(water_column(scene), choice.frequency);
+    scene.reservoir->model = c.compressible_matters ? ReservoirModel::acoustic : ReservoirModel::added_mass;
+    choice.reason = fmt::format("reservoir.model = \"auto\": Omega_r = (c/4h)/f_1 = {:.3g} {} 2 with f_1 = {:.4g} Hz "
+                                "(3-36), so the water is {}",
+                                c.frequency_ratio, c.compressible_matters ? "<" : ">=", choice.frequency,
+                                c.compressible_matters ? "acoustic" : "added mass");
+    return choice;
 }
 
 fe2d::AddedMassLaw added_mass_law(const Scene& scene)

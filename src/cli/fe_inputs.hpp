@@ -4,13 +4,28 @@
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
 
+#include <optional>
+#include <string>
+
 namespace damslip::cli {
 
-/// The scene with what the plan calls for. @throws UsageError for what finite elements cannot do
-Scene fe_scene(const Scene& given, const EffectPlan& plan);
+enum class AcousticWater { refused, allowed }; ///< contact runs do not have it yet
+
+/// The scene with what the plan calls for. @throws UsageError for what the run cannot do
+Scene fe_scene(const Scene& given, const EffectPlan& plan, AcousticWater acoustic = AcousticWater::refused);
 
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
 fe2d::AddedMassLaw added_mass_law(const Scene& scene);
+
+/// What became of reservoir.model = "auto".
+struct ReservoirChoice {
+    double frequency = 0.0; ///< first natural frequency with added mass [Hz]
+    std::string reason;     ///< one sentence with the numbers
+};
+
+/// Decides reservoir.model = "auto" by the compressibility criterion (3-36) on the computed first frequency: acoustic where Omega_r < 2, else
+/// added mass. Nothing where the scene says itself what it wants.
+std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene);
 
 /// Water in the rock as nodal forces (stages.pore_pressure = total or effective), from the seepage on the model's own mesh; zero for none.
 /// @throws NotConverged when the seepage solver loses its accuracy

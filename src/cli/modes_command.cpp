@@ -1,20 +1,25 @@
 #include "cli/modes_command.hpp"
 
+#include "cli/acoustic_modes.hpp"
 #include "cli/fe_inputs.hpp"
 #include "cli/fe_output.hpp"
 #include "cli/usage_error.hpp"
+#include "core/file.hpp"
 #include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/time/coupled_structure.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
 #include "sliding/loads/added_mass.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <ostream>
 
 namespace damslip::cli {
@@ -53,7 +58,8 @@ struct DampingTable {
 };
 
 /// Rayleigh on the scene's two modes and, where there is a record, modified Rayleigh.
-DampingTable damping_table(const Scene& scene, const fe2d::Model& model, const fe2d::NaturalModes& modes,
+/// @param total_mass  in x [kg/m]
+DampingTable damping_table(const Scene& scene, double total_mass, const fe2d::NaturalModes& modes,
                            const std::vector<RecordPair>& records)
 {
     DampingTable out;
@@ -84,7 +90,7 @@ DampingTable damping_table(const Scene& scene, const fe2d::Model& model, const f
         options.ratio = scene.damping.ratio;
         options.first_mode = static_cast<std::size_t>(index(scene.damping.first_mode));
         options.ordinary_mode = static_cast<std::size_t>(index(scene.damping.second_mode));
-        options.total_mass = model.total_mass.x();
+        options.total_mass = total_mass;
         const fe2d::ModifiedRayleigh m = fe2d::modified_rayleigh(
             masses,
             [&](double w, double ratio) {
@@ -122,6 +128,65 @@ std::string criterion_sentence(const Scene& scene, double frequency)
         c.compressible_matters ? "" : " not needed");
 }
 
+/// Everything a scene's modes are: of the dam with added mass, or of dam and water.
+struct ModesAnswer {
+    Table frequencies;
+    fe2d::NaturalModes modes; ///< shapes only where there is no acoustic water
+    double total_mass = 0.0;  ///< in x [kg/m]
+    bool complete = true;
+};
+
+ModesAnswer added_mass_modes(const fe2d::Model& model, int count, std::vector<std::string>& notes)
+{
+    ModesAnswer answer;
+    answer.modes = fe2d::natural_modes(model, count);
+    if (answer.modes.status != fe2d::ModesStatus::ok)
+        notes.push_back(
+            fmt::format("only {} of {} modes: {}", answer.modes.frequency.size(), count, answer.modes.solver.text()));
+    answer.frequencies = frequency_table(answer.modes);
+    answer.total_mass = model.total_mass.x();
+    answer.complete = answer.modes.status == fe2d::ModesStatus::ok || answer.modes.status == fe2d::ModesStatus::no_mass;
+    return answer;
+}
+
+constexpr double coupled_modes_to = 20.0; ///< [Hz]
+
+ModesAnswer acoustic_modes(const Scene& scene, const fe2d::Model& model, const fe2d::FluidModel& water,
+                           std::vector<std::string>& notes)
+{
+    const int leading_count = std::max({5, scene.damping.first_mode, scene.damping.second_mode});
+    const fe2d::CoupledModes coupled =
+        fe2d::coupled_modes_up_to(fe2d::coupled_pencil(model, water), coupled_modes_to, leading_count);
+    ModesAnswer answer;
+    answer.complete = coupled.status == fe2d::CoupledModesStatus::ok;
+    if (!answer.complete) notes.push_back("not all coupled modes were found: " + coupled.solver.text());
+    const std::vector<Eigen::Index> leading = fe2d::leading_modes(coupled, leading_count);
+    answer.frequencies = coupled_mode_table(coupled, leading);
+    answer.modes = as_natural_modes(coupled, leading);
+    answer.total_mass = coupled.total_mass.x();
+    notes.push_back(water_counts(water));
+    for (std::string& warning : reservoir_warnings(scene, coupled_modes_to)) notes.push_back(std::move(warning));
+    return answer;
+}
+
+/// Damped by the Rayleigh constants of the table's first row.
+Table transfer_of(const Scene& scene, const fe2d::Model& model, const fe2d::FluidModel* water,
+                  const fe2d::NaturalModes& modes)
+{
+    fe2d::RayleighConstants damping{};
+    if (scene.damping.method != DampingMethod::none && modes.frequency.size() > 0 && scene.damping.ratio > 0) {
+        const auto omega = [&](int mode) {
+            return 2 * std::numbers::pi * modes.frequency[std::min<Eigen::Index>(mode, modes.frequency.size()) - 1];
+        };
+        damping = fe2d::rayleigh_constants(scene.damping.ratio, omega(scene.damping.first_mode),
+                                           omega(scene.damping.second_mode));
+    }
+    std::vector<double> frequencies;
+    for (int k = 1; k <= 200; ++k) frequencies.push_back(0.1 * k);
+    return transfer_table(fe2d::transfer_functions(model, fe2d::structure_system(model, damping), water, frequencies),
+                          water != nullptr);
+}
+
 } // namespace
 
 int modes(const ModesArguments& arguments, const Streams& streams)
@@ -130,7 +195,11 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = called_for(plan, given);
     std::vector<std::string> notes;
-    if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
+    const auto choice = resolve_reservoir_model(scene);
+    if (choice) notes.push_back(choice->reason);
+    const bool acoustic =
+        scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0;
+    if (!acoustic && scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
         const DamPeriod period = resolve_dam_period(scene);
         notes.push_back(fmt::format("added_mass.period_s = \"dam\": T = {:.6g} s, f_1 = {:.5g} Hz (incompressible "
                                     "water: {:.5g} Hz), {} solutions",
@@ -140,32 +209,42 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     const fe2d::Model model = fe2d::build_model(scene, options);
-    const fe2d::NaturalModes modes = fe2d::natural_modes(model, arguments.count);
-    if (modes.status != fe2d::ModesStatus::ok)
-        notes.push_back(
-            fmt::format("only {} of {} modes: {}", modes.frequency.size(), arguments.count, modes.solver.text()));
-    if (scene.reservoir && modes.frequency.size()) notes.push_back(criterion_sentence(scene, modes.frequency[0]));
-    DampingTable damping = damping_table(scene, model, modes, read_records(scene, plan));
+    std::optional<fe2d::FluidModel> water;
+    if (acoustic) water = fe2d::build_fluid(scene);
+    const ModesAnswer answer =
+        water ? acoustic_modes(scene, model, *water, notes) : added_mass_modes(model, arguments.count, notes);
+    if (scene.reservoir && answer.modes.frequency.size() && !choice && !acoustic)
+        notes.push_back(criterion_sentence(scene, answer.modes.frequency[0]));
+    DampingTable damping = damping_table(scene, answer.total_mass, answer.modes, read_records(scene, plan));
     notes.insert(notes.end(), damping.warnings.begin(), damping.warnings.end());
+    std::optional<Table> transfer;
+    if (arguments.frequency_response) transfer = transfer_of(scene, model, water ? &*water : nullptr, answer.modes);
 
     if (streams.form == Form::json) {
         auto j = json_header("modes");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(given)}};
-        j["modes"] = json_of(frequency_table(modes));
+        j["modes"] = json_of(answer.frequencies);
         j["damping"] = json_of(damping.table);
+        if (transfer) j["transfer_functions"] = json_of(*transfer);
         j["model"] = json_of(count_table(model.counts));
         j["notes"] = notes;
         streams.out << j.dump(2) << "\n";
     } else {
         streams.out << scene.title << "\n\n"
-                    << report::text(frequency_table(modes)) << "\n"
+                    << report::text(answer.frequencies) << "\n"
                     << report::text(damping.table) << "\n"
                     << report::text(count_table(model.counts));
+        if (transfer) streams.out << "\n" << report::text(*transfer);
         for (const std::string& note : notes) streams.out << "note: " << note << "\n";
     }
-    if (!arguments.out.empty()) write_shapes(arguments.out, model, modes);
-    return modes.status == fe2d::ModesStatus::ok || modes.status == fe2d::ModesStatus::no_mass ? exit_ok
-                                                                                               : exit_no_convergence;
+    if (!arguments.out.empty()) {
+        if (!water) write_shapes(arguments.out, model, answer.modes);
+        if (transfer)
+            write_file(arguments.out / "transfer_functions.csv",
+                       report::csv(*transfer,
+                                   {"damslip " + program_version() + " modes --frf", "scene " + scene_hash(given)}));
+    }
+    return answer.complete ? exit_ok : exit_no_convergence;
 }
 
 } // namespace damslip::cli

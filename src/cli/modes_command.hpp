@@ -7,11 +7,13 @@ namespace damslip::cli {
 
 struct ModesArguments {
     RunInputs inputs;
-    int count = 10;            ///< modes
-    std::filesystem::path out; ///< folder for mode shapes (VTU); empty: none
+    int count = 10;                  ///< modes
+    bool frequency_response = false; ///< transfer functions, 0.1 ... 20 Hz
+    std::filesystem::path out;       ///< folder for mode shapes (VTU) and transfer functions (CSV); empty: none
 };
 
-/// Natural frequencies, effective masses and damping coefficients of the dam on its rock with added mass, tied base.
+/// Natural frequencies, effective masses and damping coefficients of the dam on its rock with its water, tied base. Acoustic water:
+/// every coupled mode up to 20 Hz. reservoir.model = "auto" is decided by the compressibility criterion.
 int modes(const ModesArguments& arguments, const Streams& streams);
 
 } // namespace damslip::cli

@@ -1,5 +1,6 @@
 #include "cli/tied_run.hpp"
 
+#include "cli/acoustic_modes.hpp"
 #include "cli/explain_command.hpp"
 #include "cli/fe_inputs.hpp"
 #include "cli/fe_output.hpp"
@@ -8,6 +9,7 @@
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
 #include "fe2d/statics/static_solution.hpp"
+#include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "report/table_text.hpp"
@@ -17,6 +19,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 namespace damslip::cli {
@@ -48,6 +51,13 @@ Table stage_table(const fe2d::Model& model, const fe2d::StaticSolution& statics)
     return t;
 }
 
+/// Energy that left through the water's boundaries over the largest energy of the run; empty without acoustic water.
+Cell radiated_share(const fe2d::History& history)
+{
+    if (history.rows.empty() || history.peak_water_force == 0.0 || history.energy_scale == 0.0) return {};
+    return history.rows.back().energy.radiated / history.energy_scale;
+}
+
 Table run_table(const std::vector<TiedRun>& runs)
 {
     Table t;
@@ -59,6 +69,7 @@ Table run_table(const std::vector<TiedRun>& runs)
                  {"peak_crest_x_mm", "peak crest x", "mm", 5},
                  {"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5},
                  {"peak_base_shear_kN_m", "peak base shear", "kN/m", 5},
+                 {"radiated_share", "radiated", "–", 3},
                  {"energy_imbalance", "energy imbalance", "–", 2},
                  {"factorisations", "factorisations", "", 4},
                  {"seconds", "time", "s", 3}};
@@ -67,22 +78,23 @@ Table run_table(const std::vector<TiedRun>& runs)
             {r.record,
              r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text,
              static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x,
-             r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, r.history.largest_imbalance,
-             static_cast<std::int64_t>(r.history.factorisations), r.seconds});
+             r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, radiated_share(r.history),
+             r.history.largest_imbalance, static_cast<std::int64_t>(r.history.factorisations), r.seconds});
     t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance "
                       "over the largest energy of the run.");
     return t;
 }
 
-TiedRun run_record(const Scene& scene, const fe2d::Model& model, const Eigen::VectorXd& load,
-                   const Eigen::Vector2d& resultant, const GroundMotion& motion, const InterruptGuard& interrupt,
-                   const Streams& streams)
+TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::FluidModel* water,
+                   const Eigen::VectorXd& load, const Eigen::Vector2d& resultant, const GroundMotion& motion,
+                   const InterruptGuard& interrupt, const Streams& streams)
 {
     TiedRun run{motion.name, {}, motion.notes, 0.0};
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;
-    options.damping = fe2d::damping_of(scene, model, motion);
+    options.damping = water ? fe2d::damping_of(scene, model, *water, motion) : fe2d::damping_of(scene, model, motion);
+    options.water = water;
     options.static_load = load;
     options.static_resultant = resultant;
     Progress progress(streams, motion.name, 1000);
@@ -108,6 +120,9 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     const fe2d::Model model = fe2d::build_model(scene, options);
+    std::optional<fe2d::FluidModel> water;
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
+        water = fe2d::build_fluid(scene);
     fe2d::StaticLoads loads = fe2d::static_loads(scene, model);
     if (scene.stages.pore_pressure != PorePressure::none)
         loads.impounding.push_back({"water in the rock", rock_water_load(scene, model), Eigen::Vector2d::Zero()});
@@ -127,7 +142,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     std::vector<TiedRun> runs;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        runs.push_back(run_record(scene, model, load, resultant,
+        runs.push_back(run_record(scene, model, water ? &*water : nullptr, load, resultant,
                                   ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
         const TiedRun& r = runs.back();
         if (r.history.displacement.size())
@@ -138,6 +153,11 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
                        report::csv(fe2d::tabulate(r.history), {"damslip " + program_version() + " fe --base tied",
                                                                "scene " + scene_hash(scene), "record " + r.record}));
     }
+    if (water)
+        for (TiedRun& r : runs) {
+            r.notes.push_back(water_counts(*water));
+            for (std::string& warning : reservoir_warnings(scene, 20.0)) r.notes.push_back(std::move(warning));
+        }
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["base"] = "tied";
