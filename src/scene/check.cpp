@@ -489,7 +489,10 @@ void fill_defaults(Scene& scene, const Findings& findings)
     const double base = base_length(scene.section);
     if (scene.reservoir) {
         if (!findings.given("reservoir.level")) scene.reservoir->level = crest_level(scene.section);
-        if (!findings.given("reservoir.length")) scene.reservoir->length = std::max(2.4 * scene.reservoir->level, 1e-3);
+        if (!findings.given("reservoir.length")) {
+            const double depths = scene.reservoir->far_end == FarEnd::absorbing ? 1.0 : 2.4;
+            scene.reservoir->length = std::max(depths * scene.reservoir->level, 1e-3);
+        }
     }
     if (scene.ice && !findings.given("ice.level"))
         scene.ice->level = scene.reservoir ? scene.reservoir->level : crest_level(scene.section);

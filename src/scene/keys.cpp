@@ -389,8 +389,8 @@ std::vector<KeyGroup> water_groups()
          number("density", density, Range::above(0), "1000", "density of water", "1000", at(&Reservoir::density)),
          number("bulk_modulus", bulk, Range::above(0), "2200", "bulk modulus of water", "2200",
                 at(&Reservoir::bulk_modulus)),
-         number("length", length, Range::above(0), "2.4 x level", "length of an acoustic reservoir", "150",
-                at(&Reservoir::length)),
+         number("length", length, Range::above(0), "1 x level with an absorbing far end, else 2.4",
+                "length of an acoustic reservoir", "150", at(&Reservoir::length)),
          word("model", "auto",
               "how the water takes part in the shaking: not at all (hydrostatic), as added mass, acoustic, or by the "
               "compressibility criterion (auto)",
