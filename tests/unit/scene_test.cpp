@@ -63,7 +63,7 @@ TEST(Scene, CurtainWithWaterMeansSeepageUplift)
     ASSERT_TRUE(scene.uplift);
     EXPECT_EQ(scene.uplift->model, UpliftModel::seepage);
     EXPECT_DOUBLE_EQ(scene.reservoir->level, 62.5);
-    EXPECT_DOUBLE_EQ(scene.reservoir->length, 150.0);
+    EXPECT_DOUBLE_EQ(scene.reservoir->length, 62.5); // absorbing far end: one depth
 }
 
 TEST(Scene, ResolvedSceneReadsBackBitForBit)
