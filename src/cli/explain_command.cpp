@@ -1,5 +1,6 @@
 #include "cli/explain_command.hpp"
 
+#include "cli/acoustic_modes.hpp"
 #include "cli/contact_cost.hpp"
 #include "cli/fe_inputs.hpp"
 #include "cli/fe_output.hpp"
@@ -68,6 +69,23 @@ std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
     return contact_cost(scene, plan);
 }
 
+/// How the water takes part, by the computed first frequency where the scene leaves it open, and what its length and end are good for.
+std::vector<std::string> water_notes(const Scene& scene, const EffectPlan& plan)
+{
+    std::vector<std::string> notes;
+    if (plan.method != Method::finite_elements || !scene.reservoir || scene.reservoir->level <= 0) return notes;
+    Scene resolved = called_for(plan, scene);
+    if (const auto choice = resolve_reservoir_model(resolved)) {
+        notes.push_back(choice->reason);
+        if (resolved.reservoir->model == ReservoirModel::acoustic)
+            notes.push_back(
+                "modes and fe --base tied take acoustic water; contact runs of this version keep added mass");
+    }
+    if (resolved.reservoir->model == ReservoirModel::acoustic)
+        for (std::string& warning : reservoir_warnings(resolved, 20.0)) notes.push_back(std::move(warning));
+    return notes;
+}
+
 nlohmann::ordered_json cost_json(const ContactCost& cost)
 {
     nlohmann::ordered_json j;
@@ -102,6 +120,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const Table table = effect_table(plan);
     const std::optional<ModelTables> model = model_tables(scene, plan);
     const std::optional<ContactCost> cost = cost_of(scene, plan);
+    const std::vector<std::string> notes = water_notes(scene, plan);
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -110,6 +129,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
         if (model) j["model"] = json_of(model->counts);
         if (model && !model->joints.rows.empty()) j["lift_joints"] = json_of(model->joints);
         if (cost) j["contact"] = cost_json(*cost);
+        if (!notes.empty()) j["notes"] = notes;
         streams.out << j.dump(2) << "\n";
         return exit_ok;
     }
@@ -125,6 +145,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
                     << "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
     if (model && !model->joints.rows.empty()) streams.out << "\n" << report::text(model->joints);
     if (cost) streams.out << "\n" << cost_text(*cost);
+    for (const std::string& note : notes) streams.out << "note: " << note << "\n";
     return exit_ok;
 }
 

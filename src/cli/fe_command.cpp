@@ -13,13 +13,16 @@ namespace damslip::cli {
 
 int fe(const FeArguments& arguments, const Streams& streams)
 {
-    const Scene given = read_run_scene(arguments.inputs);
-    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
+    Scene given = read_run_scene(arguments.inputs);
+    EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     const bool tied = arguments.base == "tied" && !arguments.reduced;
     Scene scene = fe_scene(given, plan, tied ? AcousticWater::allowed : AcousticWater::refused);
     if (tied)
-        if (const auto choice = resolve_reservoir_model(scene); choice && !streams.quiet)
-            streams.talk << choice->reason << "\n";
+        if (const auto choice = resolve_reservoir_model(scene)) {
+            if (!streams.quiet) streams.talk << choice->reason << "\n";
+            given.reservoir->model = scene.reservoir->model; // the plan names what was chosen
+            plan = make_effect_plan(given, Method::finite_elements);
+        }
     const std::vector<RecordPair> records = read_records(scene, plan);
     const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
     if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass) && !acoustic) {
