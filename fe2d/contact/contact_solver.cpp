@@ -62,8 +62,13 @@ ContactState next_state(const ContactProblem& problem, const ContactSolution& so
     return slipping(shear < 0.0);
 }
 
+ContactSolver::ContactSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, ContactOptions options)
+    : stiffness_(std::move(stiffness)), options_(options), system_(*stiffness_)
+{
+}
+
 ContactSolver::ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options)
-    : stiffness_(std::move(stiffness)), options_(options), system_(stiffness_)
+    : ContactSolver(std::make_shared<const Eigen::MatrixXd>(std::move(stiffness)), options)
 {
 }
 
@@ -115,8 +120,8 @@ bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& s
 ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution)
 {
     const Index m = law.pairs();
-    assert(stiffness_.rows() == 2 * m && stuck_force.size() == 2 * m);
-    const ContactProblem problem{stiffness_, stuck_force, law};
+    assert(stiffness_->rows() == 2 * m && stuck_force.size() == 2 * m);
+    const ContactProblem problem{*stiffness_, stuck_force, law};
     const double scale = stuck_force.cwiseAbs().maxCoeff(), tolerance = options_.tolerance * scale;
     const ContactStates stuck(static_cast<std::size_t>(m), ContactState::stick);
     if (solution.states.size() != stuck.size()) solution.states = stuck;

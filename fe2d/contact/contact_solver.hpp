@@ -2,7 +2,7 @@
 
 #include "fe2d/contact/released_system.hpp"
 
-#include <string>
+#include <memory>
 
 namespace damslip::fe2d {
 
@@ -46,11 +46,12 @@ struct ContactReport {
 /// first, a Gauss-Seidel restart, Lemke's method.
 class ContactSolver {
 public:
+    explicit ContactSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, ContactOptions options = {});
     explicit ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options = {});
     ContactSolver(const ContactSolver&) = delete;
     ContactSolver& operator=(const ContactSolver&) = delete;
 
-    const Eigen::MatrixXd& stiffness() const { return stiffness_; }
+    const Eigen::MatrixXd& stiffness() const { return *stiffness_; }
 
     /// @param stuck_force  λ⁰, 2m [N/m]
     /// @param solution     on entry its states are the start (those of the last step; empty: all stuck)
@@ -63,7 +64,7 @@ private:
     bool one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
     bool evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report);
 
-    Eigen::MatrixXd stiffness_;
+    std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ContactOptions options_;
     ReleasedSystem system_;
 };

@@ -28,24 +28,32 @@ double stored_energy(const ContactOptions& options, const VectorXd& area, const 
     return sum;
 }
 
-JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
+JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const VectorXd& area, const ContactOptions& options)
     : stiffness_(std::move(stiffness))
 {
     assert(!(options.slip_tolerance > 0.0 && options.pressure_at_zero_clearance > 0.0));
     if (options.slip_tolerance > 0.0) {
         slip_tolerance_ =
-            std::make_unique<SlipTolerance>(stiffness_, elastic_slip(area, options.slip_tolerance), options);
+            std::make_unique<SlipTolerance>(*stiffness_, elastic_slip(area, options.slip_tolerance), options);
         return;
     }
-    MatrixXd softened = stiffness_;
-    if (options.tangential_stiffness > 0.0)
+    std::shared_ptr<const MatrixXd> seen = stiffness_;
+    if (options.tangential_stiffness > 0.0) {
+        MatrixXd softened = *stiffness_;
         elastic_stick_ = ElasticStick(softened, (options.tangential_stiffness * area).cwiseInverse());
+        seen = std::make_shared<const MatrixXd>(std::move(softened));
+    }
     if (options.pressure_at_zero_clearance > 0.0)
         soft_normal_ = std::make_unique<ExponentialNormal>(
-            std::move(softened), area,
-            ExponentialPressure(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure), options);
+            *seen, area, ExponentialPressure(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure),
+            options);
     else
-        rigid_ = std::make_unique<ContactSolver>(std::move(softened), options);
+        rigid_ = std::make_unique<ContactSolver>(std::move(seen), options);
+}
+
+JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
+    : JointSolver(std::make_shared<const MatrixXd>(std::move(stiffness)), area, options)
+{
 }
 
 ContactReport JointSolver::solve(VectorXd stuck_force, const ContactLaw& law, VectorXd& elastic,

@@ -13,13 +13,15 @@ namespace damslip::fe2d {
 /// hard or, with the first two, soft (ExponentialNormal).
 class JointSolver {
 public:
-    /// @param stiffness  V of rigid sticking
+    /// @param stiffness  V of rigid sticking; solvers of one V may share it
     /// @param area       length of the base that belongs to each pair [m]
+    JointSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const Eigen::VectorXd& area,
+                const ContactOptions& options);
     JointSolver(Eigen::MatrixXd stiffness, const Eigen::VectorXd& area, const ContactOptions& options);
     JointSolver(const JointSolver&) = delete;
     JointSolver& operator=(const JointSolver&) = delete;
 
-    const Eigen::MatrixXd& stiffness() const { return stiffness_; } ///< V of rigid sticking
+    const Eigen::MatrixXd& stiffness() const { return *stiffness_; } ///< V of rigid sticking
 
     /// @param stuck_force  λ⁰ of a gap that stays as it is, elastic part included [N/m]
     /// @param elastic      elastic part of the tangential gaps, at the start and at the end, m values [m]; zero where
@@ -29,7 +31,7 @@ public:
                         ContactSolution& solution);
 
 private:
-    Eigen::MatrixXd stiffness_;
+    std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ElasticStick elastic_stick_;
     std::unique_ptr<SlipTolerance> slip_tolerance_;
     std::unique_ptr<ExponentialNormal> soft_normal_; ///< of V, or of V' behind the elastic stick

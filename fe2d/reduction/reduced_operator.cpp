@@ -15,7 +15,7 @@ ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, c
     const SlipDamping slip(structure, damping);
     mean_motion = VectorXd::Zero(modes.count());
     if (!slip.active()) return;
-    slip_damping = slip.coefficient;
+    slip_damping = slip.drag(0, 0);
     mean_motion = modes.momentum * (damping.constants.mass / slip_damping); // m̂ = M r / (k'/a_M)
 }
 

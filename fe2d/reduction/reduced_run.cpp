@@ -192,12 +192,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.seconds.dynamics = seconds_since(clock);
 
     clock = Clock::now();
-    Eigen::VectorXd after = stages_.last();
-    if (!options_.uplift_after.empty()) {
-        after = stages_.loads[stages_.loads.size() - (options_.uplift.empty() ? 1 : 2)];
-        for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
-            after += uplift_load(full_.model().mesh, full_.model().dofs, options_.uplift_after, side);
-    }
+    const Eigen::VectorXd after = load_with(stages_, full_.model(), options_.uplift_after);
     ContactMemory end = memory;
     end.force = result.pair_force;
     end.slip = memory.slip + result.pair_slip;

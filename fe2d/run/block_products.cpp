@@ -28,18 +28,19 @@ BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& 
         for (std::size_t k = first; k < column_.size(); ++k) place[column_[k]] = -1;
         begin_.push_back(static_cast<int>(column_.size()));
     }
-    gathered_.resize(static_cast<std::size_t>(8 * nodes));
 }
 
-void BlockProducts::multiply(const ProductVectors& in, Products& out)
+void BlockProducts::multiply(const ProductVectors& in, Products& out) const
 {
     const int nodes = static_cast<int>(begin_.size()) - 1;
     for (Eigen::VectorXd* y : {&out.stiffness_1, &out.stiffness_2, &out.mass_1, &out.mass_2}) y->resize(2 * nodes);
+    out.gathered.resize(static_cast<std::size_t>(8 * nodes));
+    double* const gathered = out.gathered.data();
     const Eigen::VectorXd* const x[4] = {&in.stiffness_1, &in.stiffness_2, &in.mass_1, &in.mass_2};
     for (int j = 0; j < nodes; ++j)
         for (int v = 0; v < 4; ++v) {
-            gathered_[8 * j + 2 * v] = (*x[v])[2 * j];
-            gathered_[8 * j + 2 * v + 1] = (*x[v])[2 * j + 1];
+            gathered[8 * j + 2 * v] = (*x[v])[2 * j];
+            gathered[8 * j + 2 * v + 1] = (*x[v])[2 * j + 1];
         }
     using Pair = Eigen::Array2d;
     using Values = Eigen::Map<const Pair>;
@@ -47,7 +48,7 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out)
         Pair k1 = Pair::Zero(), k2 = k1, m1 = k1, m2 = k1;
         for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
             const Block& b = block_[e];
-            const double* const g = gathered_.data() + 8 * column_[e];
+            const double* const g = gathered + 8 * column_[e];
             const Pair kx = Values(b.k), ky = Values(b.k + 2), mx = Values(b.m), my = Values(b.m + 2);
             k1 += kx * g[0] + ky * g[1];
             k2 += kx * g[2] + ky * g[3];

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace damslip::fe2d {
 
 /// Vectors of one body that a step multiplies with K and M.
@@ -16,6 +18,7 @@ struct ProductVectors {
 
 struct Products {
     Eigen::VectorXd stiffness_1, stiffness_2, mass_1, mass_2; ///< K x₁, K x₂, M x₃, M x₄
+    std::vector<double> gathered; ///< work space: the eight entries of each node side by side
 };
 
 /// K and M of one body with two unknowns per node in common 2 x 2 blocks, so that the four products of a step read
@@ -24,7 +27,7 @@ class BlockProducts {
 public:
     BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass);
 
-    void multiply(const ProductVectors& in, Products& out);
+    void multiply(const ProductVectors& in, Products& out) const;
     std::size_t bytes() const { return block_.size() * sizeof(Block) + (column_.size() + begin_.size()) * sizeof(int); }
 
 private:
@@ -33,7 +36,6 @@ private:
     };
     std::vector<int> begin_, column_;
     std::vector<Block> block_;
-    std::vector<double> gathered_; ///< the eight entries of each node side by side
 };
 
 } // namespace damslip::fe2d

@@ -9,28 +9,28 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-ContactStructure::ContactStructure(const Model& model, SlidingRange range) : model_(model), plane_(plane_of(model.mesh))
+ContactStructure::ContactStructure(const Model& model, SlidingRange range) : model_(model), planes_(model.mesh)
 {
     const Mesh& mesh = model.mesh;
-    rock_count_ = plane_.pairs();
-    if (mesh.has_rock() && range == SlidingRange::finite) {
-        pairing_.emplace(mesh.contact.distance, mesh.contact.rock_distance);
-        rock_count_ = static_cast<Index>(mesh.contact.rock_line.size());
-    }
     const Index dam = dam_dof_count(mesh, model.dofs);
     assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
     const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam);
-    order_ = interface_last(stiffness, mesh.contact.dam_nodes);
+    order_ = interface_last(stiffness, planes_.nodes());
     stiffness_ = order_.to_new(stiffness);
     mass_ = order_.to_new(SparseMatrix(model.moving_mass().topLeftCorner(dam, dam)));
     inertia_x_ = order_.to_new(VectorXd(model.inertia_x.head(dam)));
     inertia_y_ = order_.to_new(VectorXd(model.inertia_y.head(dam)));
     static_factor_.emplace(stiffness_, order_.inner);
-    if (mesh.has_rock()) condense_rock();
+    if (mesh.has_rock()) {
+        const ContactPlane& contact = mesh.contact;
+        slides_far_ = range == SlidingRange::finite;
+        if (slides_far_) pairing_.emplace(contact.distance, contact.rock_distance);
+        condense_rock(slides_far_ ? contact.rock_line : contact.rock_nodes);
+    }
     regular_ = static_factor_->regular() && (!has_rock() || (rock_factor_->regular() && rock_flexibility_.size() > 0));
 }
 
-void ContactStructure::condense_rock()
+void ContactStructure::condense_rock(const std::vector<int>& contact_nodes)
 {
     // Two unknowns for every rock node; the fixed ones stand alone with a 1 of the size of the others.
     const Mesh& mesh = model_.mesh;
@@ -52,12 +52,12 @@ void ContactStructure::condense_rock()
     SparseMatrix rock(2 * nodes, 2 * nodes);
     rock.setFromTriplets(entries.begin(), entries.end());
     std::vector<int> interface;
-    for (const int node : slides_far() ? mesh.contact.rock_line : mesh.contact.rock_nodes)
-        interface.push_back(node - first);
+    for (const int node : contact_nodes) interface.push_back(node - first);
+    rock_count_ = static_cast<Index>(interface.size());
     rock_order_ = interface_last(rock, interface);
     rock_factor_.emplace(rock_order_.to_new(rock), rock_order_.inner);
     if (!rock_factor_->regular()) return;
-    rock_stiffness_ = plane_.to_plane(rock_factor_->schur());
+    rock_stiffness_ = plane().to_plane(rock_factor_->schur());
     const Eigen::LLT<Eigen::MatrixXd> llt(rock_stiffness_);
     if (llt.info() != Eigen::Success) return;
     rock_flexibility_ = llt.solve(Eigen::MatrixXd::Identity(rock_stiffness_.rows(), rock_stiffness_.cols()));
@@ -93,7 +93,29 @@ SplitLoad ContactStructure::split(const VectorXd& load) const
     if (!has_rock()) return result;
     VectorXd rock = rock_order_.to_new(loads_by_node(model_, load));
     rock_factor_->forward(rock);
-    result.rock = plane_.to_plane(VectorXd(rock.tail(2 * rock_count_)));
+    result.rock = plane().to_plane(VectorXd(rock.tail(2 * rock_count_)));
+    return result;
+}
+
+Pairing::Matrix ContactStructure::trace(double slip) const
+{
+    const Index m = pairs(), n = rock_count_;
+    std::vector<Eigen::Triplet<double>> entries;
+    if (matching()) {
+        for (Index i = 0; i < n; ++i) {
+            entries.emplace_back(i, i, 1.0);
+            entries.emplace_back(m + i, n + i, 1.0);
+        }
+    } else if (has_rock()) {
+        const Pairing::Matrix weights = pairing_->weights(slip);
+        for (Index i = 0; i < weights.rows(); ++i)
+            for (Pairing::Matrix::InnerIterator it(weights, i); it; ++it) {
+                entries.emplace_back(i, it.col(), it.value());
+                entries.emplace_back(m + i, n + it.col(), it.value());
+            }
+    }
+    Pairing::Matrix result(2 * m, 2 * n);
+    result.setFromTriplets(entries.begin(), entries.end());
     return result;
 }
 
@@ -110,7 +132,7 @@ VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, c
     if (!has_rock()) return all;
     VectorXd inner = rock_order_.to_new(loads_by_node(model_, load));
     rock_factor_->forward(inner);
-    inner.tail(2 * rock_count_) = plane_.to_interface(rock);
+    inner.tail(2 * rock_count_) = plane().to_interface(rock);
     rock_factor_->backward(inner);
     const VectorXd by_node = rock_order_.to_old(inner);
     const int first = model_.mesh.dam_node_count, nodes = model_.mesh.node_count() - first;

@@ -1,19 +1,19 @@
 #pragma once
 
 #include "fe2d/model/model.hpp"
+#include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/interface_factor.hpp"
 #include "fe2d/run/pairing.hpp"
-#include "fe2d/run/plane.hpp"
 
 #include <optional>
 
 namespace damslip::fe2d {
 
-/// Loads of the two sides of the plane [N/m]; those on the rock are condensed onto the plane (constant in time).
+/// Loads of the two sides of the base [N/m]; those on the rock are condensed onto its contact nodes (constant in time).
 struct SplitLoad {
     Eigen::VectorXd dam;   ///< on the dam's unknowns, in its node order
-    Eigen::VectorXd rock;  ///< condensed on the plane; zero for a rigid base
-    Eigen::VectorXd joint; ///< by the water in the joint on the rock opposite each pair, plane: goes along with a dam
+    Eigen::VectorXd rock;  ///< condensed on its contact nodes, plane; empty for a rigid base
+    Eigen::VectorXd joint; ///< by the water in the joint on the rock opposite each pair, 2m: goes along with a dam
                            ///< that slides far; empty: none, or part of `rock`
 };
 
@@ -23,7 +23,8 @@ enum class SlidingRange {
     finite ///< the rock a dam node faces (Pairing)
 };
 
-/// Dam and rock as two bodies that only contact joins: everything linear and independent of the step size.
+/// Dam and rock as bodies that only contact joins: everything linear and independent of the step size. Lift joints cut
+/// the dam into blocks.
 ///
 /// The massless rock is condensed exactly onto its contact nodes (CondensedBody gives the reasons and the conditions);
 /// its damping is b_K K_c. Without a foundation the base is rigid.
@@ -34,7 +35,10 @@ public:
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
     const Model& model() const { return model_; }
-    const Plane& plane() const { return plane_; }
+    const ContactPlanes& planes() const { return planes_; }
+    const Plane& plane() const { return planes_.base(); }                    ///< between dam and rock
+    Eigen::Index pairs() const { return planes_.pairs(); }                   ///< m, of all planes
+    Eigen::Index interface() const { return order_.nodes() - order_.inner; } ///< the dam's nodes on the planes
     const NodeOrder& order() const { return order_; }
     const SparseMatrix& stiffness() const { return stiffness_; } ///< of the dam, in its node order
     const SparseMatrix& mass() const { return mass_; }           ///< of the dam with added mass, in its node order
@@ -42,9 +46,12 @@ public:
     const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
     bool has_rock() const { return rock_factor_.has_value(); }
     /// With finite sliding over rock: the rock's contact nodes are the whole line of the plane, past heel and toe.
-    bool slides_far() const { return pairing_.has_value(); }
-    const Pairing& pairing() const { return *pairing_; }
-    Eigen::Index rock_nodes() const { return rock_count_; }                       ///< on the plane, n
+    bool slides_far() const { return slides_far_; }
+    bool matching() const { return has_rock() && !pairing_; } ///< each dam node stays opposite one of the rock's
+    const Pairing& pairing() const { return *pairing_; }      ///< where not matching()
+    /// P of a dam that has slid: what the rock's contact nodes give to the gaps of all pairs, g = D q - P r, 2m x 2n.
+    Pairing::Matrix trace(double slip) const;
+    Eigen::Index rock_nodes() const { return rock_count_; }                       ///< on the plane, n; 0: rigid base
     const Eigen::MatrixXd& rock_stiffness() const { return rock_stiffness_; }     ///< K_c on the plane, 2n
     const Eigen::MatrixXd& rock_flexibility() const { return rock_flexibility_; } ///< K_c⁻¹
     const InterfaceFactor& static_factor() const { return *static_factor_; }      ///< of the dam's K, floating
@@ -62,15 +69,16 @@ public:
                              const Eigen::VectorXd& load) const;
 
 private:
-    void condense_rock();
+    void condense_rock(const std::vector<int>& contact_nodes);
 
     const Model& model_;
-    Plane plane_;
+    ContactPlanes planes_;
     NodeOrder order_, rock_order_;
     SparseMatrix stiffness_, mass_;
     Eigen::VectorXd inertia_x_, inertia_y_;
     std::optional<InterfaceFactor> static_factor_, rock_factor_;
     std::optional<Pairing> pairing_;
+    bool slides_far_ = false;
     Eigen::Index rock_count_ = 0;
     Eigen::MatrixXd rock_stiffness_, rock_flexibility_;
     bool regular_ = false;

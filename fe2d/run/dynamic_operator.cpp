@@ -1,6 +1,7 @@
 #include "fe2d/run/dynamic_operator.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace damslip::fe2d {
 
@@ -26,116 +27,118 @@ SparseMatrix dam_matrix(const ContactStructure& structure, const RunDamping& dam
 } // namespace
 
 SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& damping)
-    : weights(structure.plane().weights())
+    : weights(structure.planes().weights())
 {
     if (damping.mass != MassDamping::deformation_only || damping.constants.mass == 0.0) return;
-    VectorXd translation(structure.dam_unknowns());
-    for (Index k = 0; k < translation.size(); k += 2) translation.segment<2>(k) = structure.plane().tangent;
-    momentum = structure.mass() * translation;
-    const double modal_mass = translation.dot(momentum);
-    momentum /= modal_mass;
-    coefficient = damping.constants.mass * modal_mass;
+    const MatrixXd motions = sliding_motions(structure.planes());
+    MatrixXd ordered(motions.rows(), motions.cols());
+    for (Index k = 0; k < motions.cols(); ++k) ordered.col(k) = structure.order().to_new(VectorXd(motions.col(k)));
+    momentum = damping.constants.mass * (structure.mass() * ordered);
+    drag = ordered.transpose() * momentum;
 }
 
 DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDamping& damping,
-                                 const SlipDamping& slip_damping, const StepConstants& constants,
-                                 const ContactOptions& options)
+                                 const SlipDamping& slip_damping, const StepConstants& constants)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
-      factor_(dam_matrix(structure, damping, constants), structure.order().inner), options_(options)
+      factor_(dam_matrix(structure, damping, constants), structure.order().inner)
 {
     if (!factor_.regular()) return;
     const double w = 1.0 + constants.scheme.alpha;
-    const Index m = structure.plane().pairs();
-    dam_flexibility_ = symmetric_inverse(structure.plane().to_plane(factor_.schur()));
+    const ContactPlanes::Matrix& gaps = structure.planes().gaps();
+    interface_flexibility_ = symmetric_inverse(factor_.schur());
+    pull_ = interface_flexibility_ * gaps.transpose();
+    dam_flexibility_ = gaps * pull_;
     if (structure.has_rock()) rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
     if (slip_damping.active()) {
-        k_ = w * constants.a1 * slip_damping.coefficient;
-        momentum_ = slip_damping.momentum;
-        factor_.forward(momentum_);
-        on_base_ = structure.plane().to_plane(VectorXd(momentum_.tail(2 * m)));
-        z_ = dam_flexibility_ * on_base_;
-        zeta_ = factor_.inner_product(momentum_, momentum_) + on_base_.dot(z_);
+        const Index planes = slip_damping.momentum.cols(), interface = 2 * structure.interface();
+        momentum_ = w * constants.a1 * slip_damping.momentum;
+        drag_ = w * constants.a1 * slip_damping.drag;
+        for (Index k = 0; k < planes; ++k) {
+            VectorXd column = momentum_.col(k);
+            factor_.forward(column);
+            momentum_.col(k) = column;
+        }
+        interface_momentum_ = interface_flexibility_ * momentum_.bottomRows(interface);
+        z_ = gaps * interface_momentum_;
+        zeta_ = momentum_.bottomRows(interface).transpose() * interface_momentum_;
+        for (Index i = 0; i < planes; ++i)
+            for (Index k = 0; k < planes; ++k) zeta_(i, k) += factor_.inner_product(momentum_.col(i), momentum_.col(k));
+        unmixed_ =
+            (MatrixXd::Identity(planes, planes) - z_.bottomRows(structure.pairs()).transpose() * slip_damping.weights)
+                .inverse();
     }
-    if (!structure.slides_far()) set_contact(nullptr);
+    contact_ = contact_at(structure.trace(0.0));
 }
 
-void DynamicOperator::slide_to(const Pairing::Matrix& trace)
-{
-    set_contact(&trace);
-}
-
-void DynamicOperator::set_contact(const Pairing::Matrix* trace)
+StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    const Index m = structure_.plane().pairs();
+    const Index m = structure_.pairs();
     MatrixXd flexibility = dam_flexibility_;
-    if (trace) {
-        const MatrixXd half = *trace * structure_.rock_flexibility();
-        flexibility += rock_share_ * (half * trace->transpose());
-    } else if (structure_.has_rock()) {
-        flexibility += rock_share_ * structure_.rock_flexibility();
+    if (structure_.has_rock()) {
+        const MatrixXd half = trace * structure_.rock_flexibility();
+        flexibility += rock_share_ * (half * trace.transpose());
     }
     MatrixXd stiffness = symmetric_inverse(flexibility); // W⁻¹
-    to_stuck_ = -stiffness / w;
+    StepContact contact;
+    contact.to_stuck = -stiffness / w;
     if (slip_damping_.active()) {
-        const VectorXd& weights = slip_damping_.weights;
+        const MatrixXd& weights = slip_damping_.weights;
         MatrixXd e = MatrixXd::Identity(2 * m, 2 * m);
-        e.rightCols(m) -= k_ * z_ * weights.transpose();
-        to_stuck_ = -e.transpose() * stiffness / w;
+        e.rightCols(m) -= z_ * weights.transpose();
+        contact.to_stuck = -e.transpose() * stiffness / w;
         stiffness = e.transpose() * stiffness * e;
-        stiffness.bottomRightCorner(m, m) += k_ * (1.0 - k_ * zeta_) * weights * weights.transpose();
+        stiffness.bottomRightCorner(m, m) += weights * (drag_ - zeta_) * weights.transpose();
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
-    stiffness /= w;
-    contact_ = std::make_unique<JointSolver>(std::move(stiffness), structure_.plane().area, options_);
+    contact.stiffness = std::make_shared<const MatrixXd>(stiffness / w);
+    return contact;
 }
 
 void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
 {
-    const Index m = structure_.plane().pairs();
-    factor_.forward(free.dam);
-    free.on_base = structure_.plane().to_plane(VectorXd(free.dam.tail(2 * m)));
-    free.dam_gap.noalias() = dam_flexibility_ * free.on_base;
-    free.gap = free.dam_gap - rock_gap;
-    if (slip_damping_.active()) free.mean = factor_.inner_product(momentum_, free.dam) + on_base_.dot(free.dam_gap);
+    const Index interface = interface_flexibility_.rows();
+    free.interface.noalias() = interface_flexibility_ * free.dam.tail(interface);
+    free.gap = structure_.planes().gaps() * free.interface;
+    if (rock_gap.size() > 0) free.gap -= rock_gap;
+    if (!slip_damping_.active()) return;
+    free.mean = momentum_.bottomRows(interface).transpose() * free.interface;
+    for (Index k = 0; k < momentum_.cols(); ++k) free.mean[k] += factor_.inner_product(momentum_.col(k), free.dam);
 }
 
-void DynamicOperator::stuck_force(const Free& free, const VectorXd& known, VectorXd& stuck) const
+void DynamicOperator::stuck_force(const StepContact& contact, const Free& free, const VectorXd& known,
+                                  VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    stuck.noalias() = to_stuck_ * free.gap;
+    stuck.noalias() = contact.to_stuck * free.gap;
     stuck += known / w;
-    if (slip_damping_.active()) stuck.tail(structure_.plane().pairs()) -= (k_ / w * free.mean) * slip_damping_.weights;
+    if (slip_damping_.active()) stuck.tail(structure_.pairs()) -= slip_damping_.weights * (free.mean / w);
 }
 
-const VectorXd& DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
-                                        VectorXd& dam_interface)
+void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
+                             VectorXd& tilde) const
 {
-    const Index m = structure_.plane().pairs();
-    VectorXd& tilde = tilde_;
+    const Index m = structure_.pairs(), inner = structure_.inner_unknowns();
     tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (slip_damping_.active()) {
-        // λ̃ = w λ₁ - known - k ω (s - m_Δ),  m_Δ = mean + k ζ s + zᵀλ̃
-        const VectorXd& weights = slip_damping_.weights;
-        const double slip = weights.dot(gap.tail(m));
-        tilde.tail(m) -= (k_ * (slip - free.mean - k_ * zeta_ * slip)) * weights;
-        const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
-        tilde.tail(m) += (k_ * z_tilde) * weights;
-        free.dam.head(structure_.inner_unknowns()) += (k_ * slip) * momentum_.head(structure_.inner_unknowns());
-        free.dam_gap += (k_ * slip) * z_;
+        // λ̃ = w λ₁ - known - ω (κ' s - kᵀΔu),  kᵀΔu = mean + ζ s + zᵀλ̃
+        const MatrixXd& weights = slip_damping_.weights;
+        const VectorXd slip = weights.transpose() * gap.tail(m);
+        tilde.tail(m) -= weights * (drag_ * slip - free.mean - zeta_ * slip);
+        tilde.tail(m) += weights * (unmixed_ * (z_.transpose() * tilde));
+        free.dam.head(inner).noalias() += momentum_.topRows(inner) * slip;
+        free.interface.noalias() += interface_momentum_ * slip;
     }
-    dam_interface = free.dam_gap;
-    dam_interface.noalias() += dam_flexibility_ * tilde;
-    free.dam.tail(2 * m) = structure_.plane().to_interface(dam_interface);
-    factor_.backward(free.dam);
-    return tilde;
+    free.interface.noalias() += pull_ * tilde;
+    free.dam.tail(free.interface.size()) = free.interface;
 }
 
 std::size_t DynamicOperator::bytes() const
 {
     return factor_.bytes() +
-           sizeof(double) * static_cast<std::size_t>(dam_flexibility_.size() + to_stuck_.size() +
-                                                     2 * contact_->stiffness().size() + momentum_.size());
+           sizeof(double) *
+               static_cast<std::size_t>(interface_flexibility_.size() + pull_.size() + dam_flexibility_.size() +
+                                        contact_.to_stuck.size() + contact_.stiffness->size() + momentum_.size());
 }
 
 } // namespace damslip::fe2d

@@ -66,6 +66,10 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
     find_damping();
+    if (usable_) {
+        statics_ = std::make_shared<const StaticOperator>(*structure_);
+        operators_ = std::make_shared<StepOperators>(*structure_, damping_, scheme_of(scene_.time));
+    }
     seconds_ = seconds_since(start);
 }
 
@@ -113,97 +117,6 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
     return results;
 }
 
-namespace {
-
-/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave.
-bool diverges(const Energy& energy)
-{
-    return !std::isfinite(energy.kinetic) ||
-           energy.contact_normal > 10.0 + 0.05 * (std::abs(energy.external) + std::abs(energy.friction));
-}
-
-} // namespace
-
-void EarthquakeRun::shake(const GroundMotion& motion, int halvings, const Strength& strength_at_start,
-                          const ContactMemory& memory, const StaticState& start, RunResult& result) const
-{
-    const double dt = scene_.time.dt.value_or(motion.dt),
-                 duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
-    const int parts = 1 << halvings;
-    const double step = dt / parts;
-    Strength strength = strength_at_start;
-    const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
-    DynamicContact dynamics(*structure_, damping_, scheme_of(scene_.time), split(stages_.loads.size() - 1), start,
-                            memory, options_.contact);
-    HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
-    recorder.add();
-    result.dt = step;
-    result.halvings = halvings;
-    result.max_slip = 0.0;
-    result.status = RunStatus::sliding_at_end;
-
-    const auto record_steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
-    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
-    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
-    for (long n = 0; n < all_steps; ++n) {
-        for (int part = 1; part <= parts && dynamics.within_reach(); ++part) {
-            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
-            dynamics.advance(step, ground.at(time), strength.law());
-            strength.follow(dynamics.state().contact);
-        }
-        recorder.add();
-        result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
-        if (options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, dt)) == RunAnswer::stop) {
-            result.status = RunStatus::interrupted;
-            break;
-        }
-        if (!dynamics.within_reach()) {
-            result.status = RunStatus::left_plane;
-            break;
-        }
-        if (diverges(dynamics.energy())) {
-            result.status = RunStatus::diverged;
-            break;
-        }
-        if (n + 1 >= record_steps + rest_steps &&
-            at_rest(result.history.time, result.history.slip, options_.rest_time)) {
-            result.status = RunStatus::at_rest;
-            break;
-        }
-    }
-    const DynamicState& end = dynamics.state();
-    const Plane& plane = structure_->plane();
-    const Index m = plane.pairs();
-    result.slip = result.history.slip.back();
-    result.end_time = end.time;
-    result.counts = dynamics.counts();
-    result.energy_error =
-        dynamics.energy_scale() > 0.0 ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale() : 0.0;
-    result.pair_distance = plane.distance;
-    result.pair_area = plane.area;
-    result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
-    result.pair_shear = -end.contact.force.tail(m).cwiseQuotient(plane.area);
-    result.pair_slip = end.contact.slip - memory.slip;
-    result.pair_opening = end.contact.opening;
-    result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
-    if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
-    result.bytes = dynamics.bytes();
-    result.seconds.contact += result.counts.contact_seconds;
-
-    VectorXd after = stages_.last();
-    if (!options_.uplift_after.empty()) {
-        after = stages_.loads[stages_.loads.size() - (options_.uplift.empty() ? 1 : 2)];
-        for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
-            after += uplift_load(model_->mesh, model_->dofs, options_.uplift_after, side);
-    }
-    ContactMemory memory_after = end.contact;
-    if (result.status == RunStatus::left_plane) return;
-    StaticContact statics(*structure_, options_.contact, plane.weights().dot(end.contact.slip));
-    SplitLoad load_after = structure_->split(after);
-    let_water_ride(*structure_, options_.uplift_after.empty() ? options_.uplift : options_.uplift_after, load_after);
-    result.after = solve_stage(statics, *structure_, "after the earthquake", load_after, strength, memory_after);
-}
-
 /// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least.
 RunProgress EarthquakeRun::progress_of(int halvings, long record_steps, long step, double dt) const
 {
@@ -248,18 +161,11 @@ void EarthquakeRun::judge(RunResult& result) const
     }
 }
 
-std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts) const
-{
-    std::vector<RunResult> results;
-    for (const Contact& contact : contacts) results.push_back(run(motion, contact));
-    return results;
-}
-
 /// Displacements at the end of the gravity stage where the scene counts from there; else empty.
 VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength& strength) const
 {
     if (!scene_.stages.geostatic) return {};
-    ContactMemory memory(structure_->plane().pairs());
+    ContactMemory memory(structure_->pairs());
     Strength trial = strength;
     const SplitLoad load = split(0);
     if (solve_stage(statics, *structure_, stages_.names[0], load, trial, memory).status != StageStatus::ok) return {};
@@ -267,55 +173,19 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
     return structure_->assemble(state.dam, state.rock, stages_.loads[0]);
 }
 
+Strength EarthquakeRun::strength_of(const Contact& base) const
+{
+    std::vector<Contact> contacts{base};
+    for (const LiftJoint& joint : scene_.lift_joints) contacts.push_back(joint.strength);
+    Strength strength(std::move(contacts), structure_->planes());
+    strength.set_separation(*options_.separation);
+    return strength;
+}
+
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
 {
-    RunResult result;
-    result.seconds.model = seconds_;
-    result.damping = damping_.constants;
-    if (!usable_) {
-        result.message = why_not_;
-        return result;
-    }
-    auto clock = Clock::now();
-    StaticContact statics_solver(*structure_, options_.contact);
-    Strength strength(contact.value_or(scene_.contact), structure_->plane());
-    strength.set_separation(*options_.separation);
-    ContactMemory memory(structure_->plane().pairs());
-    result.zero_displacement = zero_displacement(statics_solver, strength);
-    result.stages = statics(statics_solver, strength, memory);
-    result.seconds.statics = seconds_since(clock);
-    if (result.stages.back().status != StageStatus::ok) {
-        result.status = RunStatus::static_failure;
-        result.message = result.stages.back().text();
-        return result;
-    }
-    const StaticState start = statics_solver.displacements(split(stages_.loads.size() - 1), memory);
-
-    clock = Clock::now();
-    const int first = options_.halvings.value_or(0);
-    shake(motion, first, strength, memory, start, result);
-    result.slip_error = std::numeric_limits<double>::quiet_NaN();
-    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
-        if (result.status == RunStatus::interrupted) break;
-        const double coarser = result.slip;
-        RunResult finer = result;
-        shake(motion, k, strength, memory, start, finer);
-        if (finer.status == RunStatus::interrupted) { // the whole coarser run tells more than a part of the finer
-            result.status = RunStatus::interrupted;
-            result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
-                                         finer.dt, 1e3 * result.slip, result.dt);
-            break;
-        }
-        result = std::move(finer);
-        // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
-        result.slip_error = std::abs(result.slip - coarser);
-        if (result.status == RunStatus::left_plane) break;
-        if (result.slip_error <= *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
-            break;
-    }
-    result.seconds.dynamics = seconds_since(clock);
-    judge(result);
-    return result;
+    const Contact contacts[] = {contact.value_or(scene_.contact)};
+    return std::move(run_all(motion, contacts).front());
 }
 
 } // namespace damslip::fe2d

@@ -59,6 +59,16 @@ struct RunSeconds {
     double contact = 0.0;  ///< of the dynamics
 };
 
+/// What became of the block above a lift joint.
+struct LiftResult {
+    std::string plane;            ///< "lift joint at 51.5 m"
+    std::string name;             ///< the scene's
+    double slip = 0.0;            ///< final, area mean, since the static state [m]
+    double largest_slip = 0.0;    ///< largest |slip| on the way [m]
+    double largest_opening = 0.0; ///< [m]
+    double largest_rocking = 0.0; ///< largest |rotation| [rad]
+};
+
 struct RunResult {
     RunStatus status = RunStatus::model_failed;
     std::string message;             ///< one sentence with the numbers
@@ -74,7 +84,8 @@ struct RunResult {
     RayleighConstants damping;
     DynamicCounts counts;                     ///< of the run that is reported
     double energy_error = 0.0;                ///< |imbalance| at the end over the largest term [-]
-    Eigen::VectorXd pair_distance, pair_area; ///< [m]
+    std::vector<LiftResult> lifts;            ///< from bottom to top
+    Eigen::VectorXd pair_distance, pair_area; ///< of the base [m]
     Eigen::VectorXd pair_pressure, pair_shear, pair_slip, pair_opening; ///< at the end [Pa, Pa, m, m]
     Eigen::VectorXd displacement;      ///< at the end, on all unknowns of the model, from `zero_displacement` on [m]
     Eigen::VectorXd zero_displacement; ///< of the gravity stage where scene.stages.geostatic is set; else empty [m]
@@ -82,8 +93,9 @@ struct RunResult {
     std::size_t bytes = 0;
 };
 
-/// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run;
-/// run() does not change it, so runs can go on in parallel.
+/// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run.
+/// The operators of each step size are made by the first run that needs them and shared by all; runs can go on in
+/// parallel.
 class EarthquakeRun {
 public:
     /// @throws InputError for what the model cannot be made of
@@ -94,23 +106,28 @@ public:
     const Model& model() const { return *model_; }
     const ContactStructure& structure() const { return *structure_; }
     const RayleighConstants& damping() const { return damping_.constants; }
-    double seconds() const { return seconds_; } ///< that making it ready took
+    double seconds() const { return seconds_; }                                ///< that making it ready took
+    int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
 
-    /// One motion with several strengths: results in the same order, the same bits as run() of each.
+    /// One motion with several strengths of the base, in lockstep on common passes over the factor: results in the same
+    /// order, the same bits as run() of each. Their dynamic seconds are equal shares of the common ones.
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts) const;
 
     /// The stages before the earthquake alone; `memory` ends in the last state of equilibrium.
     std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;
 
 private:
+    struct Lane;
     void find_damping();
     SplitLoad split(std::size_t stage) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
-    void shake(const GroundMotion& motion, int halvings, const Strength& strength, const ContactMemory& memory,
-               const StaticState& start, RunResult& result) const;
+    Strength strength_of(const Contact& base) const;
+    void stand(const Contact& contact, Lane& lane) const;
+    std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
+    void end_lane(const DynamicContact& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
 
@@ -118,11 +135,16 @@ private:
     RunOptions options_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<ContactStructure> structure_;
+    std::shared_ptr<const StaticOperator> statics_;
+    std::shared_ptr<StepOperators> operators_;
     LoadStages stages_;
     RunDamping damping_;
     bool usable_ = false;
     std::string why_not_;
     double seconds_ = 0.0;
 };
+
+/// Is the finer of two results within the wanted share of the coarser, on every plane? @param tolerance  [-]
+bool close_enough(const RunResult& coarser, const RunResult& finer, double tolerance, double smallest_slip);
 
 } // namespace damslip::fe2d

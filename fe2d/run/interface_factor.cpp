@@ -64,48 +64,134 @@ using Values = Eigen::Map<const Pair>;
 
 } // namespace
 
-void InterfaceFactor::forward(Eigen::VectorXd& b) const
+// Both unknowns of a node stand together, lane after lane. Each lane sees the same operations in the same order
+// whatever the number of lanes.
+template <int lanes>
+void InterfaceFactor::forward_lanes(double* const x) const
 {
-    double* const x = b.data();
+    constexpr int width = 2 * lanes;
     for (int j = 0; j < inner_; ++j) {
-        const double x0 = x[2 * j], x1 = x[2 * j + 1];
+        double x0[lanes], x1[lanes];
+        for (int lane = 0; lane < lanes; ++lane) {
+            x0[lane] = x[width * j + 2 * lane];
+            x1[lane] = x[width * j + 2 * lane + 1];
+        }
         for (int k = begin_[j]; k < begin_[j + 1]; ++k) {
             const double* const l = block_[k].v;
-            Eigen::Map<Pair> y(x + 2 * row_[k]);
-            y -= Values(l) * x0 + Values(l + 2) * x1;
+            const Pair first = Values(l), second = Values(l + 2);
+            double* const y = x + width * row_[k];
+            for (int lane = 0; lane < lanes; ++lane)
+                Eigen::Map<Pair>(y + 2 * lane) -= first * x0[lane] + second * x1[lane];
         }
     }
+}
+
+template <int lanes>
+void InterfaceFactor::backward_lanes(double* const x) const
+{
+    constexpr int width = 2 * lanes;
+    for (int j = inner_ - 1; j >= 0; --j) {
+        Pair first[lanes], second[lanes], first_odd[lanes], second_odd[lanes];
+        for (int lane = 0; lane < lanes; ++lane)
+            first[lane] = second[lane] = first_odd[lane] = second_odd[lane] = Pair::Zero();
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
+            const double *const l = block_[k].v, *const m = block_[k + 1].v;
+            const double *const y = x + width * row_[k], *const z = x + width * row_[k + 1];
+            for (int lane = 0; lane < lanes; ++lane) {
+                first[lane] += Values(l) * Values(y + 2 * lane);
+                second[lane] += Values(l + 2) * Values(y + 2 * lane);
+                first_odd[lane] += Values(m) * Values(z + 2 * lane);
+                second_odd[lane] += Values(m + 2) * Values(z + 2 * lane);
+            }
+        }
+        if (k < begin_[j + 1]) {
+            const double *const l = block_[k].v, *const y = x + width * row_[k];
+            for (int lane = 0; lane < lanes; ++lane) {
+                first[lane] += Values(l) * Values(y + 2 * lane);
+                second[lane] += Values(l + 2) * Values(y + 2 * lane);
+            }
+        }
+        const Pivot& p = pivot_[j];
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Pair a = first[lane] + first_odd[lane], b = second[lane] + second_odd[lane];
+            double* const here = x + width * j + 2 * lane;
+            const double b0 = here[0], b1 = here[1];
+            here[0] = p.xx * b0 + p.xy * b1 - (a[0] + a[1]);
+            here[1] = p.xy * b0 + p.yy * b1 - (b[0] + b[1]);
+        }
+    }
+}
+
+void InterfaceFactor::forward(Eigen::VectorXd& b) const
+{
+    forward_lanes<1>(b.data());
 }
 
 void InterfaceFactor::backward(Eigen::VectorXd& b) const
 {
-    double* const x = b.data();
-    for (int j = inner_ - 1; j >= 0; --j) {
-        Pair first = Pair::Zero(), second = first, first_odd = first, second_odd = first;
-        int k = begin_[j];
-        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) { // two sums each: they do not wait for each other
-            const double *const l = block_[k].v, *const m = block_[k + 1].v;
-            const Values y(x + 2 * row_[k]), z(x + 2 * row_[k + 1]);
-            first += Values(l) * y;
-            second += Values(l + 2) * y;
-            first_odd += Values(m) * z;
-            second_odd += Values(m + 2) * z;
+    backward_lanes<1>(b.data());
+}
+
+namespace {
+
+/// Lanes side by side, node by node, and back.
+void gather(std::span<Eigen::VectorXd* const> vectors, std::vector<double>& together)
+{
+    const std::size_t lanes = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
+    together.resize(2 * lanes * nodes);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (std::size_t node = 0; node < nodes; ++node)
+            for (const std::size_t c : {0, 1})
+                together[2 * (lanes * node + lane) + c] = vectors[lane]->data()[2 * node + c];
+}
+
+void scatter(const std::vector<double>& together, std::span<Eigen::VectorXd* const> vectors)
+{
+    const std::size_t lanes = vectors.size(), nodes = static_cast<std::size_t>(vectors[0]->size()) / 2;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (std::size_t node = 0; node < nodes; ++node)
+            for (const std::size_t c : {0, 1})
+                vectors[lane]->data()[2 * node + c] = together[2 * (lanes * node + lane) + c];
+}
+
+/// In groups of four, then two, then one.
+template <class One, class Two, class Four>
+void in_groups(std::span<Eigen::VectorXd* const> vectors, One one, Two two, Four four)
+{
+    std::vector<double> together;
+    while (!vectors.empty()) {
+        const std::size_t lanes = vectors.size() >= 4 ? 4 : vectors.size() >= 2 ? 2 : 1;
+        const auto group = vectors.first(lanes);
+        if (lanes == 1) {
+            one(group[0]->data());
+        } else {
+            gather(group, together);
+            lanes == 4 ? four(together.data()) : two(together.data());
+            scatter(together, group);
         }
-        if (k < begin_[j + 1]) {
-            const Values y(x + 2 * row_[k]);
-            first += Values(block_[k].v) * y;
-            second += Values(block_[k].v + 2) * y;
-        }
-        first += first_odd;
-        second += second_odd;
-        const double b0 = x[2 * j], b1 = x[2 * j + 1];
-        const Pivot& p = pivot_[j];
-        x[2 * j] = p.xx * b0 + p.xy * b1 - (first[0] + first[1]);
-        x[2 * j + 1] = p.xy * b0 + p.yy * b1 - (second[0] + second[1]);
+        vectors = vectors.subspan(lanes);
     }
 }
 
-double InterfaceFactor::inner_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const
+} // namespace
+
+void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b) const
+{
+    in_groups(
+        b, [this](double* x) { forward_lanes<1>(x); }, [this](double* x) { forward_lanes<2>(x); },
+        [this](double* x) { forward_lanes<4>(x); });
+}
+
+void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b) const
+{
+    in_groups(
+        b, [this](double* x) { backward_lanes<1>(x); }, [this](double* x) { backward_lanes<2>(x); },
+        [this](double* x) { backward_lanes<4>(x); });
+}
+
+double InterfaceFactor::inner_product(const Eigen::Ref<const Eigen::VectorXd>& a,
+                                      const Eigen::Ref<const Eigen::VectorXd>& b) const
 {
     double sum = 0.0;
     for (int j = 0; j < inner_; ++j) {

@@ -76,18 +76,4 @@ Pairing::Matrix Pairing::weights(double slip) const
     return result;
 }
 
-Pairing::Matrix Pairing::trace(double slip) const
-{
-    const Matrix p = weights(slip);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (Index i = 0; i < p.outerSize(); ++i)
-        for (Matrix::InnerIterator it(p, i); it; ++it) {
-            entries.emplace_back(i, it.col(), it.value());
-            entries.emplace_back(p.rows() + i, p.cols() + it.col(), it.value());
-        }
-    Matrix result(2 * p.rows(), 2 * p.cols());
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
-}
-
 } // namespace damslip::fe2d

@@ -31,7 +31,6 @@ public:
 
     /// @param slip  of the dam, positive downstream, within reach [m]
     Matrix weights(double slip) const; ///< P, m x n [-]
-    Matrix trace(double slip) const;   ///< P for normal components, then tangential ones: 2m x 2n [-]
 
 private:
     std::vector<double> dam_, rock_;

@@ -48,21 +48,44 @@ MatrixXd Plane::to_plane(const MatrixXd& interface) const
     return rows_to_plane(*this, rows_to_plane(*this, interface).transpose());
 }
 
-Plane plane_of(const Mesh& mesh)
+namespace {
+
+/// Half of each element goes to either end of it.
+void share_areas(Plane& plane)
 {
-    const ContactPlane& contact = mesh.contact;
-    const Index m = static_cast<Index>(contact.dam_nodes.size());
-    const Point heel = mesh.nodes[contact.dam_nodes.front()], toe = mesh.nodes[contact.dam_nodes.back()];
-    Plane plane;
-    plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
-    plane.normal = {-plane.tangent[1], plane.tangent[0]};
-    plane.distance = Eigen::Map<const VectorXd>(contact.distance.data(), m);
+    const Index m = plane.distance.size();
     plane.area.setZero(m);
     for (Index i = 0; i + 1 < m; ++i) {
         const double half = 0.5 * (plane.distance[i + 1] - plane.distance[i]);
         plane.area[i] += half;
         plane.area[i + 1] += half;
     }
+}
+
+VectorXd as_vector(const std::vector<double>& values)
+{
+    return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+} // namespace
+
+Plane plane_of(const Mesh& mesh)
+{
+    const ContactPlane& contact = mesh.contact;
+    const Point heel = mesh.nodes[contact.dam_nodes.front()], toe = mesh.nodes[contact.dam_nodes.back()];
+    Plane plane;
+    plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
+    plane.normal = {-plane.tangent[1], plane.tangent[0]};
+    plane.distance = as_vector(contact.distance);
+    share_areas(plane);
+    return plane;
+}
+
+Plane plane_of(const LiftPlane& lift)
+{
+    Plane plane;
+    plane.distance = as_vector(lift.distance);
+    share_areas(plane);
     return plane;
 }
 

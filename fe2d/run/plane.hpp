@@ -6,7 +6,7 @@
 
 namespace damslip::fe2d {
 
-/// The contact plane as m pairs of nodes. Plane vectors have length 2m: normal components (along the upward normal),
+/// One contact plane as m pairs of nodes. Plane vectors have length 2m: normal components (along the upward normal),
 /// then tangential ones (downstream); interface vectors of a body are (x, y) by node.
 struct Plane {
     Eigen::Vector2d normal{0.0, 1.0};  ///< up, out of the rock
@@ -24,6 +24,7 @@ struct Plane {
     Eigen::MatrixXd to_plane(const Eigen::MatrixXd& interface) const; ///< Q A Qᵀ
 };
 
-Plane plane_of(const Mesh& mesh);
+Plane plane_of(const Mesh& mesh);      ///< between dam and rock
+Plane plane_of(const LiftPlane& lift); ///< horizontal, between two blocks of the dam
 
 } // namespace damslip::fe2d

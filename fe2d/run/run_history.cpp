@@ -45,6 +45,13 @@ bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, d
     return false;
 }
 
+bool at_rest(const RunHistory& history, double rest_time)
+{
+    for (const LiftHistory& lift : history.lifts)
+        if (!at_rest(history.time, lift.slip, rest_time)) return false;
+    return at_rest(history.time, history.slip, rest_time);
+}
+
 double base_rotation(const Plane& plane, const VectorXd& opening)
 {
     const VectorXd weights = plane.weights();
@@ -54,21 +61,24 @@ double base_rotation(const Plane& plane, const VectorXd& opening)
 }
 
 HistoryRecorder::HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series)
-    : dynamics_(dynamics), history_(history), series_(series), weights_(dynamics.structure().plane().weights()),
-      start_(dynamics.state().contact.slip), to_middle_(weights_at_middle(dynamics.structure().plane()))
+    : dynamics_(dynamics), history_(history), series_(series), start_(dynamics.state().contact.slip),
+      to_middle_(weights_at_middle(dynamics.structure().plane()))
 {
     const Mesh& mesh = dynamics.structure().model().mesh;
     crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.front()];
     crest_start_ = dynamics.state().u[crest_];
     history_ = {};
+    history_.lifts.resize(static_cast<std::size_t>(dynamics.structure().planes().count() - 1));
 }
 
 void HistoryRecorder::add()
 {
     const DynamicState& s = dynamics_.state();
     const ContactMemory& c = s.contact;
-    const Plane& plane = dynamics_.structure().plane();
+    const ContactPlanes& planes = dynamics_.structure().planes();
+    const Plane& plane = planes.base();
     const Index m = plane.pairs();
+    const VectorXd slip = c.slip - start_;
     double open = 0.0, slipping = 0.0;
     for (Index i = 0; i < m; ++i) {
         const ContactState state = c.states[static_cast<std::size_t>(i)];
@@ -79,38 +89,53 @@ void HistoryRecorder::add()
     history_.time.push_back(s.time);
     history_.ground_h.push_back(s.ground.h);
     history_.ground_v.push_back(s.ground.v);
-    history_.slip.push_back(slip());
-    history_.slip_heel.push_back(c.slip[0] - start_[0]);
-    history_.slip_middle.push_back(to_middle_.dot(c.slip - start_));
-    history_.slip_toe.push_back(c.slip[m - 1] - start_[m - 1]);
-    history_.rocking.push_back(base_rotation(plane, c.opening));
+    history_.slip.push_back(planes.mean(0, slip));
+    history_.slip_heel.push_back(slip[0]);
+    history_.slip_middle.push_back(to_middle_.dot(slip.head(m)));
+    history_.slip_toe.push_back(slip[m - 1]);
+    history_.rocking.push_back(base_rotation(plane, c.opening.head(m)));
     history_.crest_x.push_back(s.u[crest_] - crest_start_);
     history_.normal_force.push_back(normal);
-    history_.shear_force.push_back(-c.force.tail(m).sum());
+    history_.shear_force.push_back(-c.force.segment(planes.pairs(), m).sum());
     history_.normal_position.push_back(normal > 0.0 ? about_heel / normal : std::numeric_limits<double>::quiet_NaN());
     history_.moment.push_back(about_heel - normal * middle_of(plane));
     history_.open_length.push_back(open);
     history_.slipping_length.push_back(slipping);
-    history_.largest_opening.push_back(c.opening.maxCoeff());
+    history_.largest_opening.push_back(c.opening.head(m).maxCoeff());
     history_.energy.push_back(dynamics_.energy());
     history_.imbalance.push_back(dynamics_.energy_imbalance());
+    add_lifts();
     if (series_ == PairSeries::every_step) add_pairs();
+}
+
+void HistoryRecorder::add_lifts()
+{
+    const ContactMemory& c = dynamics_.state().contact;
+    const ContactPlanes& planes = dynamics_.structure().planes();
+    for (Index k = 1; k < planes.count(); ++k) {
+        const Index first = planes.first(k), pairs = planes[k].pairs();
+        LiftHistory& lift = history_.lifts[static_cast<std::size_t>(k - 1)];
+        lift.slip.push_back(planes.mean(k, c.slip - start_));
+        lift.rocking.push_back(base_rotation(planes[k], c.opening.segment(first, pairs)));
+        lift.normal_force.push_back(c.force.segment(first, pairs).sum());
+        lift.largest_opening.push_back(c.opening.segment(first, pairs).maxCoeff());
+    }
 }
 
 void HistoryRecorder::add_pairs()
 {
     const ContactMemory& c = dynamics_.state().contact;
     const VectorXd& area = dynamics_.structure().plane().area;
-    const Index m = area.size();
+    const Index m = area.size(), tangential = dynamics_.structure().pairs();
     PairHistory& pairs = history_.by_pair;
     pairs.pairs = m;
     for (Index i = 0; i < m; ++i) {
         pairs.pressure.push_back(static_cast<float>(c.force[i] / area[i]));
-        pairs.shear.push_back(static_cast<float>(-c.force[m + i] / area[i]));
+        pairs.shear.push_back(static_cast<float>(-c.force[tangential + i] / area[i]));
         pairs.slip.push_back(static_cast<float>(c.slip[i] - start_[i]));
         pairs.opening.push_back(static_cast<float>(c.opening[i]));
     }
-    pairs.state.insert(pairs.state.end(), c.states.begin(), c.states.end());
+    pairs.state.insert(pairs.state.end(), c.states.begin(), c.states.begin() + m);
 }
 
 } // namespace damslip::fe2d

@@ -12,7 +12,15 @@ enum class PairSeries {
     every_step ///< 17 bytes by pair and row
 };
 
-/// Values of the m pairs over time; value of pair i in row r: [r * pairs + i]. Slips are counted from the static state.
+/// One lift joint over time.
+struct LiftHistory {
+    std::vector<double> slip;            ///< area mean of what is above, positive downstream [m]
+    std::vector<double> rocking;         ///< rotation of what is above, positive where the upstream end opens [rad]
+    std::vector<double> normal_force;    ///< N' [N/m]
+    std::vector<double> largest_opening; ///< [m]
+};
+
+/// Values of the base's m pairs over time; value of pair i in row r: [r * pairs + i]. Slips are counted from the static state.
 struct PairHistory {
     Eigen::Index pairs = 0;
     std::vector<float> pressure; ///< effective, compression positive [Pa]
@@ -48,6 +56,7 @@ struct RunHistory {
     std::vector<double> largest_opening; ///< [m]
     std::vector<Energy> energy;          ///< [J/m]
     std::vector<double> imbalance;       ///< [J/m]
+    std::vector<LiftHistory> lifts;      ///< from bottom to top
     PairHistory by_pair;                 ///< rows of `time`; empty with PairSeries::none
 };
 
@@ -56,26 +65,29 @@ struct RunHistory {
 ///     θ = -Σ A_i (d_i - d̄) g_i / Σ A_i (d_i - d̄)²,   d̄ = Σ A_i d_i / Σ A_i
 ///
 /// positive where the heel opens more than the toe, zero for a joint that is shut.
+/// @param opening  of the plane's pairs [m]
 double base_rotation(const Plane& plane, const Eigen::VectorXd& opening);
 
 /// Has the mean slip stayed the same, to 1e-4 of it or 0.1 µm, for the rest time? Both histories [s, m] of one length.
 bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, double rest_time);
+/// The same of base and lift joints.
+bool at_rest(const RunHistory& history, double rest_time);
 
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
     HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
 
-    double slip() const { return weights_.dot(dynamics_.state().contact.slip - start_); }
     void add(); ///< a row for the present state
 
 private:
+    void add_lifts();
     void add_pairs();
 
     const DynamicContact& dynamics_;
     RunHistory& history_;
     PairSeries series_;
-    Eigen::VectorXd weights_, start_;
+    Eigen::VectorXd start_;     ///< slips of all pairs at the start [m]
     Eigen::VectorXd to_middle_; ///< weights of the one or two pairs nearest to the middle of the base [-]
     Eigen::Index crest_ = 0;
     double crest_start_ = 0.0;

@@ -8,14 +8,15 @@
 
 namespace damslip::fe2d {
 
-/// What all loads on the dam come to on the plane, from statics alone.
+/// What all loads above a plane come to on it, from statics alone.
 struct BaseResultant {
     double normal_force = 0.0; ///< N', effective, compression positive [N/m]
-    double shear_force = 0.0;  ///< T, drives the dam downstream [N/m]
-    double position = 0.0;     ///< of N' from the heel along the plane [m]
+    double shear_force = 0.0;  ///< T, drives what is above downstream [N/m]
+    double position = 0.0;     ///< of N' from the upstream end of the plane, along it [m]
 };
-/// @param dam_load  SplitLoad::dam
-BaseResultant base_resultant(const ContactStructure& structure, const Eigen::VectorXd& dam_load);
+/// @param dam_load  SplitLoad::dam @param plane  0: base
+BaseResultant base_resultant(const ContactStructure& structure, const Eigen::VectorXd& dam_load,
+                             Eigen::Index plane = 0);
 
 enum class StageStatus {
     ok,
@@ -25,8 +26,9 @@ enum class StageStatus {
     not_resolved ///< resultants allow equilibrium, but the contact problem has none or was not solved: see the report
 };
 
-struct StageResult {
-    std::string name; ///< "gravity", "water", "uplift", "after the earthquake"
+/// One plane at the end of a stage.
+struct PlaneBalance {
+    std::string plane; ///< "base", "lift joint at 51.5 m"
     StageStatus status = StageStatus::ok;
     BaseResultant resultant;
     double friction_needed = 0.0; ///< (|T| - c A)/N', the least mu of equilibrium [-]
@@ -34,6 +36,14 @@ struct StageResult {
     double slip = 0.0;            ///< area mean so far, positive downstream [m]
     double open_length = 0.0;     ///< area of open pairs [m]
     double slipping_length = 0.0; ///< area of pairs at their strength [m]
+};
+
+/// A stage: the base's balance, and those of the lift joints.
+struct StageResult : PlaneBalance {  // `status` is that of the whole stage
+    std::string name;                ///< "gravity", "water", "uplift", "after the earthquake"
+    std::string where;               ///< the lift joint that fails; empty: the base
+    bool base_fails = false;         ///< by its resultants
+    std::vector<PlaneBalance> lifts; ///< from bottom to top
     ContactReport contact;
 
     std::string text() const; ///< one sentence with the numbers
@@ -43,6 +53,7 @@ struct StageResult {
 struct LoadStages {
     std::vector<std::string> names;
     std::vector<Eigen::VectorXd> loads; ///< on all unknowns of the model [N/m]
+    Eigen::VectorXd before_uplift;      ///< all but the water under the base [N/m]
 
     const Eigen::VectorXd& last() const { return loads.back(); }
 };
@@ -51,6 +62,9 @@ struct LoadStages {
 /// @param uplift  pressure profile under the base: x = distance from the heel [m], y = pressure [Pa]; empty: none. It
 /// acts on both sides of the joint, open or not, so contact forces are effective
 LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift);
+
+/// All loads, with another pressure under the base. @param uplift  as of load_stages(); empty: as it was
+Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline& uplift);
 
 /// The water in the joint presses on the rock below the dam wherever that is: with a structure that slides far it is
 /// taken from the rock's load to `load.joint`. Profile as in load_stages().

@@ -1,6 +1,7 @@
 #include "fe2d/run/static_contact.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace damslip::fe2d {
 
@@ -10,65 +11,109 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Pᵀ S P
-MatrixXd carried(const MatrixXd& stiffness, const Pairing::Matrix& trace)
+MatrixXd symmetric(const MatrixXd& matrix)
 {
-    const MatrixXd right = stiffness * trace;
-    return trace.transpose() * right;
+    return 0.5 * (matrix + matrix.transpose());
+}
+
+MatrixXd inverse(const MatrixXd& matrix)
+{
+    return symmetric(matrix.llt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols())));
+}
+
+/// Leftᵀ A Right
+MatrixXd between(const ContactPlanes::Matrix& left, const MatrixXd& matrix, const ContactPlanes::Matrix& right)
+{
+    const MatrixXd half = matrix * right;
+    return left.transpose() * half;
 }
 
 } // namespace
 
-StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options, double slip)
-    : structure_(structure)
+StaticOperator::StaticOperator(const ContactStructure& structure, double slip)
+    : structure_(structure), trace_(structure.trace(slip))
 {
-    MatrixXd stiffness = structure.plane().to_plane(structure.static_factor().schur());
-    if (structure.has_rock()) {
-        const MatrixXd& rock = structure.rock_stiffness();
-        if (structure.slides_far()) {
-            trace_ = structure.pairing().trace(slip);
-            dam_stiffness_ = stiffness;
-        }
-        const MatrixXd tied = rock + (structure.slides_far() ? carried(stiffness, trace_) : stiffness);
-        tied_flexibility_ = tied.llt().solve(MatrixXd::Identity(tied.rows(), tied.cols()));
-        tied_flexibility_ = (0.5 * (tied_flexibility_ + tied_flexibility_.transpose())).eval();
-        if (structure.slides_far()) {
-            const MatrixXd held = stiffness * trace_;
-            stiffness -= held * tied_flexibility_ * held.transpose();
-        } else {
-            stiffness = rock - rock * tied_flexibility_ * rock;
-        }
-        stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    const ContactPlanes& planes = structure.planes();
+    const MatrixXd& interface = structure.static_factor().schur();
+    dam_stiffness_ = symmetric(between(planes.held(), interface, planes.held()));
+    if (planes.count() > 1) {
+        joined_ = inverse(between(planes.joined(), interface, planes.joined()));
+        coupling_ = between(planes.joined(), interface, planes.held());
+        dam_stiffness_ = symmetric(dam_stiffness_ - coupling_.transpose() * (joined_ * coupling_));
     }
-    solver_ = std::make_unique<JointSolver>(std::move(stiffness), structure.plane().area, options);
+    MatrixXd stiffness = dam_stiffness_;
+    if (structure.has_rock()) {
+        tied_flexibility_ = inverse(symmetric(structure.rock_stiffness() + between(trace_, dam_stiffness_, trace_)));
+        const MatrixXd half = trace_ * structure.rock_flexibility();
+        const MatrixXd flexibility = half * trace_.transpose(); // F
+        MatrixXd factor = dam_stiffness_ * flexibility;
+        factor.diagonal().array() += 1.0;
+        stiffness = symmetric(factor.partialPivLu().solve(dam_stiffness_));
+    }
+    stiffness_ = std::make_shared<const MatrixXd>(std::move(stiffness));
 }
 
-VectorXd StaticContact::condensed(const SplitLoad& load) const
+StaticOperator::Reduced StaticOperator::reduced(const SplitLoad& load) const
 {
-    VectorXd b = load.dam;
-    structure_.static_factor().forward(b);
-    return structure_.plane().to_plane(VectorXd(b.tail(2 * structure_.plane().pairs())));
+    const ContactPlanes& planes = structure_.planes();
+    VectorXd dam = load.dam;
+    structure_.static_factor().forward(dam);
+    Reduced result;
+    result.on_interface = dam.tail(2 * structure_.interface());
+    result.force = planes.held().transpose() * result.on_interface;
+    if (planes.count() > 1)
+        result.force -= coupling_.transpose() * (joined_ * (planes.joined().transpose() * result.on_interface));
+    if (structure_.has_rock()) result.rock = structure_.rock_load(load, trace_);
+    return result;
 }
 
-VectorXd StaticContact::tied(const VectorXd& on_base, const SplitLoad& load) const
+VectorXd StaticOperator::shut_force(const SplitLoad& load) const
 {
-    if (!structure_.slides_far()) return tied_flexibility_ * (on_base + load.rock);
-    return tied_flexibility_ * (trace_.transpose() * on_base + structure_.rock_load(load, trace_));
+    const Reduced f = reduced(load);
+    if (!structure_.has_rock()) return -f.force;
+    const VectorXd rock = tied_flexibility_ * (trace_.transpose() * f.force + f.rock);
+    return dam_stiffness_ * (trace_ * rock) - f.force;
+}
+
+StaticState StaticOperator::displacements(const SplitLoad& load, const VectorXd& gap) const
+{
+    const ContactPlanes& planes = structure_.planes();
+    const Reduced f = reduced(load);
+    StaticState state;
+    VectorXd x = gap;
+    if (structure_.has_rock()) {
+        state.rock = tied_flexibility_ * (trace_.transpose() * (f.force - dam_stiffness_ * gap) + f.rock);
+        x += trace_ * state.rock;
+    }
+    VectorXd interface = planes.held() * x;
+    if (planes.count() > 1)
+        interface +=
+            planes.joined() * VectorXd(joined_ * (planes.joined().transpose() * f.on_interface - coupling_ * x));
+    state.dam = load.dam;
+    structure_.static_factor().forward(state.dam);
+    state.dam.tail(interface.size()) = interface;
+    structure_.static_factor().backward(state.dam);
+    return state;
+}
+
+StaticContact::StaticContact(std::shared_ptr<const StaticOperator> linear, const ContactOptions& options)
+    : linear_(std::move(linear)), solver_(linear_->stiffness(), linear_->structure().planes().area(), options)
+{
+}
+
+StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options, double slip)
+    : StaticContact(std::make_shared<const StaticOperator>(structure, slip), options)
+{
 }
 
 ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory)
 {
-    const Index m = structure_.plane().pairs();
-    const VectorXd on_base = condensed(load);
-    VectorXd stuck = -on_base;
-    if (structure_.slides_far())
-        stuck += dam_stiffness_ * (trace_ * tied(on_base, load));
-    else if (structure_.has_rock())
-        stuck = load.rock - structure_.rock_stiffness() * tied(on_base, load);
-    stuck += solver_->stiffness().rightCols(m) * (memory.slip + memory.elastic);
+    const Index m = memory.slip.size();
+    VectorXd stuck = linear_->shut_force(load);
+    stuck += solver_.stiffness().rightCols(m) * (memory.slip + memory.elastic);
     ContactSolution solution{memory.states, {}, memory.force};
     VectorXd elastic = memory.elastic;
-    const ContactReport report = solver_->solve(stuck, law, elastic, solution);
+    const ContactReport report = solver_.solve(stuck, law, elastic, solution);
     if (!report.resolved()) return report;
     memory.elastic = elastic;
     memory.states = solution.states;
@@ -80,24 +125,9 @@ ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law,
 
 StaticState StaticContact::displacements(const SplitLoad& load, const ContactMemory& memory) const
 {
-    const Index m = structure_.plane().pairs();
-    VectorXd gap(2 * m);
+    VectorXd gap(2 * memory.slip.size());
     gap << memory.opening, memory.slip + memory.elastic;
-    StaticState state;
-    VectorXd u = gap;
-    if (structure_.slides_far()) {
-        state.rock = tied(condensed(load) - dam_stiffness_ * gap, load);
-        u += trace_ * state.rock;
-    } else {
-        if (structure_.has_rock())
-            u = tied_flexibility_ * (condensed(load) + load.rock + structure_.rock_stiffness() * gap);
-        state.rock = u - gap;
-    }
-    state.dam = load.dam;
-    structure_.static_factor().forward(state.dam);
-    state.dam.tail(2 * m) = structure_.plane().to_interface(u);
-    structure_.static_factor().backward(state.dam);
-    return state;
+    return linear_->displacements(load, gap);
 }
 
 } // namespace damslip::fe2d

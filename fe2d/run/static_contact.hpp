@@ -3,6 +3,8 @@
 #include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
+#include <memory>
+
 namespace damslip::fe2d {
 
 /// Everything of one instant that the contact remembers or shows; plane vectors (normal, then tangential).
@@ -26,18 +28,51 @@ struct ContactMemory {
 /// Displacements at rest.
 struct StaticState {
     Eigen::VectorXd dam;  ///< of the dam, in its node order [m]
-    Eigen::VectorXd rock; ///< of the rock's contact nodes, plane [m]
+    Eigen::VectorXd rock; ///< of the rock's contact nodes, plane; empty for a rigid base [m]
 };
 
-/// Static equilibrium of dam, contact and rock. Nothing but contact holds the dam, so its stiffness is singular; but
-/// with all pairs tied dam and rock together are not. From there (S: the dam's Schur complement, T = S + K_c, g: gaps)
+/// The static stiffness of everything seen from the pairs, at one place of the dam on the rock.
 ///
-///     λ = f_r - K_c T⁻¹ (f_d + f_r) + V g,   V = K_c - K_c T⁻¹ K_c   (rigid base: λ = -f_d + S g)
+/// Nothing but contact holds the dam, so the Schur complement S of its stiffness on the interface is singular. The
+/// joints' common motions y are eliminated (ContactPlanes: q = E x + N y), which leaves forces f and stiffness S' of x;
+/// the rock's contact nodes r then carry x = P r + g. With T = PᵀS'P + K_c, F = P K_c⁻¹ Pᵀ and the gaps g
 ///
-/// V is singular exactly for the motions of the dam as a whole. Where the dam has slid far, u_dam = P u_rock + g
-/// (Pairing), T = PᵀS P + K_c and V = S - S P T⁻¹ PᵀS.
+///     λ = S'P T⁻¹ (Pᵀf + f_r) - f + V g,   V = (I + S'F)⁻¹ S'   (rigid base: λ = -f + S' g)
+///
+/// V is singular exactly for motions of the blocks as a whole. This form keeps the digits of V for soft and hard rock.
+class StaticOperator {
+public:
+    /// @param slip  how far the dam has slid, of a structure that slides far [m]
+    explicit StaticOperator(const ContactStructure& structure, double slip = 0.0);
+
+    const ContactStructure& structure() const { return structure_; }
+    const std::shared_ptr<const Eigen::MatrixXd>& stiffness() const { return stiffness_; } ///< V
+    /// λ of gaps that are all zero, 2m [N/m].
+    Eigen::VectorXd shut_force(const SplitLoad& load) const;
+    /// Displacements that belong to a load and to gaps in equilibrium. @param gap  2m [m]
+    StaticState displacements(const SplitLoad& load, const Eigen::VectorXd& gap) const;
+
+private:
+    struct Reduced {
+        Eigen::VectorXd on_interface; ///< condensed load of the dam, interface [N/m]
+        Eigen::VectorXd force;        ///< f: with the joints' common motions eliminated, 2m
+        Eigen::VectorXd rock;         ///< f_r
+    };
+    Reduced reduced(const SplitLoad& load) const;
+
+    const ContactStructure& structure_;
+    Pairing::Matrix trace_;            ///< P
+    Eigen::MatrixXd joined_;           ///< of y: S_yy⁻¹; empty without lift joints
+    Eigen::MatrixXd coupling_;         ///< S_yx
+    Eigen::MatrixXd dam_stiffness_;    ///< S'
+    Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
+    std::shared_ptr<const Eigen::MatrixXd> stiffness_;
+};
+
+/// Static equilibrium of dam, contact and rock: the contact problem of StaticOperator.
 class StaticContact {
 public:
+    StaticContact(std::shared_ptr<const StaticOperator> linear, const ContactOptions& options);
     /// @param slip  how far the dam has slid, of a structure that slides far [m]
     explicit StaticContact(const ContactStructure& structure, const ContactOptions& options = {}, double slip = 0.0);
 
@@ -48,14 +83,8 @@ public:
     StaticState displacements(const SplitLoad& load, const ContactMemory& memory) const;
 
 private:
-    Eigen::VectorXd condensed(const SplitLoad& load) const;
-    Eigen::VectorXd tied(const Eigen::VectorXd& on_base, const SplitLoad& load) const; ///< rock, all pairs shut
-
-    const ContactStructure& structure_;
-    Pairing::Matrix trace_;            ///< P; empty: the identity
-    Eigen::MatrixXd dam_stiffness_;    ///< S on the plane, where P is not the identity
-    Eigen::MatrixXd tied_flexibility_; ///< T⁻¹; empty: rigid base
-    std::unique_ptr<JointSolver> solver_;
+    std::shared_ptr<const StaticOperator> linear_;
+    JointSolver solver_;
 };
 
 } // namespace damslip::fe2d

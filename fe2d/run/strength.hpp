@@ -3,14 +3,21 @@
 #include "fe2d/run/static_contact.hpp"
 #include "scene/scene.hpp"
 
+#include <vector>
+
 namespace damslip::fe2d {
+
+/// Friction of a base or joint after a slip [-]. @param slip  accumulated, both directions [m]
+double friction_at(const Contact& contact, double slip);
 
 /// Strength of the pairs during a run: friction that depends on the slip of each pair, cohesion that is lost.
 ///
 /// Changes take effect from the next step on (an error of first order in the step, nothing where strength is constant).
 class Strength {
 public:
-    Strength(const Contact& contact, const Plane& plane);
+    Strength(const Contact& contact, const Plane& plane); ///< of one plane
+    /// @param contacts  of the base and of each lift joint
+    Strength(std::vector<Contact> contacts, const ContactPlanes& planes);
 
     const ContactLaw& law() const { return law_; }
     void set_separation(Separation separation) { law_.separation = separation; }
@@ -18,11 +25,15 @@ public:
     void follow(const ContactMemory& memory); ///< after a step
 
 private:
-    double friction_at(double accumulated_slip) const;
+    struct Part {
+        Contact contact;
+        Eigen::Index first, pairs;
+    };
+    void add(const Contact& contact, Eigen::Index first, const Eigen::VectorXd& area);
 
-    Contact contact_;
+    std::vector<Part> parts_; ///< by plane
     ContactLaw law_;
-    bool constant_;
+    bool constant_ = true;
     Eigen::VectorXd last_slip_, accumulated_; ///< [m]
 };
 

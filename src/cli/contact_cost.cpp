@@ -26,7 +26,7 @@ GroundMotion trial_motion(double dt)
 Table part_table(const fe2d::EarthquakeRun& model, const fe2d::RunResult& trial)
 {
     const fe2d::ContactStructure& structure = model.structure();
-    const auto contact = static_cast<std::int64_t>(2 * structure.plane().pairs());
+    const auto contact = static_cast<std::int64_t>(2 * structure.pairs());
     const auto rock = static_cast<std::int64_t>(model.model().dofs.count - structure.dam_unknowns());
     Table t;
     t.title = "Contact run";

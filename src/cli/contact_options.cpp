@@ -1,10 +1,7 @@
 #include "cli/contact_options.hpp"
 
 #include "cli/fe_inputs.hpp"
-#include "cli/usage_error.hpp"
 #include "fe2d/time/structure_system.hpp"
-
-#include <fmt/format.h>
 
 namespace damslip::cli {
 
@@ -24,18 +21,6 @@ Polyline uplift_polyline(const Scene& scene, const sliding::UpliftState& state, 
 
 fe2d::RunOptions contact_options(const Scene& scene, const std::vector<RecordPair>& records, SeepageSource& seepage)
 {
-    if (!scene.lift_joints.empty())
-        throw UsageError(
-            Diagnostic{scene.file.string(), 0, 0,
-                       fmt::format("{} [[lift_joint]]: runs with sliding lift joints are not computed yet.",
-                                   scene.lift_joints.size()),
-                       "no [[lift_joint]], or an uncracked dam: --base tied",
-                       "delete the [[lift_joint]], or run  damslip fe --base tied"});
-    if (scene.mesh.rock_contact_size && scene.contact.sliding == JointPath::small)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
-                                    "mesh.rock_contact_size_m with contact.sliding = \"small\" is not computed yet.",
-                                    "sliding = \"finite\", or facing nodes",
-                                    "write  sliding = \"finite\"  in [contact], or delete rock_contact_size_m"});
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
     sliding::UpliftState water = sliding::scene_uplift_state(scene);

@@ -111,12 +111,13 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["base"] = "contact";
     j["effects"] = json_of(effect_table(plan));
     j["model"] = json_of(count_table(model.model().counts));
-    j["contact_pairs"] = model.structure().plane().pairs();
+    j["contact_pairs"] = model.structure().pairs();
     j["damping"] = {{"mass_coefficient_1_s", model.damping().mass},
                     {"stiffness_coefficient_s", model.damping().stiffness}};
     j["stages"] = json_of(contact_stage_table(runs));
     j["runs"] = json_of(contact_run_table(runs));
     j["slip"] = json_of(contact_slip_table(runs));
+    if (!scene.lift_joints.empty()) j["lift_joints"] = json_of(contact_lift_table(runs));
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
     if (exact) j["contact_law"] = json_of(contact_law_table(runs));
@@ -127,10 +128,11 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         streams.out << scene.title << "\n\n"
                     << report::text(count_table(model.model().counts))
                     << fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n",
-                                   model.structure().plane().pairs(), model.damping().mass, model.damping().stiffness)
+                                   model.structure().pairs(), model.damping().mass, model.damping().stiffness)
                     << report::text(contact_stage_table(runs)) << "\n"
                     << report::text(contact_run_table(runs)) << "\n"
                     << report::text(contact_slip_table(runs));
+        if (!scene.lift_joints.empty()) streams.out << "\n" << report::text(contact_lift_table(runs));
         if (exact) streams.out << "\n" << report::text(contact_law_table(runs));
         for (const std::string& message : run_messages(scene, runs)) streams.out << "note: " << message << "\n";
     }

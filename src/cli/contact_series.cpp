@@ -51,6 +51,13 @@ Table contact_history_table(const fe2d::RunHistory& h)
                  {"external_J_m", "external", "J/m", 6},
                  {"contact_normal_J_m", "contact normal", "J/m", 6},
                  {"imbalance_J_m", "imbalance", "J/m", 4}};
+    for (std::size_t k = 1; k <= h.lifts.size(); ++k) {
+        const std::string key = "lift" + std::to_string(k) + "_", name = "lift joint " + std::to_string(k) + ", ";
+        t.columns.push_back({key + "slip_m", name + "slip", "m", 6});
+        t.columns.push_back({key + "rocking_rad", name + "rocking", "rad", 6});
+        t.columns.push_back({key + "normal_force_N_m", name + "N'", "N/m", 6});
+        t.columns.push_back({key + "largest_opening_m", name + "opening", "m", 4});
+    }
     for (std::size_t i = 0; i < h.time.size(); ++i) {
         const fe2d::Energy& e = h.energy[i];
         t.rows.push_back({h.time[i],
@@ -77,6 +84,9 @@ Table contact_history_table(const fe2d::RunHistory& h)
                           e.external,
                           e.contact_normal,
                           h.imbalance[i]});
+        for (const fe2d::LiftHistory& lift : h.lifts)
+            t.rows.back().insert(t.rows.back().end(), {lift.slip[i], lift.rocking[i], lift.normal_force[i],
+                                                       lift.largest_opening[i]});
     }
     return t;
 }

@@ -63,10 +63,14 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
         }
         return "";
     };
+    const auto row = [&](const std::string& record, const std::string& stage, fe2d::StageStatus end,
+                         const fe2d::PlaneBalance& b) {
+        t.rows.push_back({record, stage, status(end), b.resultant.normal_force / 1e3, b.resultant.shear_force / 1e3,
+                          b.friction_needed, b.sliding_factor, 1e3 * b.slip, b.open_length, b.slipping_length});
+    };
     const auto add = [&](const std::string& record, const fe2d::StageResult& s) {
-        t.rows.push_back({record, s.name, status(s.status), s.resultant.normal_force / 1e3,
-                          s.resultant.shear_force / 1e3, s.friction_needed, s.sliding_factor, 1e3 * s.slip,
-                          s.open_length, s.slipping_length});
+        row(record, s.name, s.base_fails || s.lifts.empty() ? s.status : fe2d::StageStatus::ok, s);
+        for (const fe2d::PlaneBalance& lift : s.lifts) row(record, s.name + ", " + lift.plane, lift.status, lift);
     };
     if (!runs.empty())
         for (const fe2d::StageResult& s : runs.front().fe.stages) add("all", s);
@@ -137,6 +141,31 @@ Table contact_slip_table(const std::vector<ContactRun>& runs)
     return t;
 }
 
+Table contact_lift_table(const std::vector<ContactRun>& runs)
+{
+    Table t;
+    t.title = "Lift joints";
+    t.columns = {{"record", "record", "", 4},
+                 {"plane", "plane", "", 4},
+                 {"name", "name", "", 4},
+                 {"slip_mm", "slip", "mm", 5},
+                 {"largest_slip_mm", "largest slip", "mm", 5},
+                 {"largest_rocking_rad", "rocking", "rad", 3},
+                 {"largest_opening_mm", "opening", "mm", 3},
+                 {"smallest_normal_force_kN_m", "least N'", "kN/m", 4}};
+    for (const ContactRun& r : runs)
+        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) {
+            const fe2d::LiftResult& lift = r.fe.lifts[k];
+            const std::vector<double>& normal = r.fe.history.lifts[k].normal_force;
+            t.rows.push_back({r.record, lift.plane, lift.name, 1e3 * lift.slip, 1e3 * lift.largest_slip,
+                              lift.largest_rocking, 1e3 * lift.largest_opening,
+                              1e-3 * *std::min_element(normal.begin(), normal.end())});
+        }
+    t.notes.push_back("of what stands above the joint against what is below; area mean at the end, since the static "
+                      "state, positive downstream; slip, rocking and opening: largest on the way.");
+    return t;
+}
+
 Table contact_count_table(const std::vector<ContactRun>& runs)
 {
     Table t;
@@ -149,6 +178,7 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
                  {"gauss_seidel", "Gauss-Seidel", "", 4},
                  {"lemke", "Lemke", "", 4},
                  {"unresolved", "unresolved", "", 4},
+                 {"halved", "halved", "", 4},
                  {"residual", "residual", "–", 2},
                  {"iterations", "iterations", "", 4},
                  {"largest_iterations", "largest", "", 4},
@@ -162,13 +192,13 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
         t.rows.push_back({r.record, static_cast<std::int64_t>(c.steps), std::int64_t{1} << r.fe.halvings,
                           path(fe2d::ContactPath::newton), path(fe2d::ContactPath::worst_violator),
                           path(fe2d::ContactPath::gauss_seidel), path(fe2d::ContactPath::lemke),
-                          static_cast<std::int64_t>(c.unresolved), c.largest_residual,
-                          static_cast<std::int64_t>(c.contact_iterations),
+                          static_cast<std::int64_t>(c.unresolved), static_cast<std::int64_t>(c.halved),
+                          c.largest_residual, static_cast<std::int64_t>(c.contact_iterations),
                           static_cast<std::int64_t>(c.largest_iterations), static_cast<std::int64_t>(c.factorisations),
                           static_cast<std::int64_t>(r.fe.bytes)});
     }
-    t.notes.push_back("of the pass that is reported; sub-steps: by step of the record; iterations: linear solutions of "
-                      "the contact problem.");
+    t.notes.push_back("of the pass that is reported; sub-steps: by step of the record; halved: steps made in two halves "
+                      "because they were not resolved whole; iterations: linear solutions of the contact problem.");
     return t;
 }
 

@@ -28,6 +28,7 @@ bool ended_properly(fe2d::RunStatus status);
 Table contact_stage_table(const std::vector<ContactRun>& runs);
 Table contact_run_table(const std::vector<ContactRun>& runs);
 Table contact_slip_table(const std::vector<ContactRun>& runs);   ///< slip along the base, rocking, opening
+Table contact_lift_table(const std::vector<ContactRun>& runs); ///< without rows where the scene has no lift joint
 Table contact_count_table(const std::vector<ContactRun>& runs);  ///< steps by the path of the contact solver
 Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at the end
 

@@ -30,7 +30,6 @@ void count(const fe2d::RunResult& r, FeSweepCounts& counts)
     ++counts.runs;
     counts.static_failures += r.status == fe2d::RunStatus::static_failure;
     counts.steps += r.counts.steps;
-    counts.factorisations += r.counts.factorisations;
     counts.unresolved += r.counts.unresolved;
     counts.static_seconds += r.seconds.statics;
     counts.dynamic_seconds += r.seconds.dynamics;
@@ -79,11 +78,11 @@ std::vector<FeSlip> fe_slips(const Scene& given, const std::vector<double>& fric
         counts.runs += c.runs;
         counts.static_failures += c.static_failures;
         counts.steps += c.steps;
-        counts.factorisations += c.factorisations;
         counts.unresolved += c.unresolved;
         counts.static_seconds += c.static_seconds;
         counts.dynamic_seconds += c.dynamic_seconds;
     }
+    counts.factorisations += model.factorisations();
     return slips;
 }
 

@@ -22,11 +22,11 @@ public:
     StepProblem(const ContactStructure& structure, const RunDamping& damping, const StepConstants& constants,
                 SplitLoad load)
         : structure_(structure), damping_(damping), constants_(constants), load_(std::move(load)),
-          slip_damping_(structure, damping), operator_(structure, damping, slip_damping_, constants, ContactOptions{})
+          slip_damping_(structure, damping), operator_(structure, damping, slip_damping_, constants)
     {
     }
 
-    const Eigen::MatrixXd& stiffness() { return operator_.contact().stiffness(); }
+    const Eigen::MatrixXd& stiffness() { return *operator_.contact().stiffness; }
 
     VectorXd stuck_force(const DynamicState& before, const GroundAcceleration& ground)
     {
@@ -45,18 +45,19 @@ public:
         if (slip_damping_.active()) {
             const VectorXd on_base = structure_.plane().to_plane(VectorXd(y.tail(2 * m)));
             const VectorXd rate = on_base.tail(m) - (cv * before.rock_v + ca * before.rock_a).tail(m);
-            const double slip = slip_damping_.weights.dot(rate), mean = slip_damping_.momentum.dot(y);
-            free.dam -= slip_damping_.coefficient * slip * slip_damping_.momentum;
-            known.tail(m) -= slip_damping_.coefficient * (slip - mean) * slip_damping_.weights;
+            const VectorXd slip = slip_damping_.weights.transpose() * rate, mean = slip_damping_.momentum.transpose() * y;
+            free.dam -= slip_damping_.momentum * slip;
+            known.tail(m) -= slip_damping_.weights * (slip_damping_.drag * slip - mean);
         }
         VectorXd rock_gap = VectorXd::Zero(2 * m);
         if (structure_.has_rock())
             rock_gap = (structure_.rock_flexibility() * load_.rock - before.rock +
                         b_k * (cv * before.rock_v + ca * before.rock_a)) /
                        (w * (1.0 + c.a1 * b_k));
+        operator_.factor().forward(free.dam);
         operator_.solve_free(free, rock_gap);
         VectorXd stuck;
-        operator_.stuck_force(free, known, stuck);
+        operator_.stuck_force(operator_.contact(), free, known, stuck);
         return stuck - stiffness().leftCols(m) * before.contact.opening; // gaps from shut, not from where they are
     }
 

@@ -1,0 +1,104 @@
+#include "fe2d/run/contact_planes.hpp"
+
+#include <utility>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+ContactPlanes::Matrix matrix(Index rows, Index columns, const Entries& entries)
+{
+    ContactPlanes::Matrix result(rows, columns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+/// True for the dam's nodes that hang together with one of `start` through elements.
+std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
+{
+    std::vector<char> reached(static_cast<std::size_t>(mesh.dam_node_count), 0);
+    for (const int node : start) reached[static_cast<std::size_t>(node)] = 1;
+    for (bool more = true; more;) {
+        more = false;
+        for (int e = 0; e < mesh.dam_element_count; ++e) {
+            const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+            int count = 0;
+            for (int i = 0; i < element.size(); ++i) count += reached[static_cast<std::size_t>(element.nodes[i])];
+            if (count == 0 || count == element.size()) continue;
+            for (int i = 0; i < element.size(); ++i) reached[static_cast<std::size_t>(element.nodes[i])] = 1;
+            more = true;
+        }
+    }
+    return reached;
+}
+
+} // namespace
+
+ContactPlanes::ContactPlanes(const Mesh& mesh)
+{
+    planes_.push_back(plane_of(mesh));
+    nodes_ = mesh.contact.dam_nodes;
+    for (const LiftPlane& lift : mesh.lifts) {
+        planes_.push_back(plane_of(lift));
+        nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
+        nodes_.insert(nodes_.end(), lift.lower_nodes.begin(), lift.lower_nodes.end());
+    }
+    Index m = 0;
+    for (const Plane& plane : planes_) {
+        first_.push_back(m);
+        m += plane.pairs();
+    }
+    area_.resize(m);
+    weights_ = MatrixXd::Zero(m, count());
+    const Index n = static_cast<Index>(nodes_.size()), on_base = base().pairs();
+    Entries gaps, held, joined;
+    for (Index k = 0, node = 0; k < count(); ++k) {
+        const Plane& plane = (*this)[k];
+        const Index pairs = plane.pairs();
+        area_.segment(first(k), pairs) = plane.area;
+        weights_.col(k).segment(first(k), pairs) = plane.weights();
+        for (Index i = 0; i < pairs; ++i)
+            for (const Index c : {0, 1}) {
+                const Index upper = 2 * (node + i) + c, lower = upper + 2 * pairs, normal = first(k) + i;
+                for (const auto& [row, part] : {std::pair{normal, plane.normal[c]}, {m + normal, plane.tangent[c]}}) {
+                    gaps.emplace_back(row, upper, part);
+                    if (k > 0) gaps.emplace_back(row, lower, -part);
+                    held.emplace_back(upper, row, part);
+                }
+                if (k == 0) continue;
+                const Index together = 2 * (first(k) - on_base + i) + c;
+                joined.emplace_back(upper, together, 1.0);
+                joined.emplace_back(lower, together, 1.0);
+            }
+        node += k == 0 ? pairs : 2 * pairs;
+    }
+    gaps_ = matrix(2 * m, 2 * n, gaps);
+    held_ = matrix(2 * n, 2 * m, held);
+    joined_ = matrix(2 * n, 2 * (m - on_base), joined);
+
+    above_.assign(planes_.size(), {});
+    above_.front().assign(static_cast<std::size_t>(mesh.dam_node_count), 1);
+    for (std::size_t k = mesh.lifts.size(); k > 0; --k) { // from top to bottom, each joins those above it
+        above_[k] = connected(mesh, mesh.lifts[k - 1].upper_nodes);
+        if (k == mesh.lifts.size()) continue;
+        for (std::size_t node = 0; node < above_[k].size(); ++node) above_[k][node] |= above_[k + 1][node];
+    }
+}
+
+MatrixXd sliding_motions(const ContactPlanes& planes)
+{
+    const Index nodes = static_cast<Index>(planes.above(0).size());
+    MatrixXd motions = MatrixXd::Zero(2 * nodes, planes.count());
+    for (Index k = 0; k < planes.count(); ++k)
+        for (Index node = 0; node < nodes; ++node)
+            if (planes.above(k)[static_cast<std::size_t>(node)])
+                motions.col(k).segment<2>(2 * node) = planes[k].tangent;
+    return motions;
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "fe2d/run/node_order.hpp"
+#include "fe2d/run/plane.hpp"
+
+namespace damslip::fe2d {
+
+/// All contact planes of a structure: the base, then the lift joints from bottom to top. Their m pairs are numbered
+/// through; vectors over all pairs have length 2m: normal components, then tangential ones (downstream).
+///
+/// The dam's nodes on the planes are its interface: those of the base, then of each lift joint the upper ones, then the
+/// lower ones. Vectors q over them are (x, y) by node. What the dam gives to the gaps is D q: the displacement of a base
+/// node, the difference of upper and lower node of a joint. Any q is
+///
+///     q = E x + N y,   D E = I,   D N = 0
+///
+/// x: base nodes, and upper nodes of the joints above their lower ones; y: both nodes of the joints moving together.
+class ContactPlanes {
+public:
+    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+    explicit ContactPlanes(const Mesh& mesh);
+
+    Eigen::Index count() const { return static_cast<Eigen::Index>(planes_.size()); } ///< K >= 1
+    Eigen::Index pairs() const { return area_.size(); }                              ///< m, of all planes
+    const Plane& operator[](Eigen::Index plane) const { return planes_[static_cast<std::size_t>(plane)]; }
+    const Plane& base() const { return planes_.front(); }
+    Eigen::Index first(Eigen::Index plane) const { return first_[static_cast<std::size_t>(plane)]; } ///< pair
+
+    const Eigen::VectorXd& area() const { return area_; }       ///< of all pairs [m]
+    const Eigen::MatrixXd& weights() const { return weights_; } ///< m x K: area weights of each plane [-]
+    /// Mean slip of a plane [m]. @param slip  of all pairs
+    double mean(Eigen::Index plane, const Eigen::VectorXd& slip) const { return weights_.col(plane).dot(slip); }
+
+    /// By node of the dam: is it in a block above the plane?
+    const std::vector<char>& above(Eigen::Index plane) const { return above_[static_cast<std::size_t>(plane)]; }
+
+    const std::vector<int>& nodes() const { return nodes_; } ///< the dam's, in interface order
+    const Matrix& gaps() const { return gaps_; }             ///< D, 2m x 2n
+    const Matrix& held() const { return held_; }             ///< E, 2n x 2m
+    const Matrix& joined() const { return joined_; }         ///< N, 2n x 2 (pairs of the joints)
+
+private:
+    std::vector<Plane> planes_;
+    std::vector<Eigen::Index> first_;
+    Eigen::VectorXd area_;
+    Eigen::MatrixXd weights_;
+    std::vector<std::vector<char>> above_;
+    std::vector<int> nodes_;
+    Matrix gaps_, held_, joined_;
+};
+
+/// Rigid translations of the dam's unknowns, in mesh order, one column by plane: everything above it goes along it by 1.
+Eigen::MatrixXd sliding_motions(const ContactPlanes& planes);
+
+} // namespace damslip::fe2d

@@ -1,0 +1,265 @@
+#include "fe2d/run/earthquake_run.hpp"
+#include "fe2d/run/ground_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave.
+bool diverges(const Energy& energy)
+{
+    return !std::isfinite(energy.kinetic) ||
+           energy.contact_normal > 10.0 + 0.05 * (std::abs(energy.external) + std::abs(energy.friction));
+}
+
+double largest(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0,
+                           [](double sum, double value) { return std::max(sum, std::abs(value)); });
+}
+
+} // namespace
+
+/// One strength of several that are run together: its static state, and the result so far.
+struct EarthquakeRun::Lane {
+    Strength strength;
+    ContactMemory memory;
+    StaticState start;
+    RunResult result;
+};
+
+/// The static stages. lane.result.status stays model_failed where they end in equilibrium.
+void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
+{
+    const auto clock = Clock::now();
+    RunResult& result = lane.result;
+    StaticContact contact_statics(statics_, options_.contact);
+    lane.strength = strength_of(contact);
+    lane.memory = ContactMemory(structure_->pairs());
+    result.zero_displacement = zero_displacement(contact_statics, lane.strength);
+    result.stages = statics(contact_statics, lane.strength, lane.memory);
+    if (result.stages.back().status == StageStatus::ok) {
+        lane.start = contact_statics.displacements(split(stages_.loads.size() - 1), lane.memory);
+    } else {
+        result.status = RunStatus::static_failure;
+        result.message = result.stages.back().text();
+    }
+    result.seconds.statics = seconds_since(clock);
+}
+
+namespace {
+
+/// One lane under way.
+struct Pass {
+    DynamicContact dynamics;
+    Strength strength;
+    RunResult result;
+    HistoryRecorder recorder;
+    bool going = true;
+
+    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series)
+        : dynamics(std::move(start)), strength(at_start), result(so_far), recorder(dynamics, result.history, series)
+    {
+        recorder.add();
+    }
+    void end(RunStatus status)
+    {
+        result.status = status;
+        going = false;
+    }
+};
+
+} // namespace
+
+std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
+                                            std::span<Lane* const> lanes) const
+{
+    const auto clock = Clock::now();
+    const double dt = scene_.time.dt.value_or(motion.dt),
+                 duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    const int parts = 1 << halvings;
+    const double step = dt / parts;
+    const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
+    std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
+    for (const Lane* lane : lanes) {
+        DynamicContact start(operators_, split(stages_.loads.size() - 1), lane->start, lane->memory, options_.contact);
+        passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series));
+        RunResult& result = passes.back()->result;
+        result.dt = step;
+        result.halvings = halvings;
+        result.max_slip = 0.0;
+        result.status = RunStatus::sliding_at_end;
+    }
+
+    const auto record_steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
+    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
+    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
+    std::vector<DynamicContact::Lane> under_way;
+    const auto any = [&] { return std::any_of(passes.begin(), passes.end(), [](const auto& p) { return p->going; }); };
+    for (long n = 0; n < all_steps && any(); ++n) {
+        for (int part = 1; part <= parts; ++part) {
+            under_way.clear();
+            for (const auto& pass : passes)
+                if (pass->going && pass->dynamics.within_reach())
+                    under_way.push_back({&pass->dynamics, &pass->strength.law(), {}});
+            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
+            DynamicContact::advance(under_way, step, ground.at(time));
+            for (const auto& pass : passes)
+                if (pass->going) pass->strength.follow(pass->dynamics.state().contact);
+        }
+        const bool stopped =
+            options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, dt)) == RunAnswer::stop;
+        for (const auto& pass : passes) {
+            if (!pass->going) continue;
+            RunResult& result = pass->result;
+            pass->recorder.add();
+            result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
+            if (stopped)
+                pass->end(RunStatus::interrupted);
+            else if (!pass->dynamics.within_reach())
+                pass->end(RunStatus::left_plane);
+            else if (diverges(pass->dynamics.energy()))
+                pass->end(RunStatus::diverged);
+            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
+                pass->end(RunStatus::at_rest);
+        }
+    }
+    const double seconds = seconds_since(clock) / static_cast<double>(lanes.size());
+    std::vector<RunResult> results;
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+        Pass& pass = *passes[i];
+        end_lane(pass.dynamics, pass.strength, *lanes[i], pass.result);
+        pass.result.seconds.dynamics += seconds;
+        results.push_back(std::move(pass.result));
+    }
+    return results;
+}
+
+/// The figures at the end of a pass, and the static state after it.
+void EarthquakeRun::end_lane(const DynamicContact& dynamics, const Strength& strength_at_end, const Lane& lane,
+                             RunResult& result) const
+{
+    const DynamicState& end = dynamics.state();
+    const ContactPlanes& planes = structure_->planes();
+    const Plane& plane = planes.base();
+    const Index m = plane.pairs();
+    result.slip = result.history.slip.back();
+    result.end_time = end.time;
+    result.counts = dynamics.counts();
+    result.energy_error =
+        dynamics.energy_scale() > 0.0 ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale() : 0.0;
+    result.pair_distance = plane.distance;
+    result.pair_area = plane.area;
+    result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
+    result.pair_shear = -end.contact.force.segment(planes.pairs(), m).cwiseQuotient(plane.area);
+    result.pair_slip = (end.contact.slip - lane.memory.slip).head(m);
+    result.pair_opening = end.contact.opening.head(m);
+    result.lifts.clear();
+    for (std::size_t k = 0; k < result.history.lifts.size(); ++k) {
+        const LiftHistory& h = result.history.lifts[k];
+        result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(), largest(h.slip), largest(h.largest_opening),
+                                largest(h.rocking)});
+    }
+    result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
+    if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
+    result.bytes = dynamics.bytes();
+    result.seconds.contact += result.counts.contact_seconds;
+
+    const VectorXd after = load_with(stages_, *model_, options_.uplift_after);
+    if (result.status == RunStatus::left_plane) return;
+    Strength strength = strength_at_end;
+    ContactMemory memory = end.contact;
+    std::optional<StaticContact> statics;
+    if (structure_->slides_far())
+        statics.emplace(*structure_, options_.contact, planes.mean(0, end.contact.slip));
+    else
+        statics.emplace(statics_, options_.contact);
+    SplitLoad load = structure_->split(after);
+    let_water_ride(*structure_, options_.uplift_after.empty() ? options_.uplift : options_.uplift_after, load);
+    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory);
+}
+
+bool close_enough(const RunResult& coarser, const RunResult& finer, double tolerance, double smallest_slip)
+{
+    const auto close = [&](double a, double b) {
+        return std::abs(b - a) <= tolerance * std::max(std::abs(b), smallest_slip);
+    };
+    for (std::size_t k = 0; k < finer.lifts.size(); ++k)
+        if (!close(coarser.lifts[k].slip, finer.lifts[k].slip)) return false;
+    return close(coarser.slip, finer.slip);
+}
+
+std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts) const
+{
+    std::vector<RunResult> results(contacts.size());
+    std::vector<std::unique_ptr<Lane>> lanes;
+    std::vector<Lane*> going;
+    for (const Contact& contact : contacts) {
+        if (!usable_) break;
+        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}}));
+        stand(contact, *lanes.back());
+        if (lanes.back()->result.status != RunStatus::static_failure) going.push_back(lanes.back().get());
+    }
+    const int first = options_.halvings.value_or(0);
+    if (!going.empty()) {
+        std::vector<RunResult> coarse = shake(motion, first, going);
+        for (std::size_t i = 0; i < going.size(); ++i) {
+            going[i]->result = std::move(coarse[i]);
+            going[i]->result.slip_error = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+        std::erase_if(going, [](const Lane* lane) { return lane->result.status == RunStatus::interrupted; });
+        if (going.empty()) break;
+        std::vector<RunResult> finer = shake(motion, k, going);
+        std::vector<Lane*> more;
+        for (std::size_t i = 0; i < going.size(); ++i) {
+            RunResult& result = going[i]->result;
+            if (finer[i].status == RunStatus::interrupted) { // the whole coarser run tells more than part of the finer
+                result.status = RunStatus::interrupted;
+                result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
+                                             finer[i].dt, 1e3 * result.slip, result.dt);
+                continue;
+            }
+            const RunResult coarser = std::move(result);
+            result = std::move(finer[i]);
+            // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
+            result.slip_error = std::abs(result.slip - coarser.slip);
+            if (result.status != RunStatus::left_plane &&
+                !close_enough(coarser, result, *options_.slip_tolerance, options_.smallest_slip))
+                more.push_back(going[i]);
+        }
+        going = std::move(more);
+    }
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (usable_) {
+            results[i] = std::move(lanes[i]->result);
+            if (results[i].status != RunStatus::static_failure) judge(results[i]);
+        } else {
+            results[i].message = why_not_;
+        }
+        results[i].seconds.model = seconds_;
+        results[i].damping = damping_.constants;
+    }
+    return results;
+}
+
+} // namespace damslip::fe2d

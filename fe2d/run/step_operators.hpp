@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fe2d/run/block_products.hpp"
+#include "fe2d/run/dynamic_operator.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace damslip::fe2d {
+
+/// Everything of the steps that is linear, by step size: made when first asked for, then shared by all runs of one
+/// structure, damping and scheme, whatever their friction and motion. Threads may ask at the same time.
+class StepOperators {
+public:
+    StepOperators(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme);
+    StepOperators(const StepOperators&) = delete;
+    StepOperators& operator=(const StepOperators&) = delete;
+
+    const ContactStructure& structure() const { return structure_; }
+    const RunDamping& damping() const { return damping_; }
+    const SlipDamping& slip_damping() const { return slip_damping_; }
+    const Scheme& scheme() const { return scheme_; }
+    const BlockProducts& products() const { return products_; }
+
+    const DynamicOperator& at(double dt); ///< @param dt  > 0 [s]
+    int made() const;                     ///< factorisations so far
+    std::size_t bytes() const;
+
+private:
+    const ContactStructure& structure_;
+    RunDamping damping_;
+    Scheme scheme_;
+    SlipDamping slip_damping_;
+    BlockProducts products_;
+    mutable std::mutex mutex_;
+    std::map<double, std::unique_ptr<const DynamicOperator>> operators_;
+};
+
+} // namespace damslip::fe2d

@@ -1,0 +1,203 @@
+// Runs with lift joints: further contact planes above the base.
+#include "fe2d/run/contact_planes.hpp"
+#include "scene/section.hpp"
+#include "verification/fe_run_scenes.hpp"
+
+#include "sliding/block/slide.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::fe2d;
+using Eigen::Index;
+using Eigen::VectorXd;
+using fe2d::test::options_of;
+using fe2d::test::sines;
+using fe2d::test::sliding_dam;
+
+LiftJoint joint_at(double elevation, double friction)
+{
+    LiftJoint joint;
+    joint.name = "neck";
+    joint.elevation = elevation;
+    joint.strength.friction = friction;
+    return joint;
+}
+
+/// The dam dry on a rigid base, stiff as steel mountains, cut at the neck.
+Scene stiff_blocks(double base_friction, double joint_friction)
+{
+    Scene scene = sliding_dam(base_friction, 1e4, 3.0);
+    scene.foundation.reset();
+    scene.curtain.reset();
+    scene.reservoir.reset();
+    scene.uplift.reset();
+    scene.lift_joints.push_back(joint_at(51.5, joint_friction));
+    return scene;
+}
+
+RunOptions stiff_options(const Scene& scene)
+{
+    RunOptions options = options_of(scene);
+    options.halvings = 3;
+    options.damping = rayleigh_constants(0.05, 2.0 * std::numbers::pi * 360.0, 2.0 * std::numbers::pi * 1500.0);
+    return options;
+}
+
+TEST(FePlanes, GapsHeldAndJoinedPartsFitTogether)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    scene.lift_joints = {joint_at(20.0, 0.8), joint_at(51.5, 0.8)};
+    const Model model = build_model(scene, {.base = Base::separate});
+    const ContactPlanes planes(model.mesh);
+    ASSERT_EQ(planes.count(), 3);
+    const Index m = planes.pairs();
+    EXPECT_NEAR(planes[1].length(), width_at_level(scene.section, 20.0), 1e-9);
+    EXPECT_NEAR(planes[2].length(), 12.0, 1e-9);
+    const Eigen::MatrixXd d = planes.gaps(), e = planes.held(), n = planes.joined();
+    EXPECT_LT((d * e - Eigen::MatrixXd::Identity(2 * m, 2 * m)).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_LT((d * n).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_EQ(e.cols() + n.cols(), d.cols());
+
+    // The blocks' weights by what stands above each plane: densities times areas of the section.
+    const auto above = [&](Index k) {
+        double y = 1e9;
+        for (std::size_t node = 0; node < planes.above(k).size(); ++node)
+            if (planes.above(k)[node]) y = std::min(y, model.mesh.nodes[node].y);
+        return y;
+    };
+    EXPECT_NEAR(above(1), 20.0, 1e-9);
+    EXPECT_NEAR(above(2), 51.5, 1e-9);
+}
+
+// The base sticks, the upper block slides on its joint as a rigid block of its own on the ground: mu N alone.
+TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
+{
+    const Scene scene = stiff_blocks(3.0, 0.3);
+    Scene upper = scene;
+    upper.section.polygon = {{0, 0}, {12, 0}, {12, 11}, {0, 11}};
+    upper.lift_joints.clear();
+    upper.contact.friction = 0.3;
+    const GroundMotion motion = sines(9.0, 8.0);
+    const double rigid = sliding::slide(motion, sliding::make_rigid_block(upper)).slip;
+    ASSERT_GT(std::abs(rigid), 0.01);
+    const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
+    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    ASSERT_EQ(result.lifts.size(), 1u);
+    EXPECT_NEAR(result.lifts[0].slip, rigid, 0.01 * std::abs(rigid)); // as the dam itself: first order in the step
+    EXPECT_LT(std::abs(result.slip), 1e-9);
+    EXPECT_LT(result.energy_error, 1e-10);
+    EXPECT_EQ(result.counts.unresolved, 0);
+}
+
+struct TwoSlips {
+    double base = 0.0, joint = 0.0;
+};
+
+/// Two rigid blocks on each other under the ground's acceleration: velocities with Coulomb impulses at the end of very
+/// short steps (Moreau 1988), each pair of impulses by projected Gauss-Seidel. First order in dt.
+TwoSlips two_rigid_blocks(const GroundMotion& motion, double lower, double upper, double mu_base, double mu_joint)
+{
+    const double dt = 2e-5, end = motion.dt * static_cast<double>(motion.accel_h.size() - 1) + 5.0;
+    double v_lower = 0.0, v_upper = 0.0, p = 0.0, q = 0.0;
+    TwoSlips slip;
+    for (double t = dt; t < end; t += dt) {
+        const double at = t / motion.dt;
+        const auto i = static_cast<std::size_t>(at);
+        const auto value = [&](const std::vector<double>& a) {
+            if (i + 1 >= a.size()) return 0.0;
+            return a[i] + (at - static_cast<double>(i)) * (a[i + 1] - a[i]);
+        };
+        const double g = 9.81 + value(motion.accel_v), a = value(motion.accel_h);
+        const double free_lower = v_lower + dt * a, free_upper = v_upper + dt * a;
+        for (int sweep = 0; sweep < 40; ++sweep) { // p on the lower block by the ground, q on the upper by the lower
+            const double limit_p = mu_base * (lower + upper) * g * dt, limit_q = mu_joint * upper * g * dt;
+            p = std::clamp(-lower * free_lower + q, -limit_p, limit_p);
+            q = std::clamp((free_lower + p / lower - free_upper) / (1.0 / lower + 1.0 / upper), -limit_q, limit_q);
+        }
+        v_lower = free_lower + (p - q) / lower;
+        v_upper = free_upper + q / upper;
+        slip.base += dt * v_lower;
+        slip.joint += dt * (v_upper - v_lower);
+    }
+    return slip;
+}
+
+// Both planes slide, at times together: the base under a strong shaking, the joint a little weaker still.
+TEST(FePlanes, BothPlanesOfTwoStiffBlocksSlide)
+{
+    const Scene scene = stiff_blocks(0.35, 0.30);
+    const GroundMotion motion = sines(9.0, 8.0);
+    const double upper = 2500.0 * 12.0 * 11.0, lower = 2500.0 * area(scene.section) - upper;
+    const TwoSlips rigid = two_rigid_blocks(motion, lower, upper, 0.35, 0.30);
+    ASSERT_GT(std::abs(rigid.base), 0.01);
+    ASSERT_GT(std::abs(rigid.joint), 0.005);
+    const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
+    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    EXPECT_NEAR(result.slip, rigid.base, 0.01 * std::abs(rigid.base));
+    EXPECT_NEAR(result.lifts[0].slip, rigid.joint, 0.01 * std::abs(rigid.joint));
+    EXPECT_LT(result.energy_error, 1e-10);
+}
+
+// On flexible rock with water: every force passes through both planes, the joint's balance is that of what is above it.
+TEST(FePlanes, FlexibleDamWithTwoJointsIsInEquilibriumAndItsEnergyCloses)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    scene.lift_joints = {joint_at(20.0, 0.75), joint_at(51.5, 0.5)};
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    const EarthquakeRun run(scene, options);
+    const RunResult result = run.run(sines(2.0, 8.0));
+    ASSERT_EQ(result.stages.size(), 3u);
+    for (const StageResult& stage : result.stages) EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
+    const PlaneBalance& top = result.stages.back().lifts[1];
+    const double weight = 2500.0 * 9.81 * 12.0 * 11.0, water = 0.5 * 9810.0 * 11.0 * 11.0;
+    EXPECT_NEAR(top.resultant.normal_force, weight, 1e-9 * weight);
+    EXPECT_NEAR(top.resultant.shear_force, water, 1e-9 * water);
+    EXPECT_NEAR(top.resultant.position, 6.0 + water * 11.0 / 3.0 / weight, 1e-9);
+    EXPECT_NEAR(result.history.lifts[1].normal_force[0], weight, 1e-9 * weight);
+    EXPECT_NEAR(result.history.normal_force[0], result.stages.back().resultant.normal_force, 1.0);
+    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    EXPECT_GT(result.lifts[1].largest_slip, 1e-4);
+    EXPECT_LT(result.energy_error, 1e-10);
+    EXPECT_LT(result.counts.largest_residual, 1e-8);
+    EXPECT_EQ(result.counts.unresolved, 0);
+}
+
+// A joint that nothing can move makes no difference: the tied faces carry what the concrete would.
+TEST(FePlanes, JointThatHoldsChangesNothing)
+{
+    Scene whole = sliding_dam(0.66, 1.0, 5.0), cut = whole;
+    cut.lift_joints.push_back(joint_at(51.5, 0.8)); // a kink of the face: a row of nodes without it, too
+    cut.lift_joints.front().strength.cohesion = 1e9;
+    cut.lift_joints.front().strength.cohesion_lost_at_slip = false;
+    RunOptions options = options_of(whole);
+    options.halvings = 0;
+    const GroundMotion motion = sines(0.15, 6.0); // the neck stays in compression
+    const RunResult one = EarthquakeRun(whole, options).run(motion), two = EarthquakeRun(cut, options).run(motion);
+    ASSERT_EQ(two.status, RunStatus::at_rest);
+    ASSERT_EQ(two.lifts[0].largest_opening, 0.0);
+    EXPECT_EQ(two.lifts[0].largest_slip, 0.0);
+    ASSERT_GT(one.slip, 1e-5);
+    EXPECT_NEAR(two.slip, one.slip, 1e-9 * one.slip);
+    for (std::size_t i = 0; i < one.history.time.size(); ++i)
+        ASSERT_NEAR(two.history.crest_x[i], one.history.crest_x[i], 1e-12) << i;
+}
+
+TEST(FePlanes, WeakJointFailsBeforeTheEarthquake)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    scene.lift_joints.push_back(joint_at(51.5, 0.1)); // needs water/weight = 0.183
+    const RunResult result = EarthquakeRun(scene, options_of(scene)).run(sines(1.0, 1.0));
+    EXPECT_EQ(result.status, RunStatus::static_failure);
+    EXPECT_NE(result.message.find("above the lift joint at 51.5 m slides"), std::string::npos) << result.message;
+    EXPECT_NE(result.message.find("mu >= 0.183"), std::string::npos) << result.message;
+}
+
+} // namespace
