@@ -158,4 +158,14 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
     return finish(ContactPath::unresolved);
 }
 
+bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution)
+{
+    ContactLaw impulsive = law;
+    impulsive.cohesion.setZero(); // a force, no impulse
+    const Eigen::VectorXd held_impulse = *stiffness_ * held_jump;
+    if (!system_.set(solution.states, impulsive) || !system_.solve(impulsive, held_impulse, solution)) return false;
+    solution.displacement += held_jump;
+    return true;
+}
+
 } // namespace damslip::fe2d

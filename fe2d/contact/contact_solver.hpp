@@ -15,7 +15,14 @@ enum class ContactPath {
     unresolved      ///< nothing ended within its limits: the best state found is returned
 };
 
+/// Velocity of gaps that come to be held (shut, stuck) in a step.
+enum class Landing {
+    at_rest, ///< impulses make it zero
+    ringing  ///< what Newmark's formulas leave, to compare with plain integrators: it changes sign every step
+};
+
 struct ContactOptions {
+    Landing landing = Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
     double tangential_stiffness =
         0.0; ///< k of a penalty in front of Coulomb's law (ElasticStick) [N/m³]; 0: sticking is rigid, exact
     double slip_tolerance = 0.0; ///< F_f of elastic slip that follows the pressure (SlipTolerance) [-]; 0: none; > 0:
@@ -56,6 +63,11 @@ public:
     /// @param stuck_force  λ⁰, 2m [N/m]
     /// @param solution     on entry its states are the start (those of the last step; empty: all stuck)
     ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, ContactSolution& solution);
+
+    /// Impulses on held gaps that change their rates by `held_jump` (2m, zero where not held), with the states of the last
+    /// solution: none on open pairs, slipping ones slide on with Coulomb's friction. @returns false for a mechanism.
+    /// @param solution  jumps of all gaps and impulses; on entry the states
+    bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
 
     const ReleasedSystem& system() const { return system_; }
 

@@ -49,6 +49,19 @@ JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const Vector
             options);
     else
         rigid_ = std::make_unique<ContactSolver>(std::move(seen), options);
+    lands_ = rigid_ && !elastic_stick_.active() && options.landing == Landing::at_rest;
+}
+
+bool JointSolver::land(const ContactLaw& law, const VectorXd& held_jump, ContactSolution& solution)
+{
+    return lands_ && rigid_->land(law, held_jump, solution);
+}
+
+bool holds(const ContactStates& states, Eigen::Index gap)
+{
+    const auto m = static_cast<Eigen::Index>(states.size());
+    const ContactState state = states[static_cast<std::size_t>(gap < m ? gap : gap - m)];
+    return gap < m ? state != ContactState::open : state == ContactState::stick;
 }
 
 JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)

@@ -30,13 +30,21 @@ public:
     ContactReport solve(Eigen::VectorXd stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
                         ContactSolution& solution);
 
+    /// ContactSolver::land(); false where sticking or shutting is elastic, or by the options.
+    bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
+    bool lands() const { return lands_; } ///< are there landings at all?
+
 private:
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ElasticStick elastic_stick_;
     std::unique_ptr<SlipTolerance> slip_tolerance_;
     std::unique_ptr<ExponentialNormal> soft_normal_; ///< of V, or of V' behind the elastic stick
     std::unique_ptr<ContactSolver> rigid_;           ///< the same
+    bool lands_ = false;
 };
+
+/// Which of the 2m gaps a set of states holds as they are.
+bool holds(const ContactStates& states, Eigen::Index gap);
 
 /// Energy that soft normal contact stores at these openings, Σ A w(g) [J/m]; zero where contact is hard.
 double stored_energy(const ContactOptions& options, const Eigen::VectorXd& area, const Eigen::VectorXd& opening);

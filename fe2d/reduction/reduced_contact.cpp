@@ -83,12 +83,14 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     const double rate = c.a1 * slip - c.a4 * rate_ - c.a5 * accel_;
     accel_ = c.a0 * slip - c.a2 * rate_ - c.a3 * accel_;
     rate_ = rate;
+    const ContactStates states_before = memory.states;
     memory.force = solution_.force;
     memory.states = solution_.states;
     memory.opening = solution_.displacement.head(m);
     memory.slip += solution_.displacement.tail(m);
     state_.time += dt;
     state_.ground = ground;
+    land(op, states_before, law);
 
     ++counts_.steps;
     counts_.contact_iterations += report.iterations;
@@ -98,6 +100,30 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     counts_.largest_residual =
         std::max(counts_.largest_residual, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
     return report;
+}
+
+/// DynamicContact::land() in modal amplitudes.
+void ReducedContact::land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law)
+{
+    const ContactStates& states = state_.contact.states;
+    if (!op.contact().lands() || states == before) return;
+    const Index m = plane_.pairs();
+    bool newly = false;
+    for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);
+    if (!newly) return;
+    const VectorXd rate = system_.modes.on_plane * state_.q_v + system_.flexibility * state_.p_v;
+    VectorXd held = VectorXd::Zero(2 * m);
+    for (Index gap = 0; gap < 2 * m; ++gap)
+        if (holds(states, gap)) held[gap] = -rate[gap];
+    ContactSolution jumps{states, {}, {}};
+    if (!op.contact().land(law, held, jumps)) return;
+    ++counts_.landings;
+    const double slip = system_.weights.dot(jumps.displacement.tail(m));
+    const VectorXd none = VectorXd::Zero(2 * m);
+    op.finish(VectorXd::Zero(system_.modes.count()), none, none, jumps.force, slip, modal_step_, massless_step_);
+    state_.q_v += modal_step_;
+    state_.p_v += massless_step_;
+    rate_ += slip;
 }
 
 double ReducedContact::mean_slip() const

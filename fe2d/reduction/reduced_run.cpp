@@ -46,6 +46,7 @@ struct ReducedRun::Motion {
     GroundInput ground;
     double dt = 0.0; ///< of the rows of the history [s]
     int parts = 1;   ///< steps in each
+    ContactOptions contact;
 };
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
@@ -77,7 +78,7 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     const double dt = motion.dt;
     const int parts = motion.parts;
     const GroundInput& ground = motion.ground;
-    ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, options_.contact);
+    ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, motion.contact);
     result.history = {};
     record(dynamics, result.history);
     result.dt = dt / parts;
@@ -123,23 +124,39 @@ double ReducedRun::truncation_error(const Motion& motion, const Contact& contact
 {
     if (!coarse_system_) return 0.0;
     const ContactMemory memory = coarse_.coarsened(rest);
-    const auto slip = [&](const ReducedSystem& system) {
+    Motion coarse_motion = motion;
+    coarse_motion.contact.landing = Landing::ringing; // few pairs land together: jolts that the full plane has not
+    const auto slips = [&](const ReducedSystem& system) {
         Strength strength(contact, coarse_.plane());
         strength.set_separation(*options_.separation);
         strength.follow(memory);
         ReducedResult result;
-        shake(motion, coarse_.plane(), system, strength, memory, result);
-        return result.slip;
+        shake(coarse_motion, coarse_.plane(), system, strength, memory, result);
+        return result.history.slip;
     };
     const double modes = static_cast<double>(coarse_system_->modes.count() - 3);
     const double more = static_cast<double>(coarse_reference_->modes.count() - 3);
     const double fewer = static_cast<double>(coarse_fewer_->modes.count() - 3);
-    const double kept = slip(*coarse_system_);
-    const double share_gone = coarse_reference_->modes.complete ? 1.0 : 1.0 - modes / more;
-    const double from_more = std::abs(kept - slip(*coarse_reference_)) / share_gone;
-    if (coarse_reference_->modes.complete) return from_more;
-    const double from_fewer = std::abs(kept - slip(*coarse_fewer_)) / (modes / fewer - 1.0);
-    return std::sqrt(from_more * from_fewer);
+    const std::vector<double> kept = slips(*coarse_system_);
+    const double to_more = largest_difference(kept, slips(*coarse_reference_));
+    if (coarse_reference_->modes.complete) return to_more;
+    const double from_fewer = largest_difference(slips(*coarse_fewer_), kept);
+    // The error as n^-p: both differences tell it, and their ratio tells p.
+    const auto gone = [&](double p) { return 1.0 - std::pow(modes / more, p); };
+    const auto gained = [&](double p) { return std::pow(modes / fewer, p) - 1.0; };
+    double slow = 1.0, fast = 2.0; // of modes whose frequencies grow as n^1/2; of smooth loads
+    for (int k = 0; k < 40; ++k) {
+        const double p = 0.5 * (slow + fast);
+        (from_fewer * gone(p) > to_more * gained(p) ? slow : fast) = p;
+    }
+    return std::sqrt(to_more / gone(slow) * from_fewer / gained(slow));
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double largest = std::abs(a.back() - b.back());
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
 }
 
 ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
@@ -170,7 +187,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     }
 
     clock = Clock::now();
-    Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1};
+    Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1,
+                options_.contact};
     const Strength at_start = strength;
     const auto shake_with = [&](int halvings) {
         loop.parts = 1 << halvings;

@@ -29,9 +29,10 @@ struct ReducedResult {
     std::vector<StageResult> stages; ///< before the earthquake, by the full model
     StageResult after;               ///< after it, by the full model
     ReducedHistory history;
-    double slip = 0.0;              ///< final, area mean, since the static state [m]
-    double max_slip = 0.0;          ///< largest |slip| on the way [m]
-    double truncation_error = 0.0;  ///< estimate of what the modes left out change of the slip [m]; 0: none are
+    double slip = 0.0;     ///< final, area mean, since the static state [m]
+    double max_slip = 0.0; ///< largest |slip| on the way [m]
+    double truncation_error =
+        0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are
     double step_error = 0.0;        ///< estimate of what the time step leaves open [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
     double highest_frequency = 0.0; ///< of them [Hz]
@@ -82,5 +83,8 @@ private:
         coarse_reference_; ///< for the estimate; none: all modes are kept
     double seconds_ = 0.0;
 };
+
+/// Largest difference of two slip histories on the same steps, and of their last values [m].
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 } // namespace damslip::fe2d

@@ -16,6 +16,12 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range) : mod
     assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
     const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam);
     order_ = interface_last(stiffness, planes_.nodes());
+    anchor_.assign(static_cast<std::size_t>(order_.nodes()), 2 * order_.new_node[mesh.contact.dam_nodes.front()]);
+    for (Index k = 1; k < planes_.count(); ++k) // upper blocks take theirs from the lower ones
+        for (std::size_t node = 0; node < planes_.above(k).size(); ++node)
+            if (planes_.above(k)[node])
+                anchor_[static_cast<std::size_t>(order_.new_node[node])] =
+                    2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
     stiffness_ = order_.to_new(stiffness);
     mass_ = order_.to_new(SparseMatrix(model.moving_mass().topLeftCorner(dam, dam)));
     inertia_x_ = order_.to_new(VectorXd(model.inertia_x.head(dam)));
@@ -95,6 +101,14 @@ SplitLoad ContactStructure::split(const VectorXd& load) const
     rock_factor_->forward(rock);
     result.rock = plane().to_plane(VectorXd(rock.tail(2 * rock_count_)));
     return result;
+}
+
+void ContactStructure::take_off_translations(const VectorXd& u, VectorXd& deformation) const
+{
+    deformation.resize(u.size());
+    for (Index node = 0; node < order_.nodes(); ++node)
+        deformation.segment<2>(2 * node) =
+            u.segment<2>(2 * node) - u.segment<2>(anchor_[static_cast<std::size_t>(node)]);
 }
 
 Pairing::Matrix ContactStructure::trace(double slip) const

@@ -39,6 +39,9 @@ public:
     const Plane& plane() const { return planes_.base(); }                    ///< between dam and rock
     Eigen::Index pairs() const { return planes_.pairs(); }                   ///< m, of all planes
     Eigen::Index interface() const { return order_.nodes() - order_.inner; } ///< the dam's nodes on the planes
+    /// The dam's displacements without the translation of each of its blocks (that of one node on the plane below it):
+    /// elastic forces do not feel it; taken off, metres of slip cost no digits of them.
+    void take_off_translations(const Eigen::VectorXd& u, Eigen::VectorXd& deformation) const;
     const NodeOrder& order() const { return order_; }
     const SparseMatrix& stiffness() const { return stiffness_; } ///< of the dam, in its node order
     const SparseMatrix& mass() const { return mass_; }           ///< of the dam with added mass, in its node order
@@ -74,6 +77,7 @@ private:
     const Model& model_;
     ContactPlanes planes_;
     NodeOrder order_, rock_order_;
+    std::vector<Eigen::Index> anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block
     SparseMatrix stiffness_, mass_;
     Eigen::VectorXd inertia_x_, inertia_y_;
     std::optional<InterfaceFactor> static_factor_, rock_factor_;

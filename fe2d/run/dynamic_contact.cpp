@@ -125,11 +125,7 @@ void DynamicContact::multiply(const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha, b = damping_.constants.stiffness;
     combined_ = (b * (c.scheme.alpha + w * c.a4)) * state_.v + (b * w * c.a5) * state_.a;
-    // Elastic forces do not feel a translation; taken off, metres of slip cost no digits of them.
-    const Index first = structure_.inner_unknowns();
-    const Eigen::Vector2d shift = state_.u.segment<2>(first);
-    deformation_.resize(state_.u.size());
-    for (Index k = 0; k < deformation_.size(); k += 2) deformation_.segment<2>(k) = state_.u.segment<2>(k) - shift;
+    structure_.take_off_translations(state_.u, deformation_);
     operators_->products().multiply({deformation_, combined_, state_.v, state_.a}, products_);
 }
 
@@ -204,7 +200,7 @@ void DynamicContact::accept()
     op_->finish(free_, solution_.force, known_, gap_, tilde_);
 }
 
-void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& report)
+void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& report, const ContactLaw& law)
 {
     const StepConstants& c = op_->constants();
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
@@ -244,7 +240,7 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
     std::swap(before_, products_);
     multiply(c);
     add_energy(c, gap_, force_before);
-    land(states_before);
+    land(states_before, law);
 
     ++counts_.steps;
     counts_.largest_iterations = std::max(counts_.largest_iterations, report.iterations);
@@ -275,7 +271,7 @@ ContactReport DynamicContact::step(double dt, const GroundAcceleration& ground, 
     if (!report.resolved() && cuts > 0) return in_halves(dt, ground, law, cuts);
     accept();
     op_->factor().backward(free_.dam);
-    end(ground, report);
+    end(ground, report, law);
     return report;
 }
 
@@ -307,7 +303,7 @@ void DynamicContact::advance(std::span<Lane> lanes, double dt, const GroundAccel
         vectors.push_back(&lane.run->free_.dam);
     }
     factor.backward(vectors);
-    for (Lane* lane : whole) lane->run->end(ground, lane->report);
+    for (Lane* lane : whole) lane->run->end(ground, lane->report, *lane->law);
 }
 
 std::size_t DynamicContact::bytes() const

@@ -114,11 +114,11 @@ private:
     void begin(double dt, const GroundAcceleration& ground);                 ///< right-hand side of a step on free_.dam
     ContactReport solve_contact(const ContactLaw& law);                      ///< after the forward pass
     void accept();                                                           ///< before the backward pass
-    void end(const GroundAcceleration& ground, const ContactReport& report); ///< the step itself, once Δu is known
+    void end(const GroundAcceleration& ground, const ContactReport& report, const ContactLaw& law); ///< the step itself, once Δu is known
     ContactReport step(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
     ContactReport in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
 
-    void land(const ContactStates& before);
+    void land(const ContactStates& before, const ContactLaw& law);
     void multiply(const StepConstants& constants);
     void start_ledger();
     void gather_forces(Forces& forces) const;

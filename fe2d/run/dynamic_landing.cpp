@@ -1,67 +1,38 @@
 #include "fe2d/run/dynamic_contact.hpp"
 
-#include <Eigen/Cholesky>
-
 namespace damslip::fe2d {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-/// Which of the 2m gaps a set of states holds as they are.
-bool holds(const ContactStates& states, Index gap)
-{
-    const Index m = static_cast<Index>(states.size());
-    const ContactState state = states[static_cast<std::size_t>(gap < m ? gap : gap - m)];
-    return gap < m ? state != ContactState::open : state == ContactState::stick;
-}
-
-/// Velocity jumps of the gaps, -rate where held, by impulses on the held ones alone: V x, zero on the others.
-void impulses(const MatrixXd& stiffness, const std::vector<Index>& held, const std::vector<Index>& loose,
-              const VectorXd& rate, VectorXd& jump, VectorXd& impulse)
-{
-    jump = VectorXd::Zero(rate.size());
-    for (const Index gap : held) jump[gap] = -rate[gap];
-    if (!loose.empty()) {
-        const VectorXd force = stiffness(loose, held) * jump(held);
-        jump(loose) = -stiffness(loose, loose).llt().solve(force);
-    }
-    impulse = stiffness * jump;
-    for (const Index gap : loose) impulse[gap] = 0.0;
-}
-
-} // namespace
-
 /// The impulses go through the operator of the step, as its forces do; what kinetic energy they take counts as
-/// numerical. Only where sticking and shutting are rigid: an elastic law brings gaps to rest by itself.
-void DynamicContact::land(const ContactStates& before)
+/// numerical.
+void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
 {
-    if (options_.tangential_stiffness > 0.0 || options_.slip_tolerance > 0.0 ||
-        options_.pressure_at_zero_clearance > 0.0)
-        return;
+    JointSolver& solver = *problems_[op_].solver;
+    const ContactStates& states = state_.contact.states;
+    if (!solver.lands() || states == before) return;
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
-    std::vector<Index> held, loose;
     bool newly = false;
-    for (Index gap = 0; gap < 2 * m; ++gap) {
-        const bool now = holds(state_.contact.states, gap);
-        (now ? held : loose).push_back(gap);
-        newly |= now && !holds(before, gap);
-    }
+    for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);
     if (!newly) return;
-    ++counts_.landings;
 
     VectorXd rate = structure_.planes().gaps() * state_.v.tail(2 * structure_.interface());
     if (structure_.has_rock()) rate -= trace_ * state_.rock_v;
     rate.tail(m) = rate_t_;
-    VectorXd jump, impulse, tilde;
-    impulses(problems_[op_].solver->stiffness(), held, loose, rate, jump, impulse);
+    VectorXd held = VectorXd::Zero(2 * m);
+    for (Index gap = 0; gap < 2 * m; ++gap)
+        if (holds(states, gap)) held[gap] = -rate[gap];
+    ContactSolution jumps{states, {}, {}};
+    if (!solver.land(law, held, jumps)) return;
+    ++counts_.landings;
+    const VectorXd& jump = jumps.displacement;
     DynamicOperator::Free free;
     free.dam = VectorXd::Zero(state_.v.size());
     free.interface = VectorXd::Zero(2 * structure_.interface());
     free.mean = VectorXd::Zero(structure_.planes().count());
-    op_->finish(free, impulse, VectorXd::Zero(2 * m), jump, tilde);
+    VectorXd tilde;
+    op_->finish(free, jumps.force, VectorXd::Zero(2 * m), jump, tilde);
     op_->factor().backward(free.dam);
 
     const VectorXd& change = free.dam;
@@ -75,8 +46,8 @@ void DynamicContact::land(const ContactStates& before)
     }
     state_.rock_v += rock_change;
     rate_t_ += jump.tail(m);
-    for (const Index gap : held)
-        if (gap >= m) rate_t_[gap - m] = 0.0;
+    for (Index i = 0; i < m; ++i)
+        if (holds(states, m + i)) rate_t_[i] = 0.0;
 
     landed_.pending = true;
     landed_.dam = damping_.constants.mass * (structure_.mass() * change) +

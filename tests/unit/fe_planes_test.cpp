@@ -50,6 +50,15 @@ RunOptions stiff_options(const Scene& scene)
     return options;
 }
 
+/// Strong shaking that leans downstream, so that slips add up.
+GroundMotion leaning()
+{
+    GroundMotion motion = sines(5.0, 8.0);
+    for (std::size_t i = 0; i < motion.accel_h.size(); ++i)
+        motion.accel_h[i] += 1.5 * std::sin(std::numbers::pi * static_cast<double>(i) / 800.0);
+    return motion;
+}
+
 TEST(FePlanes, GapsHeldAndJoinedPartsFitTogether)
 {
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
@@ -84,15 +93,15 @@ TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
     upper.section.polygon = {{0, 0}, {12, 0}, {12, 11}, {0, 11}};
     upper.lift_joints.clear();
     upper.contact.friction = 0.3;
-    const GroundMotion motion = sines(9.0, 8.0);
+    const GroundMotion motion = leaning();
     const double rigid = sliding::slide(motion, sliding::make_rigid_block(upper)).slip;
-    ASSERT_GT(std::abs(rigid), 0.01);
+    ASSERT_GT(std::abs(rigid), 0.05);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
     ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
     ASSERT_EQ(result.lifts.size(), 1u);
     EXPECT_NEAR(result.lifts[0].slip, rigid, 0.01 * std::abs(rigid)); // as the dam itself: first order in the step
-    EXPECT_LT(std::abs(result.slip), 1e-9);
-    EXPECT_LT(result.energy_error, 1e-10);
+    EXPECT_LT(std::abs(result.slip), 1e-6); // single pairs at heel and toe, where the traction is singular
+    EXPECT_LT(result.energy_error, 1e-9); // round-off of strains 1e4 times smaller than the concrete's
     EXPECT_EQ(result.counts.unresolved, 0);
 }
 
@@ -133,16 +142,16 @@ TwoSlips two_rigid_blocks(const GroundMotion& motion, double lower, double upper
 TEST(FePlanes, BothPlanesOfTwoStiffBlocksSlide)
 {
     const Scene scene = stiff_blocks(0.35, 0.30);
-    const GroundMotion motion = sines(9.0, 8.0);
+    const GroundMotion motion = leaning();
     const double upper = 2500.0 * 12.0 * 11.0, lower = 2500.0 * area(scene.section) - upper;
     const TwoSlips rigid = two_rigid_blocks(motion, lower, upper, 0.35, 0.30);
-    ASSERT_GT(std::abs(rigid.base), 0.01);
-    ASSERT_GT(std::abs(rigid.joint), 0.005);
+    ASSERT_GT(std::abs(rigid.base), 0.02);
+    ASSERT_GT(std::abs(rigid.joint), 0.02);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
     ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
     EXPECT_NEAR(result.slip, rigid.base, 0.01 * std::abs(rigid.base));
     EXPECT_NEAR(result.lifts[0].slip, rigid.joint, 0.01 * std::abs(rigid.joint));
-    EXPECT_LT(result.energy_error, 1e-10);
+    EXPECT_LT(result.energy_error, 1e-9);
 }
 
 // On flexible rock with water: every force passes through both planes, the joint's balance is that of what is above it.
@@ -153,7 +162,7 @@ TEST(FePlanes, FlexibleDamWithTwoJointsIsInEquilibriumAndItsEnergyCloses)
     RunOptions options = options_of(scene);
     options.halvings = 0;
     const EarthquakeRun run(scene, options);
-    const RunResult result = run.run(sines(2.0, 8.0));
+    const RunResult result = run.run(sines(1.0, 8.0));
     ASSERT_EQ(result.stages.size(), 3u);
     for (const StageResult& stage : result.stages) EXPECT_EQ(stage.status, StageStatus::ok) << stage.text();
     const PlaneBalance& top = result.stages.back().lifts[1];

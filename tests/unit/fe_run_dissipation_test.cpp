@@ -164,7 +164,9 @@ double imbalance(const Scheme& scheme, const Scheme& told)
     run.statics(statics, strength, memory);
     const SplitLoad load = structure.split(load_stages(scene, run.model(), options.uplift).last());
     const RunDamping damping{run.damping(), MassDamping::relative};
-    DynamicContact dynamics(structure, damping, scheme, load, statics.displacements(load, memory), memory);
+    ContactOptions plain;
+    plain.landing = Landing::ringing; // the ledger knows no landings
+    DynamicContact dynamics(structure, damping, scheme, load, statics.displacements(load, memory), memory, plain);
 
     State before = ledger_state(dynamics, damping, load, nullptr);
     EnergyLedger ledger(before);

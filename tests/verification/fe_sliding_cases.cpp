@@ -119,6 +119,7 @@ std::vector<Check> penalty()
     RunOptions options = fe2d::test::options_of(scene);
     options.halvings = 0;
     options.damping = damping_of(0.05, 1.0);
+    options.contact.landing = fe2d::Landing::ringing; // a penalty has no landings: the same step otherwise
     const auto slip = [&] { return EarthquakeRun(scene, options).run(motion).slip; };
     const double exact = slip();
     std::vector<Check> checks;
