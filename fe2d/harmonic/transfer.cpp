@@ -29,7 +29,8 @@ std::vector<TransferPoint> transfer_functions(const Model& model, const Structur
     const int crest = model.dofs(model.mesh.crest.back(), 0);
     std::vector<TransferPoint> points;
     for (const double frequency : frequencies) {
-        TransferPoint point{.frequency = frequency};
+        TransferPoint point;
+        point.frequency = frequency;
         const double w = 2.0 * std::numbers::pi * frequency;
         const std::complex<double> rate(0.0, w);
         point.regular = solver.factorise(w);

@@ -65,7 +65,6 @@ std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
 {
     if (plan.method != Method::finite_elements) return std::nullopt;
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic) return std::nullopt;
-    if (!scene.lift_joints.empty()) return std::nullopt; // not computed yet: contact_options refuses it
     return contact_cost(scene, plan);
 }
 

@@ -2,9 +2,11 @@
 #include "fe2d/reduction/reduced_run.hpp"
 #include "verification/fe_run_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <vector>
 
 namespace {
 
@@ -64,6 +66,34 @@ void reduced_case(const char* name, double contact_size, double dam_size, double
                 100.0 * result.truncation_error / std::abs(slip));
 }
 
+/// Frictions of one motion in lockstep, beside the same runs one by one.
+void lockstep_case(int lanes)
+{
+    const Scene scene = [] {
+        Scene s = fe2d::test::sliding_dam(0.77, 1.0, 0.5);
+        s.mesh.size = 2.0;
+        s.mesh.growth = 1.3;
+        return s;
+    }();
+    fe2d::RunOptions options = fe2d::test::options_of(scene);
+    options.halvings = 0;
+    const GroundMotion motion = fe2d::test::sines(1.0);
+    std::vector<Contact> contacts;
+    for (int i = 0; i < lanes; ++i) {
+        contacts.emplace_back();
+        contacts.back().friction = 0.66 + 0.34 * i / std::max(1, lanes - 1);
+    }
+    const fe2d::EarthquakeRun run(scene, options);
+    run.run(motion, contacts.back()); // factorises
+    const double start = processor_seconds();
+    for (const Contact& contact : contacts) run.run(motion, contact);
+    const double single = processor_seconds();
+    run.run_all(motion, contacts);
+    const double together = processor_seconds();
+    std::printf("%-22s %6d | %8.3f %8.3f %5.2f | %d\n", "7000 unknowns", lanes, single - start, together - single,
+                (single - start) / (together - single), run.factorisations());
+}
+
 } // namespace
 
 int main()
@@ -76,6 +106,9 @@ int main()
     run_case("7000, 4 sub-steps", 0.5, 2.0, 1.3, 0.77, 2);
     run_case("default mesh", 0.75, 1.5625, 1.15, 0.77, 0);
     run_case("coarse", 2.5, 4.0, 1.15, 0.77, 0);
+    std::printf("\nfrictions in lockstep\n%-22s %6s | %8s %8s %5s | %s\n", "case", "lanes", "singly", "in step", "ratio",
+                "factorisations");
+    for (const int lanes : {2, 4, 6}) lockstep_case(lanes);
     std::printf("\nreduced runs\n%-22s %6s %5s %5s %6s | %8s %8s %8s %8s | %8s %5s | %12s %10s %10s\n", "case", "dofs",
                 "mu", "modes", "steps", "set-up", "modes", "run", "all", "full", "ratio", "slip", "error", "estimate");
     for (const double friction : {1.0, 0.77, 0.70, 0.66})

@@ -33,7 +33,8 @@ public:
         scene_ = exact::bare_scene(exact::triangle(30.0, 40.0), 2400.0);
         scene_.dam.young_modulus = 2e9;
         scene_.dam.poisson_ratio = 0.2;
-        scene_.reservoir = Reservoir{.level = 30.0};
+        scene_.reservoir.emplace();
+        scene_.reservoir->level = 30.0;
         scene_.reservoir->model = ReservoirModel::hydrostatic;
         if (base == Base::rock)
             scene_.foundation = Foundation{.material = {0.0, 4e9, 0.2}, .width = 120.0, .depth = 40.0};

@@ -98,7 +98,7 @@ std::vector<Check> rigid_limit_in_step(double ratio)
 {
     std::vector<Check> checks;
     const GroundMotion motion = fe2d::test::sines(1.0);
-    const double tolerance[] = {0.25, 0.125, 0.02};
+    const double tolerance[] = {0.04, 0.02, 0.01};
     for (int halvings = 0; halvings <= 2; ++halvings) {
         const Scene scene = fe2d::test::sliding_dam(0.70, 1e4, 3.0);
         const EarthquakeRun run = prepared(scene, ratio, 1e4, halvings);
@@ -259,9 +259,8 @@ void add_fe_sliding_cases(Registry& registry)
              "Slip of the dam with moduli times 1e4 as the step gets smaller, both polarities and vertical motion: " +
                  damping,
              "event-located rigid block",
-             "first order, 25 % at 0.01 s: friction switches at step ends, and what velocity a stopping pair has left "
-             "rings until it is damped, Newmark's v_1 = -(gamma/beta - 1) v_0 for a gap that stays; 2 % at 0.0025 s, "
-             "where only slips of 2 mm are more than 1 % off (0.00125 s, 1 %: fe.contact.rigid-limit)",
+             "first order: friction switches at step ends, so a slide lasts up to a step too long, 4 % at 0.01 s with "
+             "slides of some 0.25 s; 1 % at 0.0025 s",
              [ratio] { return rigid_limit_in_step(ratio); }});
     }
     registry.push_back(
