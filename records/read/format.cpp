@@ -1,7 +1,12 @@
 #include "records/read/format.hpp"
 
 #include "records/read/columns.hpp"
+#include "records/read/cosmos.hpp"
+#include "records/read/csmip.hpp"
+#include "records/read/esm.hpp"
+#include "records/read/k_net.hpp"
 #include "records/read/peer_at2.hpp"
+#include "records/read/smc.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,36 +28,14 @@ bool web_page(const RecordText& text)
     return early_line_contains(text, 5, "<html") || early_line_contains(text, 5, "<!doctype") ||
            early_line_contains(text, 2, "<?xml");
 }
-bool cosmos(const RecordText& text)
-{
-    return early_line_contains(text, 1, "(format v");
-}
-bool smc(const RecordText& text)
-{
-    const std::string_view first = text.lines.front();
-    return first.size() > 2 && first[0] >= '0' && first[0] <= '9' && first[1] == ' ' &&
-           early_line_contains(text, 1, "accelerogram");
-}
-bool csmip(const RecordText& text)
-{
-    return early_line_contains(text, 3, "corrected accelerogram");
-}
-bool k_net(const RecordText& text)
-{
-    return text.lines.front().starts_with("Origin Time");
-}
-bool esm(const RecordText& text)
-{
-    return text.lines.front().starts_with("EVENT_NAME:");
-}
 
 constexpr std::array<RecordFormat, 8> formats{{
     {"web page (HTML or XML)", web_page, nullptr},
-    {"COSMOS", cosmos, nullptr},
-    {"SMC (USGS)", smc, nullptr},
-    {"CSMIP/CDMG volume 1 or 2", csmip, nullptr},
-    {"K-NET/KiK-net", k_net, nullptr},
-    {"ESM/ITACA ASCII", esm, nullptr},
+    {"COSMOS", looks_like_cosmos, read_cosmos},
+    {"SMC (USGS)", looks_like_smc, read_smc},
+    {"CSMIP/CDMG", looks_like_csmip, read_csmip},
+    {"K-NET/KiK-net", looks_like_k_net, read_k_net},
+    {"ESM/ITACA ASCII", looks_like_esm, read_esm},
     {"PEER AT2", looks_like_peer_at2, read_peer_at2},
     {"columns", looks_like_columns, read_columns},
 }};

@@ -11,6 +11,14 @@ namespace {
 
 constexpr std::size_t most_lines = 6'000'000;
 
+/// SMC files may have NUL bytes in the station code, within their 11 text lines.
+bool smc_with_nul_in_text(std::string_view content)
+{
+    const std::size_t last = content.rfind('\0');
+    const auto lines_before = std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(last), '\n');
+    return contains(content.substr(0, content.find('\n')), "CORRECTED ACCELEROGRAM") && lines_before < 11;
+}
+
 void refuse_what_is_no_text(std::string_view content, const RecordText& text)
 {
     const auto fail = [&](std::string problem, std::string fix) {
@@ -21,7 +29,7 @@ void refuse_what_is_no_text(std::string_view content, const RecordText& text)
         fail("this is a compressed file.", "unpack it and name the file inside");
     if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
         fail("this is UTF-16 text.", "save it as plain or UTF-8 text");
-    if (content.find('\0') != std::string_view::npos)
+    if (content.find('\0') != std::string_view::npos && !smc_with_nul_in_text(content))
         fail("the file holds NUL bytes: it is binary, not text.", "export the record as text");
     if (content.find_first_not_of(" \t\r\n") == std::string_view::npos)
         fail("the file is empty.", "check that it was downloaded completely");

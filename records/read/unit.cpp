@@ -10,12 +10,16 @@ namespace damslip::records {
 
 namespace {
 
-constexpr std::array<AccelerationUnit, 6> table{{{"g", units::standard_gravity},
+constexpr std::array<AccelerationUnit, 9> table{{{"g", units::standard_gravity},
                                                  {"m/s2", 1.0},
                                                  {"cm/s2", 0.01},
                                                  {"gal", units::gal},
                                                  {"mg", 0.001 * units::standard_gravity},
-                                                 {"mm/s2", 0.001}}};
+                                                 {"mm/s2", 0.001},
+                                                 // Of agency files only:
+                                                 {"g/10", 0.1 * units::standard_gravity},
+                                                 {"in/s2", 0.0254},
+                                                 {"micro-g", 1e-6 * units::standard_gravity}}};
 
 void replace_all(std::string& s, std::string_view from, std::string_view to)
 {

@@ -1,0 +1,98 @@
+#include "records/read/agency_samples.hpp"
+
+#include "core/number.hpp"
+#include "records/transform/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace damslip::records {
+
+std::vector<double> samples_of(const RecordText& text, std::span<const double> values, const AccelerationUnit& unit,
+                               const FieldFormat& format, std::size_t first_line, std::optional<double> gap)
+{
+    std::vector<double> accel(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (gap && std::abs(values[k] - *gap) <= 1e-6 * std::abs(*gap))
+            refuse(
+                text, place_of(format, first_line, k),
+                fmt::format("the sample {} stands for \"unknown\" in this file: there is a gap.", shortest(values[k])),
+                "a record without gaps", "a gap in the record has to be closed by hand: nothing is filled in here");
+        accel[k] = checked_sample(text, values[k], unit, place_of(format, first_line, k));
+    }
+    return accel;
+}
+
+void demand_end_of_block(const RecordText& text, std::size_t line, const Stated<std::size_t>& stated,
+                         std::string_view key)
+{
+    while (line <= text.lines.size() && trimmed(text.lines[line - 1]).empty()) ++line;
+    if (line > text.lines.size()) return;
+    const std::string_view s = text.lines[line - 1];
+    if (!has_words(s) && parse_number(s))
+        refuse(text, {stated.line, 0},
+               fmt::format("{} = {}, but more numbers follow in line {}.", key, stated.value, line),
+               "as many values as stated",
+               fmt::format("correct {}, or remove what does not belong to the record", key));
+}
+
+std::size_t checked_sample_count(const RecordText& text, double count, Place place, std::string_view key)
+{
+    if (!(count >= 2.0 && count <= static_cast<double>(max_samples)) || count != std::floor(count))
+        refuse(text, place, fmt::format("{} = {} is not allowed.", key, shortest(count)),
+               fmt::format("a whole number from 2 to {}", max_samples), "check that the file is complete");
+    return static_cast<std::size_t>(count);
+}
+
+void warn_if_down(Record& record)
+{
+    const std::string name = lower(record.source.component);
+    if (name == "down" || name.starts_with("down "))
+        record.warnings.push_back("the component is positive downwards; as a vertical motion it has to be positive up: "
+                                  "`record scale --factor -1`");
+}
+
+void warn_if_peak_differs(Record& record, double stated, double resolution)
+{
+    double peak = 0.0;
+    for (const double a : record.acceleration) peak = std::max(peak, std::abs(a));
+    const double off = std::abs(peak - std::abs(stated));
+    if (off > 0.01 * std::abs(stated) && off > resolution)
+        record.warnings.push_back(fmt::format("the largest sample is {:.4g} m/s2, the file's header says {:.4g} m/s2",
+                                              peak, std::abs(stated)));
+}
+
+std::vector<Record> chosen_channels(const RecordText& text, std::vector<Record> records, const ReadOptions& options)
+{
+    std::map<std::string, int> uses;
+    for (const Record& record : records) ++uses[lower(record.source.component)];
+    std::string list;
+    for (std::size_t k = 0; k < records.size(); ++k) {
+        std::string& name = records[k].source.component;
+        if (uses[lower(name)] > 1) name = fmt::format("{}(channel {})", name.empty() ? "" : name + " ", k + 1);
+        list += fmt::format("{}{} {}", k ? ", " : "", k + 1, in_quotes(name));
+    }
+    if (options.column.empty()) return records;
+
+    const std::string wanted = lower(trimmed(options.column));
+    const auto first_word = [](const std::string& name) { return name.substr(0, name.find(' ')); };
+    std::vector<std::size_t> same, alike;
+    for (std::size_t k = 0; k < records.size(); ++k) {
+        const std::string name = lower(records[k].source.component);
+        if (name == wanted) same.push_back(k);
+        if (first_word(name) == wanted) alike.push_back(k);
+    }
+    if (same.size() != 1) same = alike;
+    const auto number = parse_whole_number_text(wanted);
+    if (same.size() != 1 && number && *number >= 1.0 && *number <= static_cast<double>(records.size()) &&
+        *number == std::floor(*number))
+        same = {static_cast<std::size_t>(*number) - 1};
+    if (same.size() != 1)
+        refuse(text, {}, fmt::format("there is no one channel {}.", in_quotes(options.column)), list,
+               "correct --column");
+    return {std::move(records[same.front()])};
+}
+
+} // namespace damslip::records

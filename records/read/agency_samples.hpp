@@ -1,0 +1,34 @@
+#pragma once
+
+#include "records/read/fixed_fields.hpp"
+#include "records/read/samples.hpp"
+
+#include <span>
+
+/// What the readers of agency formats share: samples in the file's unit made m/s^2, gaps found, channels chosen.
+namespace damslip::records {
+
+/// Values in `unit` as m/s^2. @param gap  the file's value for "no sample here", if it has one
+/// @throws InputError at a gap and beyond largest_sample.
+std::vector<double> samples_of(const RecordText& text, std::span<const double> values, const AccelerationUnit& unit,
+                               const FieldFormat& format, std::size_t first_line, std::optional<double> gap = {});
+
+/// The next line that is not blank must not go on with numbers. @throws InputError naming the stated count.
+void demand_end_of_block(const RecordText& text, std::size_t line, const Stated<std::size_t>& stated,
+                         std::string_view key);
+
+/// A count from 2 to max_samples. @throws InputError at `place`.
+std::size_t checked_sample_count(const RecordText& text, double count, Place place, std::string_view key);
+
+/// Adds a warning to a component whose name says that it is positive downwards.
+void warn_if_down(Record& record);
+
+/// The peak of the samples beside the one the file states. @param stated  [m/s^2]; differing by more than 1 % and by
+/// more than `resolution` [m/s^2] (half of the last digit printed) is a warning
+void warn_if_peak_differs(Record& record, double stated, double resolution);
+
+/// The channels of a file, those of equal names told apart by "(channel 3)"; with options.column the one it names:
+/// by name, first word of the name ("90" of "90 DEG") or number from 1. @throws InputError: there is none of that name.
+std::vector<Record> chosen_channels(const RecordText& text, std::vector<Record> records, const ReadOptions& options);
+
+} // namespace damslip::records
