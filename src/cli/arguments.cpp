@@ -66,30 +66,52 @@ void add_screen(Parser& p)
     sub->callback([&p] { p.chosen = [a = p.screen](const Streams& s) { return screen(a, s); }; });
 }
 
+void add_sweep_parts(CLI::App* sub, SweepArguments& a)
+{
+    const char* const group = "Long sweeps";
+    sub->add_flag("--resume", a.resume, "go on where a sweep with the same --out stopped")->group(group);
+    sub->add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.csv")->group(group);
+    sub->add_option("--merge", a.merge, "put parts together: part files, or folders of them; needs no SCENE")
+        ->group(group);
+    sub->add_flag("--plan", a.plan, "print the commands of all parts, one a line")->group(group);
+    sub->add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")->group(group);
+    sub->add_option("--parts", a.parts, "of --plan and --slurm-array; default: one per scene variant and motion")
+        ->check(CLI::Range(1, 1000000))
+        ->group(group);
+}
+
 void add_sweep(Parser& p)
 {
     CLI::App* sub = command(
-        p, "sweep", "slip over a grid of friction, level, uplift, reservoir, scale, polarity and records; CSV",
+        p, "sweep", "slip over a grid of friction, level, uplift, reservoir, size, scale, polarity and records; CSV",
         "damslip sweep examples/reference_dam.toml --friction 0.65:1.0:0.05 --uplift curtain,linear --scale 1,2");
     add_run_inputs(sub, p.sweep.inputs);
+    sub->get_option("SCENE")->required(false); // --merge has none
     const auto list = [&](const char* flag, std::string& target, const char* text) {
         sub->add_option(flag, target, text)->group("Grid");
     };
     list("--friction", p.sweep.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
     list("--friction-deg", p.sweep.friction_deg, "friction angles instead [deg]");
-    list("--level", p.sweep.level, "water levels above the heel [m]");
+    list("--level", p.sweep.level, "water levels above the heel, at size 1 [m]");
     list("--uplift", p.sweep.uplift, "none, linear, curtain, drains, points, seepage");
-    list("--reservoir", p.sweep.reservoir, "hydrostatic, westergaard, westergaard-simplified, zangar, goldgruber");
+    list("--reservoir", p.sweep.reservoir,
+         "auto, hydrostatic, acoustic, westergaard, westergaard-simplified, zangar, goldgruber");
+    list("--size", p.sweep.size, "factors on all lengths of the scene: dam, rock, water, elements");
     list("--scale", p.sweep.scale, "factors on the records");
     list("--polarity", p.sweep.polarity, "1, -1 or both: 1,-1");
-    list("--method", p.sweep.method,
-         "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with contact), and "
-         "regressions by "
-         "id such as "
-         "ambraseys-menu-1988, jibson-1993, jibson-1998");
+    list(
+        "--method", p.sweep.method,
+        "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
+        "fe-exact, fe-penalty, fe-slip-tolerance, fe-goldgruber-2015, fe-reduced, and regressions by id such as "
+        "ambraseys-menu-1988, jibson-1993, jibson-1998");
+    sub->add_option("--modes", p.sweep.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(2, 1000));
+    sub->add_option("--penalty-stiffness", p.sweep.penalty_stiffness, "of fe-penalty [N/m3]")
+        ->check(CLI::Range(1.0, 1e20));
     sub->add_option("--scheme", p.sweep.inputs.scheme, "exact (default) or slammer");
-    sub->add_option("-o,--out", p.sweep.out, "CSV file; without it the rows go to standard output");
+    sub->add_option("-o,--out", p.sweep.out,
+                    "CSV file, a journal for --resume beside it; without it the rows go to standard output");
     sub->add_option("-j,--jobs", p.sweep.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_sweep_parts(sub, p.sweep);
     sub->callback([&p] { p.chosen = [a = p.sweep](const Streams& s) { return sweep(a, s); }; });
 }
 

@@ -82,8 +82,7 @@ Table stage_table(const std::vector<NamedResult>& runs)
 
 } // namespace
 
-int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
-                const std::vector<RecordPair>& records, const Streams& streams)
+void check_reducible(const Scene& scene)
 {
     if (scene.contact.sliding == JointPath::finite)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
@@ -102,6 +101,12 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.normal = \"exponential\".",
                                     "contact.normal = \"hard\", the reduced base has no springs across it",
                                     "run without --reduced, or write  normal = \"hard\"  in [contact]"});
+}
+
+int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
+                const std::vector<RecordPair>& records, const Streams& streams)
+{
+    check_reducible(scene);
     SeepageSource seepage;
     const InterruptGuard interrupt;
     fe2d::RunOptions options = contact_options(scene, records, seepage);

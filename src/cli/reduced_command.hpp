@@ -5,6 +5,9 @@
 
 namespace damslip::cli {
 
+/// @throws UsageError for what a reduced run cannot do
+void check_reducible(const Scene& scene);
+
 /// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
 /// changes.
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,

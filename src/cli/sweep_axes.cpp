@@ -1,7 +1,9 @@
 #include "cli/sweep_axes.hpp"
 
 #include "cli/number_list.hpp"
+#include "cli/sweep_size.hpp"
 #include "cli/usage_error.hpp"
+#include "core/number.hpp"
 #include "core/units.hpp"
 #include "scene/section.hpp"
 
@@ -62,8 +64,17 @@ std::vector<double> checked_numbers(const std::string& text, const std::string& 
 std::string reservoir_word(const Scene& scene)
 {
     if (!scene.reservoir) return "none";
-    return scene.reservoir->model == ReservoirModel::hydrostatic ? "hydrostatic"
-                                                                 : word_of(formula_words, scene.added_mass.formula);
+    switch (scene.reservoir->model) {
+    case ReservoirModel::automatic:
+        return "auto";
+    case ReservoirModel::hydrostatic:
+        return "hydrostatic";
+    case ReservoirModel::acoustic:
+        return "acoustic";
+    case ReservoirModel::added_mass:
+        break;
+    }
+    return word_of(formula_words, scene.added_mass.formula);
 }
 
 std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
@@ -78,32 +89,18 @@ std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
     return values;
 }
 
-} // namespace
-
-bool Axes::has(const std::string& name) const
+std::vector<std::string> reservoir_axis_words()
 {
-    return std::find(method.begin(), method.end(), name) != method.end();
+    std::vector<std::string> words = keys_of(formula_words);
+    words.insert(words.begin(), {"auto", "hydrostatic", "acoustic"});
+    return words;
 }
 
-Axes make_axes(const SweepArguments& a, const Scene& scene)
+std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene)
 {
-    Axes axes;
-    axes.friction = friction_axis(a, scene);
-    if (!a.level.empty() && !scene.reservoir)
-        usage("--level is given, but the scene has no [reservoir].", "a scene with [reservoir]",
-              "add [reservoir] to the scene");
-    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
-                                 3 * crest_level(scene.section), "water level above the heel [m]");
-    axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
-    for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
-        if (p != 1 && p != -1)
-            usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
-        axes.polarity.push_back(static_cast<int>(p));
-    }
-    axes.uplift = a.uplift.empty()
-                      ? std::vector<std::string>{scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"}
-                      : word_list(a.uplift, "--uplift", keys_of(uplift_words));
-    for (const std::string& u : axes.uplift) {
+    if (a.uplift.empty()) return {scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"};
+    std::vector<std::string> words = word_list(a.uplift, "--uplift", keys_of(uplift_words));
+    for (const std::string& u : words) {
         const bool possible = (u != "curtain" || scene.curtain) && (u != "drains" || scene.drains) &&
                               (u != "points" || (scene.uplift && !scene.uplift->points.empty()));
         if (!possible)
@@ -111,34 +108,113 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
                   "[curtain] for curtain, [drains] for drains, uplift.points_m for points",
                   "add it to the scene or leave the profile out");
     }
-    std::vector<std::string> reservoirs = keys_of(formula_words);
-    reservoirs.insert(reservoirs.begin(), "hydrostatic");
-    axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)}
-                                         : word_list(a.reservoir, "--reservoir", reservoirs);
-    if (!a.reservoir.empty() && !scene.reservoir)
-        usage("--reservoir is given, but the scene has no [reservoir].", "a scene with [reservoir]",
-              "add [reservoir] to the scene");
+    return words;
+}
+
+std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> ids{"rigid"};
+    const bool vertical = std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                      [](const RecordFiles& r) { return r.vertical.has_value(); });
     if (!a.method.empty())
-        axes.method = word_list(a.method, "--method", sweep_methods());
-    else if (std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
-                         [](const RecordFiles& r) { return r.vertical.has_value(); }) &&
-             scene.motion.vertical)
-        axes.method = {"rigid", "rigid-v"};
-    else
-        axes.method = {"rigid"};
+        ids = word_list(a.method, "--method", sweep_methods());
+    else if (vertical && scene.motion.vertical)
+        ids.emplace_back("rigid-v");
+    std::vector<SweepMethod> methods;
+    for (const std::string& id : ids) methods.push_back(sweep_method(id));
+    const auto given = [&](auto&& matches) { return std::any_of(methods.begin(), methods.end(), matches); };
+    const bool penalty = given([](const SweepMethod& m) { return m.law == FeLaw::penalty; });
+    if (penalty && !a.penalty_stiffness && !scene.contact.tangential_stiffness)
+        usage("--method fe-penalty: neither scene nor command line give the stiffness of sticking.",
+              "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\", or --penalty-stiffness",
+              "add  --penalty-stiffness 1e11");
+    if (!penalty && a.penalty_stiffness)
+        usage("--penalty-stiffness is given, but fe-penalty is not among the methods.", "both or neither",
+              "add fe-penalty to --method, or delete --penalty-stiffness");
+    if (a.modes && !given([](const SweepMethod& m) { return m.reduced; }))
+        usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
+              "add fe-reduced to --method, or delete --modes");
+    return methods;
+}
+
+template <class Value>
+void refuse_repeats(const char* flag, const std::vector<Value>& values)
+{
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
+            values.begin() + static_cast<std::ptrdiff_t>(i))
+            usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once", "delete the second one");
+}
+
+void check_repeats(const Axes& axes)
+{
+    refuse_repeats("--friction", axes.friction);
+    refuse_repeats("--level", axes.level);
+    refuse_repeats("--uplift", axes.uplift);
+    refuse_repeats("--reservoir", axes.reservoir);
+    refuse_repeats("--size", axes.size);
+    refuse_repeats("--scale", axes.scale);
+    refuse_repeats("--polarity", axes.polarity);
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    refuse_repeats("--method", methods);
+}
+
+/// "0.65,0.7" with all digits.
+std::string joined(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double v : values) text += (text.empty() ? "" : ",") + shortest(v);
+    return text;
+}
+
+} // namespace
+
+bool Axes::finite_elements() const
+{
+    return std::any_of(method.begin(), method.end(),
+                       [](const SweepMethod& m) { return m.kind == SweepKind::finite_elements; });
+}
+
+Axes make_axes(const SweepArguments& a, const Scene& scene)
+{
+    Axes axes;
+    axes.friction = friction_axis(a, scene);
+    if (!scene.reservoir)
+        for (const auto& [flag, text] : {std::pair{"--level", a.level}, {"--reservoir", a.reservoir}})
+            if (!text.empty())
+                usage(fmt::format("{} is given, but the scene has no [reservoir].", flag), "a scene with [reservoir]",
+                      "add [reservoir] to the scene");
+    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
+                                 3 * crest_level(scene.section), "water level above the heel at size 1 [m]");
+    axes.size = checked_numbers(a.size, "--size", 1.0, 0.01, 100, "factor on all lengths of the scene, 0.01 ... 100");
+    axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
+    for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
+        if (p != 1 && p != -1)
+            usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
+        axes.polarity.push_back(static_cast<int>(p));
+    }
+    axes.uplift = uplift_axis(a, scene);
+    axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)}
+                                         : word_list(a.reservoir, "--reservoir", reservoir_axis_words());
+    axes.method = method_axis(a, scene);
+    check_repeats(axes);
     return axes;
 }
 
-Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir)
+Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size)
 {
     if (scene.reservoir) {
         scene.reservoir->level = level;
-        if (reservoir == "hydrostatic")
+        if (reservoir == "auto")
+            scene.reservoir->model = ReservoirModel::automatic;
+        else if (reservoir == "hydrostatic")
             scene.reservoir->model = ReservoirModel::hydrostatic;
+        else if (reservoir == "acoustic")
+            scene.reservoir->model = ReservoirModel::acoustic;
         else {
             scene.added_mass.formula = value_of(formula_words, reservoir);
-            if (scene.reservoir->model == ReservoirModel::hydrostatic)
-                scene.reservoir->model = ReservoirModel::added_mass;
+            scene.reservoir->model = ReservoirModel::added_mass;
         }
     }
     if (uplift == "none")
@@ -147,7 +223,17 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
         if (!scene.uplift) scene.uplift.emplace();
         scene.uplift->model = value_of(uplift_words, uplift);
     }
-    return scene;
+    return sized(std::move(scene), size);
+}
+
+std::string text_of(const Axes& axes)
+{
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    return fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
+                       joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),
+                       fmt::join(axes.reservoir, ","), joined(axes.size), joined(axes.scale),
+                       fmt::join(axes.polarity, ","), fmt::join(methods, ","));
 }
 
 } // namespace damslip::cli

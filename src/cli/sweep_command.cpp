@@ -1,11 +1,10 @@
 #include "cli/sweep_command.hpp"
 
-#include "cli/progress.hpp"
 #include "cli/sweep_comparison.hpp"
+#include "cli/sweep_parts.hpp"
+#include "cli/sweep_plan.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
-#include "core/parallel.hpp"
-#include "core/units.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
 
@@ -23,90 +22,81 @@ namespace {
     throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
 }
 
-Table empty_table()
+/// Flags that do not go together.
+void check_flags(const SweepArguments& a, Form form)
 {
-    Table t;
-    t.columns = {{"id", "id", "", 4},
-                 {"friction", "μ", "–", 4},
-                 {"level_m", "level", "m", 4},
-                 {"uplift", "uplift", "", 4},
-                 {"reservoir", "reservoir", "", 4},
-                 {"scale", "scale", "–", 4},
-                 {"polarity", "polarity", "", 4},
-                 {"record", "record", "", 4},
-                 {"method", "method", "", 4},
-                 {"yield_acceleration_m_s2", "a_y", "m/s²", 5},
-                 {"yield_coefficient_g", "a_y", "g", 5},
-                 {"pga_m_s2", "PGA", "m/s²", 4},
-                 {"slip_m", "slip", "m", 5},
-                 {"max_slip_m", "largest", "m", 5},
-                 {"upstream_slip_m", "upstream", "m", 4},
-                 {"slip_low_m", "−1σ", "m", 4},
-                 {"slip_high_m", "+1σ", "m", 4},
-                 {"slip_error_m", "± step", "m", 2},
-                 {"critical_friction", "critical μ", "–", 6},
-                 {"status", "status", "", 4}};
-    return t;
+    if (a.inputs.scene.empty() == a.merge.empty())
+        usage(a.merge.empty() ? "SCENE is missing." : "SCENE and --merge are both given.",
+              "a scene file to sweep over, or --merge with parts to put together",
+              "damslip sweep SCENE ... or  damslip sweep --merge FOLDER --out results.csv");
+    const bool parts = a.plan || !a.slurm_array.empty();
+    if (a.out.empty())
+        for (const auto& [flag, given] : {std::pair{"--resume", a.resume},
+                                          {"--shard", !a.shard.empty()},
+                                          {"--plan", a.plan},
+                                          {"--slurm-array", !a.slurm_array.empty()}})
+            if (given) usage(fmt::format("{} without --out.", flag), "both", "add  --out results.csv");
+    if (a.parts && !parts) usage("--parts without --plan or --slurm-array.", "with one of them", "delete --parts");
+    if (parts && !a.shard.empty())
+        usage("--shard together with --plan or --slurm-array.", "a part, or the commands of all parts",
+              "delete --shard");
+    if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
+        usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
+              "delete --json");
 }
 
-/// Median and band of a regression in the columns of a row.
-std::vector<Cell> regression_cells(const sliding::Regression& regression, const sliding::RegressionInputs& inputs,
-                                   const RigidModel& model)
+void put(const std::filesystem::path& file, const std::string& text, const Streams& streams)
 {
-    const sliding::RegressionResult r = sliding::evaluate(regression, inputs);
-    const auto metres = [](const std::optional<double>& value_cm) {
-        return value_cm ? Cell(*value_cm * units::cm) : Cell();
-    };
-    std::string status;
-    for (const std::string& warning : r.warnings) status += (status.empty() ? "" : "; ") + warning;
-    return {metres(r.median_cm),
-            metres(r.median_cm),
-            Cell{},
-            metres(r.minus_sd_cm),
-            metres(r.plus_sd_cm),
-            Cell{},
-            model.critical_friction,
-            status};
+    if (file.empty())
+        streams.out << text;
+    else
+        write_file(file, text);
 }
 
-std::vector<Cell> make_row(const Scene& scene, const Grid& grid, std::size_t id)
+int merge(const SweepArguments& arguments, const Streams& streams)
 {
-    const GridIndex g = grid_index(grid.axes, grid.records.size(), id);
-    const RigidModel& model = grid.model(g);
-    const int polarity = grid.axes.polarity[g.polarity];
-    const std::string& method = grid.axes.method[g.method];
-    const double a_y = model.downstream.law.constant;
-    std::vector<Cell> row{static_cast<std::int64_t>(id),
-                          grid.axes.friction[g.friction],
-                          grid.axes.level[g.level],
-                          grid.axes.uplift[g.uplift],
-                          grid.axes.reservoir[g.reservoir],
-                          grid.axes.scale[g.scale],
-                          static_cast<std::int64_t>(polarity),
-                          grid.records[g.record],
-                          method,
-                          a_y,
-                          a_y / units::standard_gravity,
-                          grid.inputs_of(g).pga_g * units::standard_gravity};
-    const auto rest = [&row](std::vector<Cell> cells) {
-        row.insert(row.end(), cells.begin(), cells.end());
-        return row;
-    };
-    const auto number = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
-    if (method == "fe") {
-        const FeSlip& r = grid.fe_slip(g);
-        return rest({number(r.slip), number(r.max_slip), Cell{}, Cell{}, Cell{}, number(r.slip_error),
-                     number(r.critical_friction), r.status});
+    const MergedSweep merged = merge_parts(arguments.merge);
+    put(arguments.out, merged.text, streams);
+    if (!streams.quiet)
+        streams.talk << fmt::format("{} rows of {} parts{}\n", merged.rows, merged.parts,
+                                    arguments.out.empty() ? "" : " in " + arguments.out.string());
+    return merged.not_converged == 0 ? exit_ok : exit_no_convergence;
+}
+
+/// The commands of all parts, or a job script that runs them.
+int print_plan(const SweepArguments& arguments, const TaskList& tasks, const Streams& streams)
+{
+    const std::size_t parts =
+        arguments.parts ? static_cast<std::size_t>(*arguments.parts) : tasks.variants() * tasks.motions();
+    if (arguments.plan) streams.out << plan_text(arguments, parts);
+    if (!arguments.slurm_array.empty()) write_file(arguments.slurm_array, slurm_script(arguments, parts));
+    if (!streams.quiet)
+        streams.talk << fmt::format("{} parts, {} rows; afterwards:  {}\n", parts, tasks.rows(),
+                                    merge_command_line(arguments, parts));
+    return exit_ok;
+}
+
+/// Rows in order; ids that were not reached say so.
+Table table_of(const Grid& grid, const std::vector<std::size_t>& wanted, const SweepOutcome& outcome)
+{
+    Table table = sweep_table();
+    for (const std::size_t id : wanted) {
+        const FinishedRow* row = outcome.find(id);
+        table.rows.push_back(table_row(grid, id, row ? row->results : not_run()));
     }
-    if (method == "rigid-v" && !grid.motion(g).has_vertical())
-        return rest({Cell{}, Cell{}, Cell{}, Cell{}, Cell{}, Cell{}, model.critical_friction,
-                     std::string("no vertical component")});
-    if (const sliding::Regression* regression = sliding::find_regression(method))
-        return rest(regression_cells(*regression, grid.inputs_of(g), model));
-    const sliding::SlideResult r =
-        slide_model(scene, model, method == "rigid" ? grid.horizontal(g) : grid.motion(g), polarity);
-    return rest(
-        {r.slip, r.max_slip, r.upstream_slip, Cell{}, Cell{}, Cell{}, model.critical_friction, status_word(r.status)});
+    return table;
+}
+
+std::string json_text(const Scene& scene, const Grid& grid, const Table& table, const SweepOutcome& outcome)
+{
+    auto j = json_header("sweep");
+    j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
+    j["rows"] = json_of(table);
+    if (outcome.fe) {
+        j["comparison"] = json_of(comparison(scene, grid, outcome));
+        j["counts"] = json_of(count_table(*outcome.fe))[0];
+    }
+    return j.dump(2) + "\n";
 }
 
 /// Tables for people; the rows have standard output for themselves.
@@ -118,69 +108,93 @@ void talk_of(const FeSweepCounts& c, const Table& compared, const Streams& strea
         1e3 * c.static_seconds / static_cast<double>(std::max<std::int64_t>(1, c.runs)), c.dynamic_seconds);
 }
 
-} // namespace
-
-std::vector<std::string> sweep_methods()
+void talk_of_journal(const Journal& journal, const SweepOutcome& outcome, const Streams& streams)
 {
-    std::vector<std::string> methods{"rigid", "rigid-v", "fe"};
-    for (const sliding::Regression& r : sliding::regressions()) methods.emplace_back(r.id);
-    return methods;
+    if (streams.quiet) return;
+    if (outcome.found) streams.talk << fmt::format("{} rows were finished before\n", outcome.found);
+    if (journal.damaged())
+        streams.talk << fmt::format("{} torn line{} of the journal left aside\n", journal.damaged(),
+                                    journal.damaged() == 1 ? "" : "s");
 }
+
+/// A sweep, or one part of it, as the command line asks for it.
+struct Job {
+    const SweepArguments& arguments;
+    const Scene& scene; ///< as given
+    const Axes& axes;
+    const TaskList& tasks;
+    std::optional<Shard> shard;
+    std::filesystem::path out; ///< of the sweep or of the part
+};
+
+int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<std::size_t>& wanted,
+           const SweepOutcome& outcome, const Streams& streams)
+{
+    const Table table = table_of(grid, wanted, outcome);
+    if (streams.form == Form::json)
+        put(job.out, json_text(job.scene, grid, table, outcome), streams);
+    else if (job.shard) {
+        const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
+        put(job.out,
+            part_text(identity, *job.shard, report::csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
+            streams);
+    } else {
+        put(job.out, report::csv(table, csv_comments(identity)), streams);
+    }
+    if (!streams.quiet) {
+        if (outcome.fe && !job.shard) talk_of(*outcome.fe, comparison(job.scene, grid, outcome), streams);
+        streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
+                                    job.out.empty() ? "" : " in " + job.out.string());
+    }
+    return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_convergence;
+}
+
+int run(const Job& job, const std::vector<RecordPair>& records, const Streams& streams)
+{
+    const SweepArguments& a = job.arguments;
+    const FeSweepInputs inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness};
+    check_fe_scenes(inputs);
+    const SweepIdentity identity = sweep_identity(a, job.scene, job.axes, job.tasks);
+    const std::vector<std::size_t> wanted = shard_rows(job.tasks, job.shard.value_or(Shard{}));
+    std::optional<Journal> journal;
+    if (!job.out.empty())
+        journal.emplace(journal_of(job.out), identity, job.shard.value_or(Shard{}),
+                        a.resume ? JournalStart::resume : JournalStart::fresh);
+    const Grid grid = make_grid(job.scene, job.axes, job.tasks, records, a.jobs);
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, journal ? &*journal : nullptr, a.jobs, streams);
+    if (journal) talk_of_journal(*journal, outcome, streams);
+    if (journal && !outcome.complete()) { // a table with gaps would look like the whole
+        streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
+                                    outcome.rows.size(), outcome.wanted);
+        return exit_no_convergence;
+    }
+    const int code = finish(job, identity, grid, wanted, outcome, streams);
+    if (journal) journal->mark_done();
+    return code;
+}
+
+} // namespace
 
 int sweep(const SweepArguments& arguments, const Streams& streams)
 {
-    const Scene given = read_run_scene(arguments.inputs);
-    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
-    const Axes axes = make_axes(arguments, given);
-    if (given.motion.records.empty())
+    check_flags(arguments, streams.form);
+    if (!arguments.merge.empty()) return merge(arguments, streams);
+    const Scene scene = read_run_scene(arguments.inputs);
+    const Axes axes = make_axes(arguments, scene);
+    if (scene.motion.records.empty())
         usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
               "add  --record FILE");
-    const Scene scene = called_for(plan, given);
-    const std::vector<RecordPair> records = read_records(scene, plan);
-    // Axes may bring back what the scene itself leaves off (another uplift model), so the grid starts from the scene as given.
-    Grid grid = make_grid(given, axes, records, arguments.jobs);
-    if (grid.size() > 20'000'000)
-        usage(fmt::format("the grid has {} rows.", grid.size()), "at most 20 million", "split it");
-
-    std::optional<FeSweepCounts> fe;
-    if (axes.has("fe")) {
-        const InterruptGuard interrupt;
-        Progress progress(streams, "sweep, finite elements", grid.size() / axes.method.size());
-        fe = run_fe(given, records, arguments.jobs, progress, interrupt, grid);
+    const TaskList tasks = make_tasks(axes, scene.motion.records.size());
+    if (tasks.rows() > 20'000'000)
+        usage(fmt::format("the grid has {} rows.", tasks.rows()), "at most 20 million", "split it");
+    if (arguments.plan || !arguments.slurm_array.empty()) return print_plan(arguments, tasks, streams);
+    Job job{arguments, scene, axes, tasks, std::nullopt, arguments.out};
+    if (!arguments.shard.empty()) {
+        job.shard = parse_shard(arguments.shard, "--shard");
+        job.out = part_file(arguments.out, *job.shard);
     }
-    Table table = empty_table();
-    table.rows.resize(grid.size());
-    {
-        Progress progress(streams, "sweep", grid.size());
-        parallel_for(grid.size(), arguments.jobs, [&](std::size_t id) {
-            table.rows[id] = make_row(scene, grid, id);
-            progress.advance();
-        });
-    }
-    std::string text;
-    if (streams.form == Form::json) {
-        auto j = json_header("sweep");
-        j["scene"] = {{"title", given.title}, {"file", given.file.string()}, {"hash", scene_hash(given)}};
-        j["rows"] = json_of(table);
-        if (fe) {
-            j["comparison"] = json_of(comparison(scene, grid));
-            j["counts"] = json_of(count_table(*fe))[0];
-        }
-        text = j.dump(2) + "\n";
-    } else {
-        text = report::csv(table, {"damslip " + program_version() + " sweep", "scene " + scene_hash(given)});
-    }
-    if (arguments.out.empty())
-        streams.out << text;
-    else
-        write_file(arguments.out, text);
-    if (!streams.quiet) {
-        if (fe) talk_of(*fe, comparison(scene, grid), streams);
-        streams.talk << fmt::format("{} rows{}\n", grid.size(),
-                                    arguments.out.empty() ? "" : " in " + arguments.out.string());
-    }
-    return std::all_of(grid.fe.begin(), grid.fe.end(), [](const FeSlip& r) { return r.good; }) ? exit_ok
-                                                                                               : exit_no_convergence;
+    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
+    return run(job, read_records(called_for(plan, scene), plan), streams);
 }
 
 } // namespace damslip::cli

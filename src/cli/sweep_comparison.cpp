@@ -6,7 +6,7 @@ namespace damslip::cli {
 
 namespace {
 
-std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, GridIndex g)
+std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, const SweepOutcome& outcome, GridIndex g)
 {
     const Axes& axes = grid.axes;
     const RigidModel& model = grid.model(g);
@@ -15,25 +15,29 @@ std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, GridIndex
     std::optional<double> critical;
     for (g.record = 0; g.record < grid.records.size(); ++g.record)
         for (g.polarity = 0; g.polarity < axes.polarity.size(); ++g.polarity) {
-            const FeSlip& r = grid.fe_slip(g);
-            if (r.critical_friction) critical = r.critical_friction;
-            failures += r.good && !r.slip;
-            if (!r.good || !r.slip || model.state != sliding::StaticState::at_rest) continue;
+            const FinishedRow* row = outcome.find(grid.tasks.id(g));
+            if (!row) continue;
+            if (const auto value = critical_friction_of(*row)) critical = value;
+            const std::optional<double> slip = slip_of(*row);
+            failures += row->good && !slip;
+            if (!row->good || !slip || model.state != sliding::StaticState::at_rest) continue;
             const double block = slide_model(scene, model, grid.motion(g), axes.polarity[g.polarity]).slip;
             ++motions;
-            fe += *r.slip;
+            fe += *slip;
             rigid += block;
-            largest_fe = std::max(largest_fe, *r.slip);
+            largest_fe = std::max(largest_fe, *slip);
             largest_rigid = std::max(largest_rigid, block);
-            error = std::max(error, r.slip_error.value_or(0.0));
+            error = std::max(error, slip_error_of(*row).value_or(0.0));
         }
     const auto mm = [&](double metres) { return motions ? Cell(1e3 * metres) : Cell(); };
     const auto n = static_cast<double>(std::max<std::int64_t>(1, motions));
     return {axes.friction[g.friction],
-            axes.level[g.level],
+            axes.level[g.level] * axes.size[g.size],
             axes.uplift[g.uplift],
             axes.reservoir[g.reservoir],
+            axes.size[g.size],
             axes.scale[g.scale],
+            axes.method[g.method].id,
             motions,
             failures,
             critical ? Cell(*critical) : Cell(),
@@ -47,7 +51,7 @@ std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, GridIndex
 
 } // namespace
 
-Table comparison(const Scene& scene, const Grid& grid)
+Table comparison(const Scene& scene, const Grid& grid, const SweepOutcome& outcome)
 {
     const Axes& axes = grid.axes;
     Table t;
@@ -56,7 +60,9 @@ Table comparison(const Scene& scene, const Grid& grid)
                  {"level_m", "level", "m", 4},
                  {"uplift", "uplift", "", 4},
                  {"reservoir", "reservoir", "", 4},
+                 {"size", "size", "–", 4},
                  {"scale", "scale", "–", 4},
+                 {"method", "method", "", 4},
                  {"motions", "motions", "", 4},
                  {"static_failures", "static failures", "", 4},
                  {"critical_friction", "critical μ", "–", 6},
@@ -66,13 +72,11 @@ Table comparison(const Scene& scene, const Grid& grid)
                  {"largest_fe_mm", "FE largest", "mm", 5},
                  {"largest_rigid_mm", "rigid largest", "mm", 5},
                  {"largest_slip_error_mm", "± step", "mm", 2}};
-    GridIndex g{};
-    for (g.friction = 0; g.friction < axes.friction.size(); ++g.friction)
-        for (g.level = 0; g.level < axes.level.size(); ++g.level)
-            for (g.uplift = 0; g.uplift < axes.uplift.size(); ++g.uplift)
-                for (g.reservoir = 0; g.reservoir < axes.reservoir.size(); ++g.reservoir)
-                    for (g.scale = 0; g.scale < axes.scale.size(); ++g.scale)
-                        t.rows.push_back(comparison_row(scene, grid, g));
+    for (std::size_t id = 0; id < grid.tasks.rows(); ++id) { // one of each group of motions stands for it
+        const GridIndex g = grid.tasks.index(id);
+        if (g.record == 0 && g.polarity == 0 && axes.method[g.method].kind == SweepKind::finite_elements)
+            t.rows.push_back(comparison_row(scene, grid, outcome, g));
+    }
     t.notes.push_back("both with the vertical component where the record has one; only motions that both methods "
                       "carried to their end count.");
     return t;

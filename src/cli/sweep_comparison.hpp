@@ -1,12 +1,11 @@
 #pragma once
 
-#include "cli/sweep_grid.hpp"
-#include "core/table.hpp"
+#include "cli/sweep_run.hpp"
 
 namespace damslip::cli {
 
-/// FE slip against the rigid block's, over the motions of each friction and variant.
-Table comparison(const Scene& scene, const Grid& grid);
+/// FE slip against the rigid block's, over the motions of each friction, variant and FE method.
+Table comparison(const Scene& scene, const Grid& grid, const SweepOutcome& outcome);
 
 /// Counts that show how much was made once; the same for any number of threads.
 Table count_table(const FeSweepCounts& counts);

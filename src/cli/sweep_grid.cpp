@@ -5,41 +5,27 @@
 
 namespace damslip::cli {
 
-GridIndex grid_index(const Axes& axes, std::size_t records, std::size_t id)
+Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
 {
-    const auto take = [&id](std::size_t n) {
-        const std::size_t i = id % n;
-        id /= n;
-        return i;
-    };
-    GridIndex g{};
-    g.method = take(axes.method.size());
-    g.record = take(records);
-    g.polarity = take(axes.polarity.size());
-    g.scale = take(axes.scale.size());
-    g.reservoir = take(axes.reservoir.size());
-    g.uplift = take(axes.uplift.size());
-    g.level = take(axes.level.size());
-    g.friction = take(axes.friction.size());
-    return g;
+    return variant(scene, axes.level[at.level], axes.uplift[at.uplift], axes.reservoir[at.reservoir],
+                   axes.size[at.size]);
 }
 
-Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPair>& records, int jobs)
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const std::vector<RecordPair>& records,
+               int jobs)
 {
     Grid grid;
     grid.axes = axes;
-    SeepageSource source;
-    grid.models.resize(axes.friction.size() * axes.level.size() * axes.uplift.size() * axes.reservoir.size());
+    grid.tasks = tasks;
+    std::vector<SeepageSource> seepage(axes.size.size()); // one profile serves one geometry
+    grid.models.resize(axes.friction.size() * tasks.variants());
+    const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
     parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
-        std::size_t rest = i;
-        const std::string& reservoir = axes.reservoir[rest % axes.reservoir.size()];
-        rest /= axes.reservoir.size();
-        const std::string& uplift = axes.uplift[rest % axes.uplift.size()];
-        rest /= axes.uplift.size();
-        Scene here = variant(scene, axes.level[rest % axes.level.size()], uplift, reservoir);
-        const double friction = axes.friction[rest / axes.level.size()];
-        if (friction != here.contact.friction) here = with_friction(std::move(here), friction);
-        grid.models[i] = make_rigid_model(here, source.profile_of(here));
+        const GridIndex at = tasks.index(i * rows_of_model);
+        Scene here = variant_of(scene, axes, at);
+        if (axes.friction[at.friction] != here.contact.friction)
+            here = with_friction(std::move(here), axes.friction[at.friction]);
+        grid.models[i] = make_rigid_model(here, seepage[at.size].profile_of(here));
     });
     for (const RecordPair& pair : records) {
         grid.records.push_back(pair.files.name);
@@ -51,25 +37,6 @@ Grid make_grid(const Scene& scene, const Axes& axes, const std::vector<RecordPai
         }
     }
     return grid;
-}
-
-FeSweepCounts run_fe(const Scene& scene, const std::vector<RecordPair>& records, int jobs, Progress& progress,
-                     const InterruptGuard& interrupt, Grid& grid)
-{
-    const Axes& axes = grid.axes;
-    std::vector<GroundMotion> motions;
-    for (const RecordPair& pair : records)
-        for (const double scale : axes.scale)
-            for (const int polarity : axes.polarity) motions.push_back(ground_motion(scene, pair, scale, polarity));
-    FeSweepCounts counts;
-    for (const double level : axes.level)
-        for (const std::string& uplift : axes.uplift)
-            for (const std::string& reservoir : axes.reservoir) {
-                const std::vector<FeSlip> slips = fe_slips(variant(scene, level, uplift, reservoir), axes.friction,
-                                                           records, motions, jobs, progress, interrupt, counts);
-                grid.fe.insert(grid.fe.end(), slips.begin(), slips.end());
-            }
-    return counts;
 }
 
 } // namespace damslip::cli

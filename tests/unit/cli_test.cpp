@@ -98,7 +98,7 @@ TEST_F(CliScene, SweepRowsDoNotDependOnTheNumberOfThreads)
     const ProgramAnswer one = with_jobs("1"), three = with_jobs("3");
     ASSERT_EQ(one.code, 0) << one.talk;
     EXPECT_EQ(one.out, three.out);
-    EXPECT_EQ(std::count(one.out.begin(), one.out.end(), '\n'), 2 + 1 + 29 * 2 * 2);
+    EXPECT_EQ(std::count(one.out.begin(), one.out.end(), '\n'), 3 + 1 + 29 * 2 * 2);
 }
 
 TEST_F(CliScene, ExplainNamesEveryEffectOnce)
