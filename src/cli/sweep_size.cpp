@@ -34,6 +34,7 @@ void scale_water(Scene& scene, double factor)
     if (scene.reservoir) {
         scene.reservoir->level *= factor;
         scene.reservoir->length *= factor;
+        scale(scene.reservoir->mesh_size, factor);
     }
     if (scene.tailwater) scene.tailwater->level *= factor;
     if (scene.silt) scene.silt->level *= factor;

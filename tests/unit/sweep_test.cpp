@@ -1,0 +1,206 @@
+// Sweeps as a user runs them: the same bytes for any threads, parts, stops and resumptions.
+#include "cli/sweep_plan.hpp"
+#include "sweep_scene.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <set>
+#include <sys/wait.h>
+#include <thread>
+
+namespace damslip::sweep_tests {
+
+namespace {
+
+std::size_t lines_of(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_F(SweepScene, AnyNumberOfThreadsGivesTheSameBytes)
+{
+    const Answer one = sweep(with(grid, {"--jobs", "1"}));
+    ASSERT_EQ(one.code, 0) << one.talk;
+    EXPECT_EQ(lines_of(one.out), 96u + 4);
+    for (const char* jobs : {"2", "4"}) EXPECT_EQ(sweep(with(grid, {"--jobs", jobs})).out, one.out) << jobs;
+}
+
+TEST_F(SweepScene, EveryFeMethodGivesItsOwnRow)
+{
+    const Answer a = sweep({"--friction", "0.1", "--method",
+                            "rigid,fe,fe-exact,fe-penalty,fe-slip-tolerance,fe-goldgruber-2015,fe-reduced",
+                            "--penalty-stiffness", "1e9", "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto rows = nlohmann::json::parse(a.out)["rows"];
+    ASSERT_EQ(rows.size(), 14u);
+    std::map<std::string, double> slip;
+    for (std::size_t i = 0; i < 7; ++i) slip[rows[i]["method"]] = rows[i]["slip_m"].get<double>();
+    EXPECT_EQ(slip["fe"], slip["fe-exact"]); // the scene's law is the exact one
+    EXPECT_NE(slip["fe"], slip["fe-penalty"]);
+    EXPECT_NE(slip["fe-penalty"], slip["fe-slip-tolerance"]);
+    EXPECT_NE(slip["fe-slip-tolerance"], slip["fe-goldgruber-2015"]);
+    // Nearly rigid block: within 1 % of the rigid one, whose slip is exact.
+    EXPECT_NEAR(slip["fe"], slip["rigid"], 0.01 * slip["rigid"]);
+    const auto& reduced = rows[6];
+    EXPECT_EQ(reduced["method"], "fe-reduced");
+    EXPECT_NEAR(reduced["slip_m"].get<double>(), slip["fe"],
+                3 * reduced["truncation_error_m"].get<double>() + 1e-6 * slip["fe"]);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(rows[i]["truncation_error_m"].is_null());
+
+    // The row is the run of `damslip fe`.
+    const Answer fe = answer_of({"fe", path("block.toml"), "--json"});
+    ASSERT_EQ(fe.code, 0) << fe.talk;
+    EXPECT_EQ(nlohmann::json::parse(fe.out)["runs"][0]["slip_mm"].get<double>(), 1e3 * slip["fe"]);
+}
+
+TEST_F(SweepScene, SizeAndReservoirReachTheModel)
+{
+    const Answer a = sweep({"--size", "1,2", "--reservoir", "auto,hydrostatic,zangar,acoustic", "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto rows = nlohmann::json::parse(a.out)["rows"];
+    ASSERT_EQ(rows.size(), 16u); // 4 waters x 2 sizes x 2 records
+    std::set<double> yields;
+    for (const auto& row : rows) {
+        EXPECT_EQ(row["level_m"].get<double>(), row["size"].get<double>()); // 1 m at size 1
+        yields.insert(std::round(row["yield_acceleration_m_s2"].get<double>() * 1e12));
+    }
+    EXPECT_EQ(yields.size(), 3u); // hydrostatic, Zangar, and Westergaard for auto and acoustic; the size changes none
+}
+
+TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
+{
+    ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);
+    std::vector<std::string> files;
+    for (const int count : {2, 5}) {
+        files.clear();
+        for (int i = 0; i < count; ++i) {
+            const Answer part = sweep(
+                with(grid, {"--out", path("parts/r.csv"), "--shard", std::to_string(i) + "/" + std::to_string(count)}));
+            ASSERT_EQ(part.code, 0) << part.talk;
+            files.push_back(path("parts/r." + std::to_string(i) + "-of-" + std::to_string(count) + ".csv"));
+        }
+        std::reverse(files.begin(), files.end());
+        std::vector<std::string> merge{"sweep", "--merge"};
+        merge.insert(merge.end(), files.begin(), files.end());
+        const Answer merged = answer_of(with(merge, {"--out", path("merged.csv")}));
+        ASSERT_EQ(merged.code, 0) << merged.talk;
+        EXPECT_EQ(content("merged.csv"), content("whole.csv")) << count;
+    }
+    const Answer mixed = answer_of({"sweep", "--merge", path("parts")}); // parts of 2 and of 5
+    EXPECT_EQ(mixed.code, 3);
+    EXPECT_NE(mixed.talk.find("is not of the same sweep as"), std::string::npos) << mixed.talk;
+
+    std::filesystem::remove(path("parts/r.0-of-2.csv"));
+    std::filesystem::remove(path("parts/r.1-of-2.csv"));
+    const Answer folder_of_five = answer_of({"sweep", "--merge", path("parts")});
+    EXPECT_EQ(folder_of_five.out, content("whole.csv"));
+    std::filesystem::remove(path("parts/r.1-of-5.csv"));
+    std::filesystem::remove(path("parts/r.4-of-5.csv"));
+    const Answer gaps = answer_of({"sweep", "--merge", path("parts")});
+    EXPECT_EQ(gaps.code, 3);
+    EXPECT_NE(gaps.talk.find("2 of 5 parts are missing: 1/5, 4/5."), std::string::npos) << gaps.talk;
+    EXPECT_NE(gaps.talk.find("--shard 1/5, --shard 4/5"), std::string::npos) << gaps.talk;
+    EXPECT_TRUE(gaps.out.empty());
+}
+
+/// The words of a plan's line, as sh splits them, without the program's name.
+std::vector<std::string> arguments_of(const std::string& line, const std::filesystem::path& folder)
+{
+    const auto script = folder / "words.sh";
+    std::ofstream(script) << "printf '%s\\n' " << line << "\n";
+    std::FILE* pipe = ::popen(("sh " + cli::shell_quoted(script.string())).c_str(), "r");
+    std::string text;
+    for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+    ::pclose(pipe);
+    std::vector<std::string> words;
+    std::istringstream in(text);
+    for (std::string word; std::getline(in, word);) words.push_back(word);
+    words.erase(words.begin());
+    return words;
+}
+
+TEST_F(SweepScene, TheCommandsOfThePlanMakeTheWhole)
+{
+    ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);
+    const Answer plan = sweep(with(grid, {"--out", path("planned/r.csv"), "--plan"}));
+    ASSERT_EQ(plan.code, 0) << plan.talk;
+    std::istringstream lines(plan.out);
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line); ++count)
+        ASSERT_EQ(answer_of(arguments_of(line, folder)).code, 0) << line;
+    EXPECT_EQ(count, 2u * 4); // variants x motions
+    EXPECT_EQ(answer_of({"sweep", "--merge", path("planned")}).out, content("whole.csv"));
+    EXPECT_EQ(lines_of(sweep(with(grid, {"--out", path("r.csv"), "--plan", "--parts", "3"})).out), 3u);
+}
+
+TEST_F(SweepScene, TheSlurmScriptIsAScriptWithOneElementPerPart)
+{
+    const Answer a =
+        sweep(with(grid, {"--out", path("r.csv"), "--slurm-array", path("job.sh"), "--parts", "6", "--jobs", "2"}));
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const std::string script = content("job.sh");
+    EXPECT_EQ(script.find("#!/bin/sh\n"), 0u);
+    EXPECT_NE(script.find("#SBATCH --array=0-5\n"), std::string::npos);
+    EXPECT_NE(script.find("#SBATCH --cpus-per-task=2\n"), std::string::npos);
+    // As Slurm runs an element, with a `damslip` that prints what it is asked.
+    write("damslip", "#!/bin/sh\nprintf '%s\\n' \"$@\"\n");
+    std::filesystem::permissions(folder / "damslip", std::filesystem::perms::owner_all);
+    const std::string command = "PATH=" + cli::shell_quoted(folder.string()) +
+                                ":$PATH SLURM_ARRAY_TASK_ID=4 SLURM_CPUS_PER_TASK=2 sh " +
+                                cli::shell_quoted(path("job.sh"));
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    std::string text;
+    for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+    EXPECT_EQ(::pclose(pipe), 0);
+    EXPECT_NE(text.find("\n" + path("block.toml") + "\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("--jobs\n2\n--resume\n--quiet\n--shard\n4/6\n"), std::string::npos) << text;
+}
+
+/// Runs the sweep in a process of its own that is killed when its journal has grown by `lines` lines.
+/// @returns true if it was killed, false if it ended before
+bool run_and_kill(const std::vector<std::string>& arguments, const std::filesystem::path& journal, std::size_t lines)
+{
+    const std::size_t before = lines_of(content_of(journal));
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(answer_of(arguments).code);
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        if (lines_of(content_of(journal)) >= before + lines) ::kill(child, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    return WIFSIGNALED(status);
+}
+
+// Rows come into the journal in groups; the killed process has finished some of them and is at some others.
+TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
+{
+    const std::vector<std::string> many = with(grid, {"--scale", "0.5,1,1.5"}); // 288 rows
+    ASSERT_EQ(sweep(with(many, {"--out", path("whole.csv")})).code, 0);
+    const std::vector<std::string> stopped =
+        with({"sweep", path("block.toml")}, with(many, {"--out", path("stopped.csv"), "--resume", "--jobs", "2"}));
+    std::mt19937 random(20260);
+    int kills = 0;
+    for (int i = 0; i < 5; ++i)
+        kills += run_and_kill(stopped, path("stopped.csv.journal"), std::uniform_int_distribution<>(1, 30)(random));
+    EXPECT_EQ(kills, 5); // 5 x at most 30 of 288 rows, and what finishes before the signal arrives
+    EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
+    const Answer last = answer_of(stopped);
+    ASSERT_EQ(last.code, 0) << last.talk;
+    EXPECT_NE(last.talk.find("rows were finished before"), std::string::npos) << last.talk;
+    EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
+
+    // Resumed once more, all rows are there and the same file is written.
+    std::filesystem::remove(path("stopped.csv"));
+    const Answer again = answer_of(stopped);
+    EXPECT_NE(again.talk.find("288 rows were finished before"), std::string::npos) << again.talk;
+    EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
+}
+
+} // namespace
+
+} // namespace damslip::sweep_tests
