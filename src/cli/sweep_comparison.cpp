@@ -92,7 +92,8 @@ Table count_table(const FeSweepCounts& c)
                  {"steps", "steps", "", 4},
                  {"factorisations", "factorisations", "", 4},
                  {"unresolved", "unresolved steps", "", 4}};
-    t.notes.push_back("steps: of the pass that is reported of each run; factorisations: step sizes, each made once for all runs.");
+    t.notes.push_back(
+        "steps: of the pass that is reported of each run; factorisations: step sizes, each made once for all runs.");
     t.rows.push_back({c.set_ups, c.runs, c.static_failures, c.steps, c.factorisations, c.unresolved});
     return t;
 }

@@ -3,7 +3,7 @@
 #include "core/input_error.hpp"
 #include "sweep_scene.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace damslip::sweep_tests {
 
