@@ -1,5 +1,6 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/step_error.hpp"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,16 @@ struct EarthquakeRun::Lane {
     ContactMemory memory;
     StaticState start;
     RunResult result;
+    int next = 0;                               ///< halvings of the next pass; 0: none
+    std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
+
+    void note_slips()
+    {
+        slips.resize(1 + result.lifts.size());
+        slips.front().push_back({result.halvings, result.slip});
+        for (std::size_t k = 0; k < result.lifts.size(); ++k)
+            slips[k + 1].push_back({result.halvings, result.lifts[k].slip});
+    }
 };
 
 /// The static stages. lane.result.status stays model_failed where they end in equilibrium.
@@ -175,8 +186,8 @@ void EarthquakeRun::end_lane(const DynamicContact& dynamics, const Strength& str
     result.lifts.clear();
     for (std::size_t k = 0; k < result.history.lifts.size(); ++k) {
         const LiftHistory& h = result.history.lifts[k];
-        result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(), largest(h.slip), largest(h.largest_opening),
-                                largest(h.rocking)});
+        result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(),
+                                largest(h.slip), largest(h.largest_opening), largest(h.rocking)});
     }
     result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
@@ -197,14 +208,31 @@ void EarthquakeRun::end_lane(const DynamicContact& dynamics, const Strength& str
     result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory);
 }
 
-bool close_enough(const RunResult& coarser, const RunResult& finer, double tolerance, double smallest_slip)
+/// A pass with smaller steps; lanes whose error is still too large get the next one.
+void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const
 {
-    const auto close = [&](double a, double b) {
-        return std::abs(b - a) <= tolerance * std::max(std::abs(b), smallest_slip);
-    };
-    for (std::size_t k = 0; k < finer.lifts.size(); ++k)
-        if (!close(coarser.lifts[k].slip, finer.lifts[k].slip)) return false;
-    return close(coarser.slip, finer.slip);
+    std::vector<RunResult> finer = shake(motion, halvings, lanes);
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        Lane& lane = *lanes[i];
+        lane.next = 0;
+        if (finer[i].status == RunStatus::interrupted) { // the whole coarser run tells more than part of the finer
+            lane.result.status = RunStatus::interrupted;
+            lane.result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
+                                              finer[i].dt, 1e3 * lane.result.slip, lane.result.dt);
+            continue;
+        }
+        lane.result = std::move(finer[i]);
+        lane.note_slips();
+        lane.result.slip_error = step_error(lane.slips.front());
+        double excess = 0.0; // error over what is wanted, the largest of all planes
+        for (const std::vector<SlipAtStep>& plane : lane.slips)
+            excess =
+                std::max(excess, step_error(plane) / (*options_.slip_tolerance *
+                                                      std::max(std::abs(plane.back().slip), options_.smallest_slip)));
+        if (lane.result.status == RunStatus::left_plane || excess <= 1.0) continue;
+        lane.next = next_halvings(lane.slips.front(), excess);
+        if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
+    }
 }
 
 std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts) const
@@ -214,7 +242,7 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     std::vector<Lane*> going;
     for (const Contact& contact : contacts) {
         if (!usable_) break;
-        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}}));
+        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}}));
         stand(contact, *lanes.back());
         if (lanes.back()->result.status != RunStatus::static_failure) going.push_back(lanes.back().get());
     }
@@ -224,30 +252,15 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
         for (std::size_t i = 0; i < going.size(); ++i) {
             going[i]->result = std::move(coarse[i]);
             going[i]->result.slip_error = std::numeric_limits<double>::quiet_NaN();
+            going[i]->note_slips();
         }
     }
+    for (Lane* lane : going) lane->next = first + 1;
     for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
-        std::erase_if(going, [](const Lane* lane) { return lane->result.status == RunStatus::interrupted; });
-        if (going.empty()) break;
-        std::vector<RunResult> finer = shake(motion, k, going);
-        std::vector<Lane*> more;
-        for (std::size_t i = 0; i < going.size(); ++i) {
-            RunResult& result = going[i]->result;
-            if (finer[i].status == RunStatus::interrupted) { // the whole coarser run tells more than part of the finer
-                result.status = RunStatus::interrupted;
-                result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
-                                             finer[i].dt, 1e3 * result.slip, result.dt);
-                continue;
-            }
-            const RunResult coarser = std::move(result);
-            result = std::move(finer[i]);
-            // Contact with moving edges converges with first order at worst; then the finer run errs by the difference.
-            result.slip_error = std::abs(result.slip - coarser.slip);
-            if (result.status != RunStatus::left_plane &&
-                !close_enough(coarser, result, *options_.slip_tolerance, options_.smallest_slip))
-                more.push_back(going[i]);
-        }
-        going = std::move(more);
+        std::vector<Lane*> now;
+        for (Lane* lane : going)
+            if (lane->next == k && lane->result.status != RunStatus::interrupted) now.push_back(lane);
+        if (!now.empty()) refine(motion, k, now);
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (usable_) {

@@ -117,7 +117,8 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
     return results;
 }
 
-/// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least.
+/// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least, and
+/// passes that are left out count as made.
 RunProgress EarthquakeRun::progress_of(int halvings, long record_steps, long step, double dt) const
 {
     const int first = options_.halvings.value_or(0);

@@ -126,6 +126,7 @@ private:
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     Strength strength_of(const Contact& base) const;
     void stand(const Contact& contact, Lane& lane) const;
+    void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     void end_lane(const DynamicContact& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
@@ -143,8 +144,5 @@ private:
     std::string why_not_;
     double seconds_ = 0.0;
 };
-
-/// Is the finer of two results within the wanted share of the coarser, on every plane? @param tolerance  [-]
-bool close_enough(const RunResult& coarser, const RunResult& finer, double tolerance, double smallest_slip);
 
 } // namespace damslip::fe2d

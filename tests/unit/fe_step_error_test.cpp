@@ -1,0 +1,49 @@
+// Error in the step from slips with several steps.
+#include "fe2d/run/step_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace damslip::fe2d;
+
+std::vector<SlipAtStep> of_order(double p, std::initializer_list<int> halvings)
+{
+    std::vector<SlipAtStep> slips;
+    for (const int k : halvings) slips.push_back({k, 1.0 + 0.3 * std::exp2(-p * k)});
+    return slips;
+}
+
+TEST(FeStepError, FindsOrderAndErrorOfAPowerOfTheStep)
+{
+    for (const double p : {1.0, 1.3, 1.75})
+        for (const auto& halvings : {std::initializer_list<int>{0, 1, 2}, {0, 1, 3}, {1, 3, 4}}) {
+            const std::vector<SlipAtStep> slips = of_order(p, halvings);
+            EXPECT_NEAR(observed_order(slips), p, 1e-9);
+            EXPECT_NEAR(step_error(slips), slips.back().slip - 1.0, 1e-9);
+        }
+}
+
+TEST(FeStepError, DoesNotRelyOnMoreThanTheUsualOrderNorOnLessThanOne)
+{
+    EXPECT_NEAR(observed_order(of_order(3.0, {0, 1, 2})), largest_order, 1e-9);
+    EXPECT_NEAR(observed_order(of_order(0.5, {0, 1, 2})), 1.0, 1e-9);
+    const std::vector<SlipAtStep> two = of_order(1.75, {0, 1}); // first order: then the finer errs by the difference
+    EXPECT_DOUBLE_EQ(step_error(two), std::abs(two[0].slip - two[1].slip));
+    const std::vector<SlipAtStep> still{{0, 0.5}, {1, 0.7}, {2, 0.7}};
+    EXPECT_EQ(step_error(still), 0.0);
+}
+
+TEST(FeStepError, FarFromTheGoalItSkipsOnePass)
+{
+    const std::vector<SlipAtStep> two = of_order(1.75, {0, 1}), three = of_order(1.75, {0, 1, 2});
+    EXPECT_EQ(next_halvings(two, 1.5), 2);
+    EXPECT_EQ(next_halvings(two, 13.0), 3);
+    EXPECT_EQ(next_halvings(three, 2.0), 3);
+    EXPECT_EQ(next_halvings(three, 50.0), 3);
+}
+
+} // namespace
