@@ -30,7 +30,10 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range) : mod
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
         slides_far_ = range == SlidingRange::finite;
-        if (slides_far_) pairing_.emplace(contact.distance, contact.rock_distance);
+        if (slides_far_)
+            pairing_.emplace(contact.distance, contact.rock_distance);
+        else if (!contact.matching)
+            pairing_.emplace(contact.distance, contact.rock_node_distance);
         condense_rock(slides_far_ ? contact.rock_line : contact.rock_nodes);
     }
     regular_ = static_factor_->regular() && (!has_rock() || (rock_factor_->regular() && rock_flexibility_.size() > 0));
