@@ -16,13 +16,13 @@ public:
     explicit FeMeter(Progress& progress) : progress_(progress) {}
 
     void begin(std::size_t runs);          ///< a group begins on this thread
-    void step(const fe2d::RunProgress& p); ///< a step of one of its runs, or of all in lockstep
+    void step(const fe2d::RunProgress& p); ///< a step of all its runs, in lockstep
+    void reached(double share);            ///< of the group, 0 ... 1
     void end();                            ///< it has ended
 
 private:
     struct Group {
-        double runs = 0.0, ended = 0.0, share = 0.0; ///< in runs; share: of the run under way
-        std::int64_t last_step = 0;
+        double runs = 0.0, share = 0.0;
     };
     void show();
 

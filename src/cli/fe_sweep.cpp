@@ -170,6 +170,7 @@ private:
             if (slip.slip) slip.truncation_error = r.truncation_error;
             count(r, counts);
             take_({&id, 1}, {&slip, 1});
+            meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));
         }
     }
 

@@ -99,10 +99,16 @@ std::string json_text(const Scene& scene, const Grid& grid, const Table& table, 
     return j.dump(2) + "\n";
 }
 
+constexpr std::size_t most_compared = 100; ///< lines that people read
+
 /// Tables for people; the rows have standard output for themselves.
 void talk_of(const FeSweepCounts& c, const Table& compared, const Streams& streams)
 {
-    streams.talk << "\n" << report::text(compared) << "\n" << report::text(count_table(c));
+    if (compared.rows.size() <= most_compared)
+        streams.talk << "\n" << report::text(compared) << "\n";
+    else
+        streams.talk << fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
+    streams.talk << report::text(count_table(c));
     streams.talk << fmt::format(
         "  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
         1e3 * c.static_seconds / static_cast<double>(std::max<std::int64_t>(1, c.runs)), c.dynamic_seconds);

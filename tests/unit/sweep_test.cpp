@@ -161,19 +161,24 @@ TEST_F(SweepScene, TheSlurmScriptIsAScriptWithOneElementPerPart)
     EXPECT_NE(text.find("--jobs\n2\n--resume\n--quiet\n--shard\n4/6\n"), std::string::npos) << text;
 }
 
-/// Runs the sweep in a process of its own that is killed when its journal has grown by `lines` lines.
-/// @returns true if it was killed, false if it ended before
-bool run_and_kill(const std::vector<std::string>& arguments, const std::filesystem::path& journal, std::size_t lines)
+/// Runs the sweep in a process of its own that gets the signal when its journal has grown by `lines` lines.
+/// @returns the status of waitpid
+int run_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& journal, std::size_t lines,
+                   int signal)
 {
     const std::size_t before = lines_of(content_of(journal));
     const pid_t child = ::fork();
     if (child == 0) ::_exit(answer_of(arguments).code);
     int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0) {
-        if (lines_of(content_of(journal)) >= before + lines) ::kill(child, SIGKILL);
+        if (lines_of(content_of(journal)) >= before + lines) {
+            ::kill(child, signal);
+            ::waitpid(child, &status, 0);
+            break;
+        }
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
-    return WIFSIGNALED(status);
+    return status;
 }
 
 // Rows come into the journal in groups; the killed process has finished some of them and is at some others.
@@ -186,7 +191,8 @@ TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
     std::mt19937 random(20260);
     int kills = 0;
     for (int i = 0; i < 5; ++i)
-        kills += run_and_kill(stopped, path("stopped.csv.journal"), std::uniform_int_distribution<>(1, 30)(random));
+        kills += WIFSIGNALED(run_and_signal(stopped, path("stopped.csv.journal"),
+                                            std::uniform_int_distribution<std::size_t>(1, 30)(random), SIGKILL));
     EXPECT_EQ(kills, 5); // 5 x at most 30 of 288 rows, and what finishes before the signal arrives
     EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
     const Answer last = answer_of(stopped);
@@ -198,6 +204,22 @@ TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
     std::filesystem::remove(path("stopped.csv"));
     const Answer again = answer_of(stopped);
     EXPECT_NE(again.talk.find("288 rows were finished before"), std::string::npos) << again.talk;
+    EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
+}
+
+// Ctrl-C: runs under way are not results; what was finished stays, no table with gaps is written, exit code 4.
+TEST_F(SweepScene, InterruptedAndResumedGivesTheSameBytes)
+{
+    const std::vector<std::string> many = with(grid, {"--scale", "0.5,1,1.5"});
+    ASSERT_EQ(sweep(with(many, {"--out", path("whole.csv")})).code, 0);
+    const std::vector<std::string> stopped =
+        with({"sweep", path("block.toml")}, with(many, {"--out", path("stopped.csv"), "--resume", "--jobs", "2"}));
+    const int status = run_and_signal(stopped, path("stopped.csv.journal"), 20, SIGINT);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 4);
+    EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
+    EXPECT_EQ(content("stopped.csv.journal").find("INTERRUPTED"), std::string::npos);
+    EXPECT_EQ(answer_of(stopped).code, 0);
     EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
 }
 
