@@ -12,6 +12,8 @@ damslip_\name\()_end:
         embed uplot_css, "report/vendor/uplot/uPlot.min.css"
         embed uplot_license, "report/vendor/uplot/LICENSE"
         embed page_js, "report/page.js"
+        embed state_map_js, "report/state_map.js"
+        embed mesh_view_js, "report/mesh_view.js"
         embed page_css, "report/page.css"
 
         .section .note.GNU-stack, "", %progbits

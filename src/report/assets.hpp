@@ -9,6 +9,8 @@ std::string_view uplot_script(); ///< uPlot 1.6.32 (MIT), minified; readable twi
 std::string_view uplot_style();
 std::string_view uplot_license(); ///< goes with every copy of the two
 std::string_view page_script();   ///< page.js
+std::string_view state_map_script();
+std::string_view mesh_view_script();
 std::string_view page_style();    ///< page.css
 
 } // namespace damslip::report

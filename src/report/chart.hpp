@@ -44,14 +44,26 @@ struct Line {
     std::string label;
 };
 
+/// One curve of a chart at many instants; a slider chooses which is drawn.
+struct Moving {
+    std::size_t curve = 0;   ///< of Chart::curves; its own values are those of at[start]
+    std::string label, unit; ///< of `at`: "time", "s"
+    std::vector<double> at;  ///< ascending
+    std::vector<std::vector<double>>
+        y;                 ///< values of the curve, one list for each `at`, over the curve's own x, which all
+                           ///< curves of the chart share
+    std::size_t start = 0; ///< drawn first
+};
+
 struct Chart {
     std::string title;
     Axis x, y;
     std::vector<Curve> curves;
     std::vector<Line> horizontal, vertical;
-    std::string together; ///< charts with the same word share cursor and zoom in x; empty: alone
-    std::string note;     ///< sentence below the chart
-    int height = 330;     ///< of the drawing, legend excluded [px], >= 240
+    std::optional<Moving> moving; ///< fix the ends of y with it, so that the instants compare
+    std::string together;         ///< charts with the same word share cursor, zoom in x and slider; empty: alone
+    std::string note;             ///< sentence below the chart
+    int height = 330;             ///< of the drawing, legend excluded [px], >= 240
     /// Above `thin_above` abscissae only the lowest and highest value of each curve in each of `thin_buckets` equal
     /// parts are kept: what a screen can show. The chart then says so.
     std::size_t thin_above = 20000;

@@ -1,10 +1,10 @@
 #include "report/chart_data.hpp"
 
 #include "report/escape.hpp"
+#include "report/number_json.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -67,35 +67,6 @@ std::optional<double> even_step(const std::vector<double>& x)
     return step;
 }
 
-void add_number(std::string& out, double v, int digits = 6)
-{
-    if (!std::isfinite(v)) {
-        out += "null";
-        return;
-    }
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, digits).ptr;
-    out.append(text, end);
-}
-
-std::string number_list(const Values& values)
-{
-    std::string out = "[";
-    out.reserve(8 * values.size() + 2);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i) out += ',';
-        add_number(out, values[i]);
-    }
-    return out + "]";
-}
-
-std::string optional_number(const std::optional<double>& v)
-{
-    std::string out;
-    add_number(out, v.value_or(nothing));
-    return out;
-}
-
 const char* word(Scale scale)
 {
     switch (scale) {
@@ -140,9 +111,8 @@ const char* word(Weight weight)
 std::string axis_json(const Axis& axis)
 {
     std::string out = "{\"label\":" + json_text(axis.label) + ",\"unit\":" + json_text(axis.unit) + ",\"scale\":\"" +
-                      word(axis.scale) + "\",\"linear_below\":" + optional_number(axis.linear_below) +
-                      ",\"low\":" + optional_number(axis.low) + ",\"high\":" + optional_number(axis.high) +
-                      ",\"categories\":[";
+                      word(axis.scale) + "\",\"linear_below\":" + json_number(axis.linear_below) +
+                      ",\"low\":" + json_number(axis.low) + ",\"high\":" + json_number(axis.high) + ",\"categories\":[";
     for (std::size_t i = 0; i < axis.categories.size(); ++i) out += (i ? "," : "") + json_text(axis.categories[i]);
     return out + "]}";
 }
@@ -152,21 +122,37 @@ std::string lines_json(const std::vector<Line>& lines)
     std::string out = "[";
     for (const Line& line : lines)
         if (std::isfinite(line.at))
-            out += (out.size() > 1 ? ",{\"at\":" : "{\"at\":") + optional_number(line.at) +
+            out += (out.size() > 1 ? ",{\"at\":" : "{\"at\":") + json_number(line.at) +
                    ",\"label\":" + json_text(line.label) + "}";
     return out + "]";
+}
+
+/// The curve that a slider moves, null where there is none.
+std::string moving_json(const std::optional<Moving>& moving, const ChartData& data)
+{
+    if (!moving || moving->at.empty()) return "null";
+    assert(moving->y.size() == moving->at.size());
+    std::string out = "{\"curve\":" + std::to_string(moving->curve) + ",\"label\":" + json_text(moving->label) +
+                      ",\"unit\":" + json_text(moving->unit) + ",\"start\":" + std::to_string(moving->start) +
+                      ",\"at\":" + json_numbers(moving->at) + ",\"y\":[";
+    for (std::size_t k = 0; k < moving->y.size(); ++k) {
+        assert(moving->y[k].size() == data.x.size());
+        out += (k ? "," : "") + json_numbers(moving->y[k], 4);
+    }
+    (void)data;
+    return out + "]}";
 }
 
 std::string abscissae_json(const std::vector<double>& x)
 {
     if (const auto step = even_step(x)) {
         std::string out = "{\"from\":";
-        add_number(out, x.front(), 12);
+        add_json_number(out, x.front(), 12);
         out += ",\"step\":";
-        add_number(out, *step, 12);
+        add_json_number(out, *step, 12);
         return out + ",\"n\":" + std::to_string(x.size()) + "}";
     }
-    return number_list(x);
+    return json_numbers(x);
 }
 
 /// The column as drawn: a log axis has no place for zero and below.
@@ -237,14 +223,14 @@ std::string chart_json(const Chart& chart, const ChartData& data)
         const int colour = c.colour >= 0 ? c.colour : next_colour++;
         out += std::string(i ? "," : "") + "{\"name\":" + json_text(c.name) + ",\"mark\":\"" + word(c.mark) +
                "\",\"weight\":\"" + word(c.weight) + "\",\"colour\":" + std::to_string(colour) +
-               ",\"y\":" + number_list(drawable(data.columns[column++], chart.y.scale));
+               ",\"y\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
         if (!c.low.empty()) {
-            out += ",\"low\":" + number_list(drawable(data.columns[column++], chart.y.scale));
-            out += ",\"high\":" + number_list(drawable(data.columns[column++], chart.y.scale));
+            out += ",\"low\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
+            out += ",\"high\":" + json_numbers(drawable(data.columns[column++], chart.y.scale));
         }
         out += "}";
     }
-    return out + "]}";
+    return out + "],\"moving\":" + moving_json(chart.moving, data) + "}";
 }
 
 } // namespace damslip::report

@@ -2,6 +2,7 @@
 
 #include "core/table.hpp"
 #include "report/chart.hpp"
+#include "report/picture.hpp"
 
 #include <optional>
 #include <string>
@@ -43,7 +44,7 @@ struct Listing {
     std::string text;
 };
 
-using Part = std::variant<Paragraph, TablePart, Chart, Drawing, Listing>;
+using Part = std::variant<Paragraph, TablePart, Chart, StateMap, MeshView, Drawing, Listing>;
 
 struct Section {
     std::string title;

@@ -253,6 +253,12 @@
     }
 
     const charts = []; // {figure, chart, plot}
+    const pictures = []; // {figure, title, drawn, width, draw, is_empty}, of state_map.js and mesh_view.js
+
+    function draw_picture(picture) {
+        picture.drawn = picture.draw() || picture.drawn;
+        picture.width = Math.floor(picture.figure.querySelector(".canvas").clientWidth);
+    }
 
     function draw(entry) {
         const place = entry.figure.querySelector(".plot");
@@ -262,6 +268,7 @@
         place.textContent = "";
         const data = [entry.x];
         const opts = options(entry.chart, data, width);
+        entry.columns = entry.chart.curves.map(c => data.indexOf(c.y));
         entry.plot = new uPlot(opts, data, place);
         entry.width = width;
         entry.plot.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; });
@@ -269,7 +276,7 @@
 
     // uPlot draws after the current task, so the marks are set after the next one.
     const mark_soon = () => setTimeout(mark, 0);
-    const draw_all = () => { charts.forEach(draw); mark_soon(); };
+    const draw_all = () => { charts.forEach(draw); pictures.forEach(draw_picture); mark_soon(); };
 
     // ---- tools --------------------------------------------------------------------------------------------------------
     function save(name, blob) {
@@ -279,7 +286,7 @@
         a.click();
         setTimeout(() => URL.revokeObjectURL(a.href), 1000);
     }
-    const file_name = chart => chart.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "chart";
+    const file_name = title => title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "chart";
 
     function csv(entry) {
         const quote = s => /[",\n\r]/.test(s) ? '"' + s.replace(/"/g, '""') + '"' : s;
@@ -301,27 +308,61 @@
         ctx.fillStyle = css("--paper");
         ctx.fillRect(0, 0, to.width, to.height);
         ctx.drawImage(from, 0, 0);
-        to.toBlob(blob => save(file_name(entry.chart) + ".png", blob));
+        to.toBlob(blob => save(file_name(entry.chart.title) + ".png", blob));
     }
 
     /// The chart and those that share cursor and zoom with it.
     const partners = entry => charts.filter(e => e.plot && (e === entry || (entry.chart.together && e.chart.together === entry.chart.together)));
     const show_all = entry => partners(entry).forEach(e => e.plot.setData(e.plot.data));
 
-    function tools(entry) {
+    /// Buttons beside the title of a figure. @returns  function that adds one
+    function tool_bar(figure, name) {
         const bar = document.createElement("div");
         bar.className = "chart-tools";
-        const add = (label, title, action) => {
+        figure.querySelector("figcaption").append(bar);
+        return (label, title, action) => {
             const b = document.createElement("button");
             b.type = "button"; b.textContent = label; b.title = title;
-            b.setAttribute("aria-label", title + ": " + entry.chart.title);
+            b.setAttribute("aria-label", title + ": " + name);
             b.addEventListener("click", action);
             bar.append(b);
         };
+    }
+
+    function tools(entry) {
+        const add = tool_bar(entry.figure, entry.chart.title);
         add("Whole range", "Undo the zoom (or double-click; drag in the chart to zoom)", () => show_all(entry));
-        add("CSV", "Save the values", () => save(file_name(entry.chart) + ".csv", new Blob([csv(entry)], {type: "text/csv"})));
+        add("CSV", "Save the values", () => save(file_name(entry.chart.title) + ".csv", new Blob([csv(entry)], {type: "text/csv"})));
         add("PNG", "Save the picture", () => picture(entry));
-        entry.figure.querySelector("figcaption").append(bar);
+    }
+
+    // A slider that chooses the instant of the moving curve, here and in the charts that go together with this one.
+    function slider(entry) {
+        const moving = entry.chart.moving;
+        if (!moving) return;
+        const label = document.createElement("label"), input = document.createElement("input"), out = document.createElement("output");
+        label.className = "slider";
+        Object.assign(input, {type: "range", min: 0, max: moving.at.length - 1, step: 1, value: moving.start});
+        const text = k => number(moving.at[k]) + " " + moving.unit;
+        entry.move = k => {
+            if (!(k in moving.y)) return;
+            input.value = k;
+            out.textContent = text(k);
+            input.setAttribute("aria-valuetext", text(k));
+            const curve = entry.chart.curves[moving.curve];
+            curve.y = moving.y[k];
+            if (!entry.plot) return;
+            const data = entry.plot.data.slice();
+            data[entry.columns[moving.curve]] = curve.y;
+            entry.plot.setData(data, false);
+            entry.plot.redraw();
+        };
+        input.setAttribute("aria-label", moving.label + " of " + entry.chart.curves[moving.curve].name + ": " + entry.chart.title);
+        label.append(moving.label + " ", input, out);
+        entry.figure.querySelector(".plot").before(label);
+        input.addEventListener("input", () => charts.filter(e => e.move && (e === entry || (entry.chart.together && e.chart.together === entry.chart.together)))
+                                                    .forEach(e => e.move(Number(input.value))));
+        entry.move(moving.start);
     }
 
     // Keys: arrows move the cursor by a sample (with shift by a twentieth), plus and minus zoom around it, 0 shows all.
@@ -351,15 +392,19 @@
 
     // ---- what a test reads ----------------------------------------------------------------------------------------------
     // With #check in the address the canvases are searched for the colour of at least one curve.
+    function pixels_of(canvas, left, top, width, height) {
+        const copy = document.createElement("canvas");
+        copy.width = width; copy.height = height;
+        const ctx = copy.getContext("2d", {willReadFrequently: true});
+        ctx.drawImage(canvas, -left, -top);
+        return ctx.getImageData(0, 0, copy.width, copy.height).data;
+    }
+
     function is_empty(entry) {
         if (!entry.plot) return false;
         const box = entry.plot.bbox;
         const wanted = entry.chart.curves.map(c => [1, 3, 5].map(i => parseInt(colour(c.colour).slice(i, i + 2), 16)));
-        const copy = document.createElement("canvas");
-        copy.width = box.width; copy.height = box.height;
-        const ctx = copy.getContext("2d", {willReadFrequently: true});
-        ctx.drawImage(entry.plot.ctx.canvas, -box.left, -box.top);
-        const pixels = ctx.getImageData(0, 0, copy.width, copy.height).data;
+        const pixels = pixels_of(entry.plot.ctx.canvas, box.left, box.top, box.width, box.height);
         for (let i = 0; i < pixels.length; i += 4)
             if (pixels[i + 3] > 200 && wanted.some(w => Math.abs(w[0] - pixels[i]) + Math.abs(w[1] - pixels[i + 1]) + Math.abs(w[2] - pixels[i + 2]) < 24))
                 return false;
@@ -370,10 +415,11 @@
     function mark() {
         const d = document.getElementById("drawn");
         if (!d) return;
-        d.dataset.charts = String(charts.length);
-        d.dataset.drawn = String(charts.filter(e => e.plot).length);
+        d.dataset.charts = String(charts.length + pictures.length);
+        d.dataset.drawn = String(charts.filter(e => e.plot).length + pictures.filter(p => p.drawn).length);
         d.dataset.errors = errors.join(" | ");
-        if (location.hash === "#check") d.dataset.empty = charts.filter(is_empty).map(e => e.chart.title).join(" | ");
+        if (location.hash === "#check") d.dataset.empty = charts.filter(is_empty).map(e => e.chart.title)
+                .concat(pictures.filter(p => p.drawn && p.is_empty()).map(p => p.title)).join(" | ");
         d.dataset.state = errors.length ? "failed" : finished ? "drawn" : "drawing";
     }
 
@@ -384,6 +430,13 @@
         charts.push(entry);
         tools(entry);
         keys(entry);
+        slider(entry);
+    });
+    document.querySelectorAll("figure.picture").forEach(figure => {
+        const data = JSON.parse(figure.querySelector("script").textContent);
+        const make = {state_map: damslip_state_map, mesh_view: damslip_mesh_view}[figure.dataset.kind];
+        const picture = make(figure, data, {css, number, even, save, file_name, pixels: pixels_of, button: tool_bar(figure, data.title)});
+        pictures.push(Object.assign(picture, {figure, title: data.title, drawn: false, width: 0}));
     });
     const check = location.hash === "#check";
     const unfold = open => document.querySelectorAll("details").forEach(d => { d.open = open; });
@@ -406,12 +459,17 @@
     dark_wanted.addEventListener("change", () => { set_theme(); draw_all(); });
     document.addEventListener("toggle", event => {
         charts.filter(e => !e.plot && event.target.contains(e.figure)).forEach(draw);
+        pictures.filter(p => !p.drawn && event.target.contains(p.figure)).forEach(draw_picture);
         mark_soon();
     }, true);
     let wait = 0;
     new ResizeObserver(() => {
         clearTimeout(wait);
-        wait = setTimeout(() => { if (!printing) charts.filter(e => e.width !== Math.floor(e.figure.querySelector(".plot").clientWidth)).forEach(draw); }, 150);
+        wait = setTimeout(() => {
+            if (printing) return;
+            charts.filter(e => e.width !== Math.floor(e.figure.querySelector(".plot").clientWidth)).forEach(draw);
+            pictures.filter(p => p.width !== Math.floor(p.figure.querySelector(".canvas").clientWidth)).forEach(draw_picture);
+        }, 150);
     }).observe(document.querySelector("main"));
 
     // Paper is white and 180 mm wide: charts are drawn anew for it and back again.
@@ -419,7 +477,7 @@
         if (printing === on) return;
         printing = on;
         set_theme();
-        document.querySelectorAll(".plot").forEach(p => { p.style.width = on ? "660px" : ""; });
+        document.querySelectorAll(".plot, .canvas").forEach(p => { p.style.width = on ? "660px" : ""; });
         draw_all();
     }
     window.addEventListener("beforeprint", () => paper(true));

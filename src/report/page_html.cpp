@@ -31,11 +31,32 @@ std::string chart_html(const Chart& chart)
     return out + "</script>\n" + note_html(note) + "</figure>\n";
 }
 
+/// @param kind  of the script that draws it @param data  for it, JSON
+std::string picture_html(const std::string& kind, const std::string& plain_title, const std::string& keys,
+                         const std::string& data, const std::string& note)
+{
+    const std::string title = html_text(plain_title);
+    return "<figure class=\"picture part\" data-kind=\"" + kind + "\" aria-label=\"" + title + "\">\n<figcaption>" +
+           title + "</figcaption>\n<div class=\"canvas\" tabindex=\"0\" role=\"application\" aria-label=\"" + title +
+           ". " + keys +
+           "\"></div>\n<p class=\"reading\" aria-live=\"polite\"></p>\n<script type=\"application/json\">" + data +
+           "</script>\n" + note_html(note) + "</figure>\n";
+}
+
 struct PartHtml {
     const std::string& section;
     std::string operator()(const Paragraph& p) const { return "<p>" + html_text(p.text) + "</p>\n"; }
     std::string operator()(const TablePart& p) const { return table_html(p, section); }
     std::string operator()(const Chart& p) const { return chart_html(p); }
+    std::string operator()(const StateMap& p) const
+    {
+        return picture_html("state_map", p.title, "Arrow keys read time and place.", state_map_json(p), p.note);
+    }
+    std::string operator()(const MeshView& p) const
+    {
+        return picture_html("mesh_view", p.title, "Left and right keys go through the states.", mesh_view_json(p),
+                            p.note);
+    }
     std::string operator()(const Drawing& p) const
     {
         const std::string title = html_text(p.title);
@@ -152,6 +173,8 @@ std::string page_html(const Page& page)
     out += "*/\n";
     out += uplot_script();
     out += "</script>\n<script>\n";
+    out += state_map_script();
+    out += mesh_view_script();
     out += page_script();
     return out + "</script>\n</body>\n</html>\n";
 }

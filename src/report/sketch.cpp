@@ -44,6 +44,15 @@ void Sketch::line(const Polyline& points, const std::string& css)
     body_ += "\"/>\n";
 }
 
+void Sketch::lines(const std::vector<Polyline>& all, const std::string& css)
+{
+    body_ += "<path class=\"" + css + "\" d=\"";
+    for (const Polyline& points : all)
+        for (std::size_t i = 0; i < points.size(); ++i)
+            body_ += fmt::format("{}{:.1f} {:.1f}", i ? "L" : "M", pixel(points[i]).x, pixel(points[i]).y);
+    body_ += "\"/>\n";
+}
+
 void Sketch::circle(Point centre, double radius_px, const std::string& css)
 {
     body_ += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", css, pixel(centre).x,

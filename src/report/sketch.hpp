@@ -3,6 +3,7 @@
 #include "core/geometry.hpp"
 
 #include <string>
+#include <vector>
 
 namespace damslip::report {
 
@@ -20,6 +21,7 @@ public:
 
     void polygon(const Polyline& points, const std::string& css);
     void line(const Polyline& points, const std::string& css);
+    void lines(const std::vector<Polyline>& all, const std::string& css); ///< many as one path: a mesh
     void circle(Point centre, double radius_px, const std::string& css);
     /// Text near a point, moved by (right, down) pixels. @param css  may be empty
     void text(Point at, const std::string& words, Align align = Align::start, double right = 0.0, double down = 0.0,

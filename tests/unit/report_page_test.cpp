@@ -1,5 +1,6 @@
 #include "core/file.hpp"
 #include "report/assets.hpp"
+#include "report/chart_data.hpp"
 #include "report/escape.hpp"
 #include "report/page_html.hpp"
 #include "report/sketch.hpp"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -43,13 +45,17 @@ Page hostile_page()
     curve.y = {1};
     chart.curves = {curve};
     chart.horizontal = chart.vertical = {{1.0, evil}};
+    chart.moving = Moving{0, evil, evil, {0.0}, {{1.0}}, 0};
+    StateMap map{evil, {0.0, 1.0}, {0.0, 1.0}, evil, {"<s", "s<"}, {{'<', evil, 1}, {'s', evil, -1}}, evil};
+    MeshView view{evil, {{0, 0}, {1, 0}, {1, 1}}, {{0, 1, 2, -1}}, 3, {{evil, evil}}, {}, evil};
+    view.states = {{evil, 0.0, {0, 0, 0}, {0, 0, 0}, 0.0, 0.0, {{1, 2, 3}}}};
     Sketch sketch({0, 0}, {10, 10}, 100);
     sketch.text({1, 1}, evil);
     sketch.level_mark({1, 1}, evil, Align::start);
     page.sections = {{evil,
                       {Paragraph{evil}, TablePart{table, Layout::rows, 1, Fold::open},
-                       TablePart{table, Layout::columns, 1, Fold::folded}, chart, Drawing{evil, sketch.svg(evil), evil},
-                       Listing{evil, evil}},
+                       TablePart{table, Layout::columns, 1, Fold::folded}, chart, map, view,
+                       Drawing{evil, sketch.svg(evil), evil}, Listing{evil, evil}},
                       Fold::open},
                      {evil, {}, Fold::folded}};
     return page;
@@ -59,8 +65,8 @@ TEST(ReportPage, NoTextOfTheUserBecomesMarkup)
 {
     const std::string html = page_html(hostile_page());
     EXPECT_EQ(html.find("<img"), std::string::npos);
-    // One for the chart's data, one for the library, one for the page's script.
-    EXPECT_EQ(occurrences(html, "</script>"), 3u);
+    // One for the data of chart, map and mesh each, one for the library, one for the page's scripts.
+    EXPECT_EQ(occurrences(html, "</script>"), 5u);
     EXPECT_NE(html.find("&lt;/script&gt;&lt;img"), std::string::npos);
     EXPECT_NE(html.find("\\u003c/script>"), std::string::npos);
 }
@@ -68,7 +74,8 @@ TEST(ReportPage, NoTextOfTheUserBecomesMarkup)
 TEST(ReportPage, TheEmbeddedScriptsEndWhereTheyShould)
 {
     EXPECT_EQ(uplot_script().find("</script"), std::string_view::npos);
-    EXPECT_EQ(page_script().find("</script"), std::string_view::npos);
+    for (const std::string_view script : {page_script(), state_map_script(), mesh_view_script()})
+        EXPECT_EQ(script.find("</script"), std::string_view::npos);
     EXPECT_EQ(uplot_license().find("*/"), std::string_view::npos);
     EXPECT_EQ(page_style().find("</style"), std::string_view::npos);
     EXPECT_EQ(uplot_style().find("</style"), std::string_view::npos);
@@ -123,7 +130,42 @@ TEST(ReportPage, VendoredFilesAreThoseOfTheirChecksums)
     EXPECT_EQ(sha256(uplot_script()), "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f");
     EXPECT_EQ(sha256(uplot_style()), "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04");
     EXPECT_EQ(page_script(), read_file(folder / "../../page.js"));
+    EXPECT_EQ(state_map_script(), read_file(folder / "../../state_map.js"));
+    EXPECT_EQ(mesh_view_script(), read_file(folder / "../../mesh_view.js"));
     EXPECT_EQ(page_style(), read_file(folder / "../../page.css"));
+}
+
+// Runs of a letter are counted; the scripts expand them. Coordinates and triangles as given.
+TEST(ReportPicture, DataIsWhatTheScriptsRead)
+{
+    const StateMap map{"m", {0.0, 0.5}, {0.0, 1.0, 3.0}, "from the heel", {"sss", "sdd"}, {{'s', "sticks", -1}}, ""};
+    const auto m = nlohmann::json::parse(state_map_json(map));
+    EXPECT_EQ(m["states"], (std::vector<std::string>{"3s", "s2d"}));
+    EXPECT_EQ(m["time"][1], 0.5);
+    EXPECT_EQ(m["kinds"][0]["colour"], -1);
+
+    MeshView view{"v", {{0, 0}, {2, 0}, {2, 1}}, {{0, 1, 2, -1}}, 3, {{"stress", "MPa"}}, {}, ""};
+    view.states = {{"end", 1.5, {0, 0, 0.25}, {0, 0, 0}, 0.125, 0.0, {{1, 2, std::nan("")}}}};
+    const auto v = nlohmann::json::parse(mesh_view_json(view));
+    EXPECT_EQ(v["elements"], (std::vector<int>{0, 1, 2, -1}));
+    EXPECT_EQ(v["x"][2], 2.0);
+    EXPECT_EQ(v["states"][0]["shift"][0], 0.125);
+    const auto& ux = v["states"][0]["ux"]; // whole multiples of a unit
+    EXPECT_NEAR(ux["n"][2].get<double>() * ux["unit"].get<double>(), 0.25, 1e-8 * 0.25);
+    EXPECT_TRUE(v["states"][0]["values"][0]["n"][2].is_null());
+}
+
+TEST(ReportPicture, AMovingCurveHasItsInstants)
+{
+    Chart chart;
+    chart.curves = {{"a", {0, 1}, {1, 2}, {}, {}, Mark::line, Weight::normal, 0}};
+    chart.moving = Moving{0, "time", "s", {0.0, 0.5}, {{1, 2}, {3, 4}}, 1};
+    const auto c = nlohmann::json::parse(chart_json(chart, common_abscissae(chart)));
+    EXPECT_EQ(c["moving"]["at"][1], 0.5);
+    EXPECT_EQ(c["moving"]["y"][1][0], 3.0);
+    EXPECT_EQ(c["moving"]["start"], 1);
+    chart.moving.reset();
+    EXPECT_TRUE(nlohmann::json::parse(chart_json(chart, common_abscissae(chart)))["moving"].is_null());
 }
 
 TEST(ReportEscape, HtmlAndJson)
