@@ -105,7 +105,9 @@ void HistoryRecorder::add()
     history_.energy.push_back(dynamics_.energy());
     history_.imbalance.push_back(dynamics_.energy_imbalance());
     add_lifts();
-    if (series_ == PairSeries::every_step) add_pairs();
+    if (series_ == PairSeries::none) return;
+    add_pairs();
+    history_.states.look(s, history_.slip.back(), history_.crest_x.back());
 }
 
 void HistoryRecorder::add_lifts()

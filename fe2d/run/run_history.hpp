@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/run/dynamic_contact.hpp"
+#include "fe2d/run/stored_states.hpp"
 
 #include <vector>
 
@@ -58,6 +58,7 @@ struct RunHistory {
     std::vector<double> imbalance;       ///< [J/m]
     std::vector<LiftHistory> lifts;      ///< from bottom to top
     PairHistory by_pair;                 ///< rows of `time`; empty with PairSeries::none
+    StateKeeper states;                  ///< displacements of some instants; empty with PairSeries::none
 };
 
 /// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
