@@ -6,6 +6,7 @@
 #include "cli/explain_command.hpp"
 #include "cli/fe_inputs.hpp"
 #include "cli/fe_output.hpp"
+#include "cli/fe_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/rigid_model.hpp"
@@ -13,6 +14,7 @@
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
+#include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
 
@@ -91,6 +93,8 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
 
     FieldSeries fields(arguments.out, model.model());
+    std::optional<FeReport> page;
+    if (!arguments.out.empty()) page.emplace(FeReport::Input{scene, plan, records, model, rigid, options.uplift});
     std::vector<ContactRun> runs;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
@@ -103,7 +107,9 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         if (r.fe.displacement.size())
             fields.add(r.record + "_end", r.fe.end_time, r.fe.displacement, r.fe.displacement,
                        contact_arrays(model.model().mesh, r.fe));
+        if (page) page->add(r, motion);
         r.fe.history.by_pair = {};
+        r.fe.history.states = {};
         progress.at(1000 * ++before);
     }
     auto j = json_header("fe");
@@ -137,6 +143,13 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         for (const std::string& message : run_messages(scene, runs)) streams.out << "note: " << message << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
+    if (page) {
+        std::vector<Table> tables{contact_energy_table(runs), contact_count_table(runs)};
+        if (exact) tables.insert(tables.begin(), contact_law_table(runs));
+        const std::filesystem::path file = arguments.out / "report.html";
+        write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs))));
+        if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
+    }
     const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };
     return runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), converged) ? exit_ok
                                                                                              : exit_no_convergence;

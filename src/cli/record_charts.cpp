@@ -21,13 +21,6 @@ using report::Weight;
 
 constexpr std::size_t named_records = 6;
 
-/// About 80 000 abscissae in all histories of one kind keep a report of any number of records at a few megabytes.
-void thin_for(report::Chart& chart, std::size_t records)
-{
-    chart.thin_above = std::clamp<std::size_t>(80000 / std::max<std::size_t>(records, 1), 800, 20000);
-    chart.thin_buckets = chart.thin_above / (2 * std::max<std::size_t>(chart.curves.size(), 1));
-}
-
 std::vector<double> sample_times(const GroundMotion& motion)
 {
     std::vector<double> t(motion.accel_h.size());
@@ -109,6 +102,12 @@ double peak(const std::vector<double>& a)
 }
 
 } // namespace
+
+void thin_for(report::Chart& chart, std::size_t records)
+{
+    chart.thin_above = std::clamp<std::size_t>(80000 / std::max<std::size_t>(records, 1), 800, 20000);
+    chart.thin_buckets = chart.thin_above / (2 * std::max<std::size_t>(chart.curves.size(), 1));
+}
 
 report::Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
 {

@@ -11,6 +11,10 @@ namespace damslip::cli {
 /// and all records faintly. @param jobs  threads, 0: all cores
 report::Chart spectra(const std::vector<GroundMotion>& motions, int jobs);
 
+/// Fewer samples in each chart of a history the more records there are: about 80 000 abscissae in all histories of one
+/// kind keep a report of any number of records at a few megabytes. Call it when the chart has its curves.
+void thin_for(report::Chart& chart, std::size_t records);
+
 /// Measures of the scaled horizontal components: PGA, PGV, I_A, duration, mean period; vertical PGA.
 Table record_table(const std::vector<GroundMotion>& motions);
 

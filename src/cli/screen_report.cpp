@@ -2,6 +2,7 @@
 
 #include "cli/explain_command.hpp"
 #include "cli/record_charts.hpp"
+#include "cli/report_provenance.hpp"
 #include "cli/screen_tables.hpp"
 #include "cli/section_drawing.hpp"
 #include "cli/slip_charts.hpp"
@@ -173,12 +174,6 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
     return sections;
 }
 
-std::string component_text(const Record& r)
-{
-    return fmt::format("{} ({}{}, {} samples, {:.4g} s), sha256 {}", r.source.file, r.source.format,
-                       r.source.unit.empty() ? "" : ", " + r.source.unit, r.acceleration.size(), r.dt, r.source.sha256);
-}
-
 std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
 {
     std::vector<std::pair<std::string, std::string>> list{
@@ -188,11 +183,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportIn
         {"method", in.scene.sliding.scheme == SlidingScheme::exact
                        ? "rigid block, events located exactly, acceleration linear between samples"
                        : "rigid block, SLAMMER's trapezoid scheme"}};
-    for (const RecordPair& pair : in.records) {
-        list.emplace_back("record " + pair.files.name, component_text(pair.horizontal));
-        if (pair.vertical)
-            list.emplace_back("record " + pair.files.name + ", vertical", component_text(*pair.vertical));
-    }
+    add_record_provenance(in.records, list);
     return list;
 }
 
@@ -217,10 +208,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
 std::vector<std::string> all_warnings(const ScreenReportInput& in)
 {
     std::vector<std::string> list = in.screening.warnings;
-    for (const RecordPair& pair : in.records)
-        for (const Record* r : {&pair.horizontal, pair.vertical ? &*pair.vertical : nullptr})
-            if (r)
-                for (const std::string& w : r->warnings) list.push_back(pair.files.name + ": " + w);
+    for (std::string& w : record_warnings(in.records)) list.push_back(std::move(w));
     return list;
 }
 

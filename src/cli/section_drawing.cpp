@@ -188,6 +188,20 @@ void draw_curtain_and_drains(Sketch& sketch, const Scene& scene, const Frame& f)
     sketch.text({x, y - depth}, fmt::format("drains, E = {:.3g}", scene.drains->efficiency), Align::start, 6, 12);
 }
 
+void draw_lift_joints(Sketch& sketch, const Scene& scene)
+{
+    for (const LiftJoint& joint : scene.lift_joints) {
+        const Polyline up = below(upstream_face(scene.section), joint.elevation),
+                       down = below(downstream_face(scene.section), joint.elevation);
+        if (up.empty() || down.empty()) continue;
+        sketch.line({up.back(), down.back()}, "joint");
+        sketch.text(down.back(),
+                    fmt::format("{} {:.4g} m, μ = {:.3g}", joint.name.empty() ? "lift joint" : joint.name,
+                                joint.elevation, joint.strength.friction),
+                    Align::start, 7, 4, "small halo");
+    }
+}
+
 void draw_forces(Sketch& sketch, const Scene& scene, const Frame& f)
 {
     if (scene.ice) {
@@ -247,7 +261,8 @@ void draw_signs(Sketch& sketch, const Frame& f)
 
 } // namespace
 
-report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift)
+report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift,
+                                const std::vector<Polyline>& mesh)
 {
     const bool wet =
         std::any_of(uplift.points.begin(), uplift.points.end(), [](const auto& p) { return p.pressure > 0; });
@@ -255,9 +270,11 @@ report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfi
     Sketch sketch({f.left, f.bottom}, {f.right, f.top}, drawing_width);
     draw_pools(sketch, scene, f);
     sketch.polygon(scene.section.polygon, "concrete");
+    if (!mesh.empty()) sketch.lines(mesh, "mesh");
     if (wet) draw_uplift(sketch, scene, f, uplift);
     draw_ground(sketch, f);
     draw_curtain_and_drains(sketch, scene, f);
+    draw_lift_joints(sketch, scene);
     draw_forces(sketch, scene, f);
     draw_dimensions(sketch, scene, f);
     draw_signs(sketch, f);
@@ -266,7 +283,9 @@ report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfi
     drawing.svg = sketch.svg(fmt::format("Cross-section, {:.4g} m high, base {:.4g} m, with water levels and uplift "
                                          "pressure along the base",
                                          f.crest, base_length(scene.section)));
-    if (wet) drawing.note = "Below the base: uplift pressure as the yield acceleration uses it.";
+    if (wet)
+        drawing.note = fmt::format("Below the base: uplift pressure as the {} uses it.",
+                                   mesh.empty() ? "yield acceleration" : "run before the earthquake");
     return drawing;
 }
 

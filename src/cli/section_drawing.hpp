@@ -9,6 +9,8 @@ namespace damslip::cli {
 /// The section to scale: concrete, water and its levels, silt, ice, forces, curtain, drains, the uplift pressure below
 /// the base, dimensions, axes and the sign convention.
 /// @param uplift  along the base, as the yield acceleration uses it
-report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift);
+/// @param mesh  lines of a mesh of the section, drawn in it; empty: none
+report::Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift,
+                                const std::vector<Polyline>& mesh = {});
 
 } // namespace damslip::cli

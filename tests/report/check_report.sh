@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
-# check_report.sh DAMSLIP CHROMIUM SCENE: makes the screening report of the scene and opens it in a headless browser.
-# Fails when the page's script reports an error, a chart is not drawn or empty, or the console says anything.
+# check_report.sh CHROMIUM LEAST_CHARTS LARGEST_BYTES DAMSLIP COMMAND SCENE [OPTION ...]: makes the report of `damslip COMMAND SCENE
+# OPTION ...` and opens it in a headless browser. Fails when the page's script reports an error, a chart or picture is not drawn or
+# empty, there are fewer of them than LEAST_CHARTS, the file is too large, or the console says anything.
 # With "#check" in its address the page unfolds all parts and looks for the colour of a curve in each chart (page.js).
 set -euo pipefail
-damslip=$1 chromium=$2 scene=$3
+chromium=$1 least=$2 largest=$3 damslip=$4 command=$5
+shift 5
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$damslip" screen "$scene" --out "$work/out" >"$work/stdout" 2>"$work/talk" || { cat "$work/talk"; exit 1; }
-page="$work/out/report.html"
+if [ "$command" = sweep ]; then out="$work/out/results.csv" page="$work/out/results.html"; mkdir "$work/out"
+else out="$work/out" page="$work/out/report.html"; fi
+"$damslip" "$command" "$@" --out "$out" >"$work/stdout" 2>"$work/talk" || { cat "$work/talk"; exit 1; }
 [ "$(tail -n 1 "$work/talk")" = "report: $page" ] || { echo "the last line of the talk does not name the report:"; cat "$work/talk"; exit 1; }
 
 timeout 90 "$chromium" --headless --no-sandbox --disable-gpu --disable-background-networking --user-data-dir="$work/profile" \
@@ -21,8 +24,10 @@ echo "$mark"
 status=0
 fail() { echo "FAIL: $1"; status=1; }
 [ "$(value state)" = drawn ] || fail "state is '$(value state)', errors: $(value errors)"
-[ -n "$(value charts)" ] && [ "$(value charts)" -ge 8 ] || fail "fewer than 8 charts"
+[ -n "$(value charts)" ] && [ "$(value charts)" -ge "$least" ] || fail "fewer than $least charts"
 [ "$(value drawn)" = "$(value charts)" ] || fail "charts not drawn"
 grep -q 'data-empty=""' <<<"$mark" || fail "empty charts: $(value empty)"
+bytes=$(stat -c %s "$page")
+[ "$bytes" -le "$largest" ] || fail "$bytes bytes, more than $largest"
 if grep CONSOLE "$work/log"; then fail "the console is not silent"; fi
 exit $status

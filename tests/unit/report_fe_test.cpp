@@ -1,0 +1,202 @@
+// The report of FE contact runs: its charts say what the runs say.
+#include "cli/contact_options.hpp"
+#include "cli/fe_inputs.hpp"
+#include "cli/fe_report.hpp"
+#include "core/units.hpp"
+#include "report/page_html.hpp"
+#include "scene/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::cli;
+
+/// The runs of the browser test's scene with their page, made once for all tests.
+struct FeReportRun {
+    Scene scene;
+    std::vector<RecordPair> records;
+    std::vector<ContactRun> runs;
+    report::Page page;
+};
+
+FeReportRun make_run()
+{
+    const Scene given = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report/fe_dam.toml");
+    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
+    FeReportRun out{fe_scene(given, plan), {}, {}, {}};
+    out.records = read_records(out.scene, plan);
+    SeepageSource seepage;
+    fe2d::RunOptions options = contact_options(out.scene, out.records, seepage);
+    options.pair_series = fe2d::PairSeries::every_step;
+    const fe2d::EarthquakeRun model(out.scene, options);
+    const RigidModel rigid = make_rigid_model(out.scene, seepage.profile_of(out.scene));
+    FeReport report({out.scene, plan, out.records, model, rigid, options.uplift});
+    for (const RecordPair& pair : out.records) {
+        const GroundMotion motion = ground_motion(out.scene, pair);
+        out.runs.push_back({pair.files.name, model.run(motion), slide_model(out.scene, rigid, motion, 1), {}});
+        report.add(out.runs.back(), motion);
+    }
+    out.page = report.page(out.runs, {contact_energy_table(out.runs)}, {"a message"});
+    return out;
+}
+
+const FeReportRun& fe_run()
+{
+    static const FeReportRun run = make_run();
+    return run;
+}
+
+template <class Part>
+std::vector<const Part*> parts_of(const report::Page& page)
+{
+    std::vector<const Part*> list;
+    for (const report::Section& section : page.sections)
+        for (const report::Part& part : section.parts)
+            if (const auto* p = std::get_if<Part>(&part)) list.push_back(p);
+    return list;
+}
+
+const report::Chart* chart_named(const std::string& title)
+{
+    for (const report::Chart* chart : parts_of<report::Chart>(fe_run().page))
+        if (chart->title == title) return chart;
+    return nullptr;
+}
+
+TEST(FeReportPage, EveryChartHasFiniteValuesInEachCurve)
+{
+    const auto charts = parts_of<report::Chart>(fe_run().page);
+    EXPECT_EQ(charts.size(), 2u * 9u + 1u); // seven histories and two charts of the base for each record, spectra
+    for (const report::Chart* chart : charts)
+        for (const report::Curve& curve : chart->curves)
+            EXPECT_TRUE(std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); }))
+                << chart->title << ", " << curve.name;
+}
+
+TEST(FeReportPage, SlipHistoriesEndAtTheSlipsOfTheTable)
+{
+    const ContactRun& run = fe_run().runs[0];
+    ASSERT_GT(run.fe.slip, 1e-3);
+    const report::Chart* slip = chart_named("pulses <1>: slip");
+    ASSERT_NE(slip, nullptr);
+    ASSERT_EQ(slip->curves.size(), 5u); // heel, middle, toe, mean, rigid
+    EXPECT_EQ(slip->curves[3].y.back(), run.fe.slip / units::mm);
+    EXPECT_EQ(slip->curves[4].name, "rigid block");
+    EXPECT_NEAR(slip->curves[4].y.back(), run.rigid->slip / units::mm, 1e-9 * run.rigid->slip / units::mm);
+}
+
+TEST(FeReportPage, PressureChartsIntegrateToTheForcesOfTheHistory)
+{
+    const fe2d::RunResult& fe = fe_run().runs[0].fe;
+    for (const auto& [what, force] : {std::pair{"effective pressure", &fe.history.normal_force},
+                                      {"shear, resisting downstream slip", &fe.history.shear_force}}) {
+        const report::Chart* chart = chart_named(std::string("pulses <1>: ") + what + " along the base");
+        ASSERT_NE(chart, nullptr);
+        ASSERT_TRUE(chart->moving);
+        const report::Moving& moving = *chart->moving;
+        EXPECT_LE(moving.at.size(), 152u);
+        EXPECT_EQ(moving.at.front(), fe.history.time.front());
+        EXPECT_EQ(moving.at.back(), fe.history.time.back());
+        EXPECT_EQ(moving.y[moving.start], chart->curves[moving.curve].y);
+        for (std::size_t k = 0; k < moving.at.size(); ++k) {
+            const auto row = std::find(fe.history.time.begin(), fe.history.time.end(), moving.at[k]);
+            ASSERT_NE(row, fe.history.time.end());
+            double sum = 0.0;
+            for (std::size_t i = 0; i < moving.y[k].size(); ++i)
+                sum += 1e6 * moving.y[k][i] * fe.pair_area[static_cast<Eigen::Index>(i)];
+            const double expected = (*force)[static_cast<std::size_t>(row - fe.history.time.begin())];
+            // The pairs' values are kept as float: 17 of them, each to 6e-8 of the largest, which the force bounds.
+            EXPECT_NEAR(sum, expected, 1e-5 * fe.history.normal_force[0]) << what << " at " << moving.at[k];
+        }
+    }
+}
+
+TEST(FeReportPage, StatesOfTheMapAddUpToTheLengthsOfTheHistory)
+{
+    const fe2d::RunResult& fe = fe_run().runs[0].fe;
+    const report::StateMap& map = *parts_of<report::StateMap>(fe_run().page)[0];
+    ASSERT_EQ(map.states.size(), fe.history.time.size());
+    for (std::size_t row = 0; row < map.states.size(); ++row) {
+        double open = 0.0, slips = 0.0;
+        for (std::size_t i = 0; i < map.states[row].size(); ++i) {
+            const double area = fe.pair_area[static_cast<Eigen::Index>(i)];
+            if (map.states[row][i] == 'o') open += area;
+            if (map.states[row][i] == 'd' || map.states[row][i] == 'u') slips += area;
+        }
+        EXPECT_NEAR(open, fe.history.open_length[row], 1e-12);
+        EXPECT_NEAR(slips, fe.history.slipping_length[row], 1e-12);
+    }
+}
+
+// Before the earthquake the vertical stresses just above the base carry weight less uplift: the mean of the dam's base
+// nodes' vertical stress, weighted by their lengths, is -(N' + U) / L. Stresses recovered at nodes of a mesh of 1 m on a
+// base of 16 m with singular ends: 10 %.
+TEST(FeReportPage, StressesAreThoseOfTheStaticState)
+{
+    const FeReportRun& r = fe_run();
+    const report::MeshView& view = *parts_of<report::MeshView>(r.page)[0];
+    ASSERT_GE(view.states.size(), 4u);
+    EXPECT_EQ(view.states[0].name, "before the earthquake");
+    EXPECT_EQ(view.states[0].shift_x, 0.0);
+    EXPECT_TRUE(std::is_sorted(view.states.begin(), view.states.begin() + 4,
+                               [](const auto& a, const auto& b) { return a.time < b.time; }));
+    for (const report::MeshView::State& s : view.states) {
+        EXPECT_EQ(s.ux.size(), view.nodes.size());
+        ASSERT_EQ(s.values.size(), view.fields.size());
+        for (const auto& values : s.values)
+            EXPECT_TRUE(std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }));
+    }
+    const fe2d::RunResult& fe = r.runs[0].fe;
+    const double uplift =
+        sliding::resultant(sliding::uplift_profile(r.scene, sliding::scene_uplift_state(r.scene), {}, {})).force;
+    double mean = 0.0;
+    for (Eigen::Index i = 0; i < fe.pair_area.size(); ++i)
+        for (std::size_t node = 0; node < view.front_nodes; ++node)
+            if (view.nodes[node].y == 0.0 && std::abs(view.nodes[node].x - fe.pair_distance[i]) < 1e-9)
+                mean += 1e6 * view.states[0].values[2][node] * fe.pair_area[i] / fe.pair_area.sum();
+    const double expected = -(fe.history.normal_force[0] + uplift) / fe.pair_area.sum();
+    EXPECT_NEAR(mean, expected, 0.1 * std::abs(expected));
+
+    // The last state of the first record has the slip of its end, drawn to scale.
+    const auto end =
+        std::find_if(view.states.begin(), view.states.end(), [](const auto& s) { return s.name == "pulses <1>: end"; });
+    ASSERT_NE(end, view.states.end());
+    EXPECT_EQ(end->shift_x, fe.history.slip.back());
+}
+
+TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
+{
+    const FeReportRun& r = fe_run();
+    Scene scene = r.scene;
+    std::vector<ContactRun> runs = r.runs;
+    const double slip = runs[0].fe.max_slip;
+    runs[0].fe.slip_error = 0.01 * slip;
+    runs[0].fe.after.status = runs[1].fe.after.status = fe2d::StageStatus::ok;
+    scene.criteria.allowable_slip = 0.99 * slip;
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    scene.criteria.allowable_slip = 1.005 * slip; // within what the time step leaves open
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
+    scene.criteria.allowable_slip = 1.02 * slip;
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::pass);
+    scene.criteria.allowable_slip.reset();
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::none);
+    runs[1].fe.after.status = fe2d::StageStatus::slides;
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    runs[1].fe.status = fe2d::RunStatus::unresolved;
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
+    runs[1].fe.status = fe2d::RunStatus::static_failure;
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    EXPECT_EQ(fe_headline(scene, {}).outcome, report::Outcome::none);
+}
+
+TEST(FeReportPage, SameBytesEachTime)
+{
+    EXPECT_EQ(report::page_html(fe_run().page), report::page_html(make_run().page));
+}
+
+} // namespace
