@@ -108,8 +108,10 @@ void add_sweep(Parser& p)
     sub->add_option("--penalty-stiffness", p.sweep.penalty_stiffness, "of fe-penalty [N/m3]")
         ->check(CLI::Range(1.0, 1e20));
     sub->add_option("--scheme", p.sweep.inputs.scheme, "exact (default) or slammer");
-    sub->add_option("-o,--out", p.sweep.out,
-                    "CSV file, a journal for --resume beside it; without it the rows go to standard output");
+    sub->add_option(
+        "-o,--out", p.sweep.out,
+        "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
+        "output");
     sub->add_option("-j,--jobs", p.sweep.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     add_sweep_parts(sub, p.sweep);
     sub->callback([&p] { p.chosen = [a = p.sweep](const Streams& s) { return sweep(a, s); }; });

@@ -3,6 +3,7 @@
 #include "cli/sweep_comparison.hpp"
 #include "cli/sweep_parts.hpp"
 #include "cli/sweep_plan.hpp"
+#include "cli/sweep_report.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
 #include "report/table_text.hpp"
@@ -133,8 +134,22 @@ struct Job {
     std::filesystem::path out; ///< of the sweep or of the part
 };
 
-int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<std::size_t>& wanted,
-           const SweepOutcome& outcome, const Streams& streams)
+/// The report beside the table: results.csv -> results.html. A part has none, nor has a table too large to be looked at.
+void put_report(const Job& job, const std::vector<RecordPair>& records, const Grid& grid, const Table& table,
+                const SweepOutcome& outcome, const Streams& streams)
+{
+    constexpr std::size_t largest_rows = 1'000'000;
+    if (job.out.empty() || job.shard || table.rows.size() > largest_rows) return;
+    std::vector<Table> tables;
+    if (outcome.fe) tables = {comparison(job.scene, grid, outcome), count_table(*outcome.fe)};
+    std::filesystem::path page = job.out;
+    page.replace_extension(".html");
+    write_file(page, sweep_report({job.scene, table, tables, records, job.out}));
+    if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+}
+
+int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
+           const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
     const Table table = table_of(grid, wanted, outcome);
     if (streams.form == Form::json)
@@ -152,6 +167,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
+    put_report(job, records, grid, table, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_convergence;
 }
 
@@ -174,7 +190,7 @@ int run(const Job& job, const std::vector<RecordPair>& records, const Streams& s
                                     outcome.rows.size(), outcome.wanted);
         return exit_no_convergence;
     }
-    const int code = finish(job, identity, grid, wanted, outcome, streams);
+    const int code = finish(job, identity, grid, records, wanted, outcome, streams);
     if (journal) journal->mark_done();
     return code;
 }

@@ -1,0 +1,151 @@
+// The report of a sweep: its charts say what the rows say.
+#include "cli/sweep_charts.hpp"
+#include "cli/sweep_report.hpp"
+#include "scene/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::cli;
+
+/// Rows as `sweep` writes them. Slip of a row in mm, chosen so that every row is told from every other:
+/// 100 (1 - μ) + 10 level index + record + method; polarity -1 slides half as far. Critical friction 0.7.
+Table sweep_rows(int records = 3)
+{
+    Table t;
+    for (const char* key : {"id", "friction", "level_m", "uplift", "reservoir", "scale", "polarity", "record", "method",
+                            "yield_acceleration_m_s2", "pga_m_s2", "slip_m", "max_slip_m", "slip_low_m", "slip_high_m",
+                            "critical_friction", "status"})
+        t.columns.push_back({key, key, "", 4});
+    std::int64_t id = 0;
+    for (const double friction : {0.9, 0.8, 0.65})
+        for (const double level : {60.0, 50.0})
+            for (const int polarity : {1, -1})
+                for (int record = 1; record <= records; ++record)
+                    for (const std::string method : {"rigid", "fe"}) {
+                        const bool stands = friction > 0.7;
+                        const double slip =
+                            1e-3 *
+                            (100 * (1 - friction) + (level == 60.0 ? 10 : 0) + record + (method == "fe" ? 20 : 0)) *
+                            (polarity > 0 ? 1.0 : 0.5);
+                        t.rows.push_back({id++, friction, level, std::string("linear"), std::string("auto"), 1.0,
+                                          std::int64_t{polarity}, "record " + std::to_string(record), method,
+                                          10.0 * (friction - 0.7), 2.0, stands ? Cell(slip) : Cell(),
+                                          stands ? Cell(slip) : Cell(), Cell{}, Cell{}, 0.7,
+                                          std::string(stands ? "at rest" : "static failure")});
+                    }
+    return t;
+}
+
+TEST(SweepReport, ViewReadsVariantsMethodsAndStaticFailures)
+{
+    const SweepView view = sweep_view(sweep_rows());
+    ASSERT_EQ(view.variants.size(), 2u);
+    EXPECT_EQ(view.variant_names[0], "level 60 m"); // only what differs
+    EXPECT_EQ(view.frictions, (std::vector<double>{0.65, 0.8, 0.9}));
+    EXPECT_EQ(view.records.size(), 3u);
+    EXPECT_EQ(std::count_if(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.fails_statically(); }),
+              24);
+    EXPECT_TRUE(std::none_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.unanswered(); }));
+}
+
+TEST(SweepReport, SlipOverFrictionIsTheLargestOfFewRecords)
+{
+    const SweepView view = sweep_view(sweep_rows());
+    const report::Chart chart = slip_over_friction(view, 0, 0.04);
+    ASSERT_EQ(chart.curves.size(), 2u);
+    const report::Curve& fe = chart.curves[1];
+    EXPECT_EQ(fe.name, "fe");
+    EXPECT_TRUE(fe.low.empty());
+    EXPECT_TRUE(std::isnan(fe.y[0])); // slides statically
+    EXPECT_NEAR(fe.y[1], 20 + 10 + 3 + 20, 1e-9);
+    ASSERT_EQ(chart.vertical.size(), 1u);
+    EXPECT_EQ(chart.vertical[0].at, 0.7);
+    ASSERT_EQ(chart.horizontal.size(), 1u);
+    EXPECT_EQ(chart.horizontal[0].at, 40.0);
+    EXPECT_NEAR(slip_over_friction(view, 1, {}).curves[0].y[1], 20 + 3, 1e-9);
+}
+
+TEST(SweepReport, SlipOverFrictionIsTheMedianOfManyRecordsWithABandOfOneMethod)
+{
+    const SweepView view = sweep_view(sweep_rows(5));
+    const report::Chart chart = slip_over_friction(view, 0, {});
+    ASSERT_EQ(chart.curves.size(), 2u);
+    const report::Curve& fe = chart.curves[1];
+    EXPECT_NEAR(fe.y[1], 20 + 10 + 3 + 20, 1e-9);
+    EXPECT_NEAR(fe.low[1], 20 + 10 + 1 + 20, 1e-9);
+    EXPECT_NEAR(fe.high[2], 10 + 10 + 5 + 20, 1e-9);
+    EXPECT_TRUE(chart.curves[0].low.empty());
+}
+
+TEST(SweepReport, FeOverRigidPairsTheSameMotions)
+{
+    const auto chart = fe_over_rigid(sweep_view(sweep_rows()));
+    ASSERT_TRUE(chart);
+    const report::Curve& fe = chart->curves[0];
+    ASSERT_EQ(fe.x.size(), 24u); // 2 frictions that stand, 2 levels, 2 polarities, 3 records
+    for (std::size_t i = 0; i < fe.x.size(); ++i) {
+        const double more = fe.y[i] - fe.x[i];
+        EXPECT_TRUE(std::abs(more - 20) < 1e-9 || std::abs(more - 10) < 1e-9) << more;
+    }
+    Table rigid_only = sweep_rows();
+    std::erase_if(rigid_only.rows, [](const auto& row) { return std::get<std::string>(row[8]) == "fe"; });
+    EXPECT_FALSE(fe_over_rigid(sweep_view(rigid_only)));
+}
+
+TEST(SweepReport, PointsOverTheYieldRatioAndYieldOverFriction)
+{
+    const SweepView view = sweep_view(sweep_rows());
+    const report::Chart ratio = slip_over_yield_ratio(view);
+    ASSERT_EQ(ratio.curves.size(), 2u);
+    EXPECT_EQ(ratio.curves[0].x.size(), 24u);
+    EXPECT_NEAR(ratio.curves[0].x.front(), 10.0 * 0.1 / 2.0, 1e-9);
+    EXPECT_NEAR(ratio.curves[0].x.back(), 10.0 * 0.2 / 2.0, 1e-9);
+    const report::Chart yield = yield_over_friction(view);
+    ASSERT_EQ(yield.curves.size(), 1u); // both levels have the same here
+    EXPECT_NEAR(yield.curves[0].y[0], -0.5, 1e-12);
+}
+
+Scene sweep_scene()
+{
+    return parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
+                       "0.6\n[criteria]\nallowable_slip_mm = 45\n",
+                       "block.toml", FileCheck::skip);
+}
+
+TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
+{
+    const Scene scene = sweep_scene();
+    Table rows = sweep_rows();
+    report::Page page = sweep_page({scene, rows, {}, {}, "results.csv"});
+    EXPECT_EQ(page.headline.outcome, report::Outcome::none);
+    EXPECT_NE(page.headline.sentence.find("72 rows: the largest slip is 53 mm (fe, μ = 0.8, record record 3)"),
+              std::string::npos)
+        << page.headline.sentence;
+    EXPECT_NE(page.headline.sentence.find("24 rows slide without any earthquake"), std::string::npos);
+    // FE slips above 45 mm: only at μ = 0.8 and the higher level, where the three records give 51, 52 and 53 mm.
+    EXPECT_NE(page.headline.sentence.find("3 of 24 slips by fe exceed the allowable 45 mm"), std::string::npos)
+        << page.headline.sentence;
+    EXPECT_TRUE(page.warnings.empty());
+
+    rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
+    rows.rows[1][16] = std::string("UNRESOLVED");
+    page = sweep_page({scene, rows, {}, {}, "results.csv"});
+    EXPECT_EQ(page.headline.outcome, report::Outcome::unresolved);
+    ASSERT_EQ(page.warnings.size(), 1u);
+    EXPECT_NE(page.warnings[0].find("UNRESOLVED"), std::string::npos);
+}
+
+TEST(SweepReport, ATableWithoutRowsHasAPageToo)
+{
+    const Scene scene = sweep_scene();
+    Table rows = sweep_rows();
+    rows.rows.clear();
+    EXPECT_NE(sweep_report({scene, rows, {}, {}, ""}).find("0 rows"), std::string::npos);
+}
+
+} // namespace
