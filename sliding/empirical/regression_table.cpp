@@ -1,6 +1,5 @@
-#include "sliding/empirical/regression.hpp"
+#include "sliding/empirical/regression_rows.hpp"
 
-#include <array>
 #include <cmath>
 
 // One row per regression. A new one is a new row; nothing else knows their number.
@@ -9,18 +8,6 @@ namespace {
 
 using Input = RegressionInput;
 using Inputs = RegressionInputs;
-
-template <int per_mille>
-double constant_sigma(const Inputs&)
-{
-    return per_mille / 1000.0;
-}
-
-/// c0 + c1 r + c2 r^2 + c3 r^3 + c4 r^4, the common part of Saygili & Rathje's models.
-double quartic(double r, double c0, double c1, double c2, double c3, double c4)
-{
-    return c0 + r * (c1 + r * (c2 + r * (c3 + r * c4)));
-}
 
 /// log10[(1 - r)^a r^-b], the common part of the ratio models.
 double ratio_term(const Inputs& x, double a, double b)
@@ -60,9 +47,11 @@ std::vector<ValidityRange> saygili_range()
     return {{Input::yield_coefficient, 0.05, 0.30}};
 }
 
-const std::array<Regression, 13>& table()
+} // namespace
+
+std::vector<Regression> rigid_block_rows()
 {
-    static const std::array<Regression, 13> rows{{
+    return {
         {"ambraseys-menu-1988",
          "Ambraseys & Menu 1988",
          "log10 D = 0.90 + log10[(1-r)^2.53 r^-1.09]",
@@ -216,15 +205,17 @@ const std::array<Regression, 13>& table()
          {},
          "more than 2,000 strong-motion components",
          rathje_saygili},
-    }};
-    return rows;
+    };
 }
-
-} // namespace
 
 std::span<const Regression> regressions()
 {
-    return table();
+    static const std::vector<Regression> table = [] {
+        std::vector<Regression> rows = rigid_block_rows();
+        for (auto more : {flexible_block_rows(), other_rows()}) rows.insert(rows.end(), more.begin(), more.end());
+        return rows;
+    }();
+    return table;
 }
 
 } // namespace damslip::sliding

@@ -2,6 +2,9 @@
 
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+
+#include <numbers>
 
 namespace damslip::cli {
 
@@ -47,7 +50,8 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
     return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
 }
 
-sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model)
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s)
 {
     Record horizontal;
     horizontal.dt = motion.dt;
@@ -60,6 +64,18 @@ sliding::RegressionInputs regression_inputs(const RecordPair& pair, const Ground
     inputs.pgv_cm_s = m.pgv / units::cm;
     inputs.mean_period_s = m.mean_period;
     inputs.magnitude = pair.files.magnitude;
+    // N_eq sine cycles of amplitude a_max and period T_m have the Arias intensity pi/(2g) N_eq T_m a_max^2/2.
+    if (m.mean_period && m.pga > 0.0)
+        inputs.cycles = 4.0 * units::standard_gravity * m.arias_intensity /
+                        (std::numbers::pi * *m.mean_period * m.pga * m.pga);
+    inputs.sa_13_g = inputs.sa_15_g = inputs.pga_g;
+    if (period_s > 0.0) {
+        inputs.period_s = period_s;
+        const double periods[] = {1.3 * period_s, 1.5 * period_s};
+        const auto spectrum = records::response_spectrum(motion.accel_h, motion.dt, periods, 0.05);
+        inputs.sa_13_g = spectrum.points[0].pseudo_acceleration / units::standard_gravity;
+        inputs.sa_15_g = spectrum.points[1].pseudo_acceleration / units::standard_gravity;
+    }
     return inputs;
 }
 

@@ -31,8 +31,9 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
                                  sliding::HistoryOutput history = sliding::HistoryOutput::none);
 
 /// What the regressions ask for, measured from the scaled horizontal component; magnitude as the scene gives it.
-sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion,
-                                            const RigidModel& model);
+/// @param period_s  T_s of the sliding mass [s]; 0: rigid, spectral accelerations are then the PGA
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s = 0.0);
 
 /// The same motion without its vertical component.
 GroundMotion horizontal_only(GroundMotion motion);

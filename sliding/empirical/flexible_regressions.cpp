@@ -1,0 +1,223 @@
+#include "sliding/empirical/regression_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// Sliding masses with a fundamental period T_s. A scene without a period is a rigid block: T_s = 0, S_a = a_max.
+namespace damslip::sliding {
+namespace {
+
+using Input = RegressionInput;
+using Inputs = RegressionInputs;
+
+constexpr std::string_view rathje_antonakos =
+    "Rathje, E.M. & Antonakos, G. (2011): A unified model for predicting earthquake-induced sliding displacements of "
+    "rigid and flexible slopes. Engineering Geology 122, 51-60";
+constexpr std::string_view bray_travasarou =
+    "Bray, J.D. & Travasarou, T. (2007): Simplified procedure for estimating earthquake-induced deviatoric slope "
+    "displacements. Journal of Geotechnical and Geoenvironmental Engineering 133, 381-392";
+constexpr std::string_view bray_macedo =
+    "Bray, J.D. & Macedo, J. (2019): Procedure for estimating shear-induced seismic slope displacement for shallow "
+    "crustal earthquakes. Journal of Geotechnical and Geoenvironmental Engineering 145, 04019106";
+constexpr std::string_view bray_macedo_travasarou =
+    "Bray, J.D., Macedo, J. & Travasarou, T. (2018): Simplified procedure for estimating seismic slope displacements "
+    "for subduction zone earthquakes. Journal of Geotechnical and Geoenvironmental Engineering 144, 04017124";
+
+double period(const Inputs& x)
+{
+    return x.period_s.value_or(0.0);
+}
+
+/// ln of T_s/T_m, at most 8, over `from`; 0 below it, where the mass is rigid.
+double log_period_ratio(const Inputs& x, double from)
+{
+    return std::log(std::clamp(period(x) / *x.mean_period_s, from, 8.0) / from);
+}
+
+/// Peak average acceleration of the mass [g]; a_max for T_s/T_m <= 0.1.
+double k_max(const Inputs& x)
+{
+    const double l = log_period_ratio(x, 0.1);
+    return x.pga_g * std::exp((0.459 - 0.702 * x.pga_g) * l + (-0.228 + 0.076 * x.pga_g) * l * l);
+}
+
+/// Peak of the integral of that acceleration [cm/s]; PGV for T_s/T_m <= 0.2.
+double k_vel_max(const Inputs& x)
+{
+    const double l = log_period_ratio(x, 0.2);
+    return *x.pgv_cm_s * std::exp(0.240 * l + (-0.091 - 0.171 * x.pga_g) * l * l);
+}
+
+/// The same inputs with k_max and k-vel_max in the place of a_max and PGV.
+Inputs of_the_mass(const Inputs& x)
+{
+    Inputs mass = x;
+    mass.pga_g = k_max(x);
+    if (x.pgv_cm_s) mass.pgv_cm_s = k_vel_max(x);
+    return mass;
+}
+
+double ratio_of_the_mass(const Inputs& x)
+{
+    return x.yield_coefficient / k_max(x);
+}
+
+double antonakos_pgv(const Inputs& x)
+{
+    const double t = period(x);
+    return find_regression("saygili-rathje-2008-pga-pgv")->log_median(of_the_mass(x)) + (t <= 0.5 ? 1.42 * t : 0.71);
+}
+
+double antonakos_magnitude(const Inputs& x)
+{
+    const double t = period(x);
+    return find_regression("rathje-saygili-2009")->log_median(of_the_mass(x)) +
+           (t <= 1.5 ? (3.69 - 1.22 * t) * t : 2.78);
+}
+
+bool rigid_for_bray_travasarou(const Inputs& x)
+{
+    return period(x) < 0.05;
+}
+
+double travasarou(const Inputs& x)
+{
+    const bool rigid = rigid_for_bray_travasarou(x);
+    const double ky = std::log(x.yield_coefficient), sa = std::log(rigid ? x.pga_g : *x.sa_15_g);
+    return (rigid ? -0.22 : -1.10 + 1.5 * period(x)) - 2.83 * ky - 0.333 * ky * ky + 0.566 * ky * sa + 3.04 * sa -
+           0.244 * sa * sa + 0.278 * (*x.magnitude - 7.0);
+}
+
+double travasarou_zero(const Inputs& x)
+{
+    const bool rigid = rigid_for_bray_travasarou(x);
+    const double ky = std::log(x.yield_coefficient), sa = std::log(rigid ? x.pga_g : *x.sa_15_g);
+    const double t = rigid ? 0.0 : period(x);
+    return normal_cdf(-(-1.76 - 3.22 * ky - 0.484 * t * ky + 3.52 * sa));
+}
+
+double macedo_rigid(const Inputs& x)
+{
+    const double ky = std::log(x.yield_coefficient), sa = std::log(x.pga_g);
+    return -4.684 - 2.482 * ky - 0.244 * ky * ky + 0.344 * ky * sa + 2.649 * sa - 0.090 * sa * sa +
+           0.603 * *x.magnitude;
+}
+
+double macedo_rigid_zero(const Inputs& x)
+{
+    const double ky = std::log(x.yield_coefficient);
+    return normal_cdf(-(-2.480 - 2.970 * ky - 0.120 * ky * ky + 2.780 * std::log(x.pga_g)));
+}
+
+double macedo(const Inputs& x)
+{
+    const double t = period(x), ky = std::log(x.yield_coefficient), sa = std::log(*x.sa_13_g);
+    const double of_period = t < 0.1 ? -4.551 - 9.690 * t : -5.894 + (3.152 - 0.910 * t) * t;
+    const double of_pulse = *x.pgv_cm_s > 115.0 ? std::log(*x.pgv_cm_s / 115.0) : 0.0;
+    return of_period - 2.491 * ky - 0.245 * ky * ky + 0.344 * ky * sa + 2.703 * sa - 0.089 * sa * sa +
+           0.607 * *x.magnitude + of_pulse;
+}
+
+double subduction(const Inputs& x)
+{
+    const double t = period(x), ky = std::log(x.yield_coefficient), sa = std::log(*x.sa_15_g);
+    const double of_period = t < 0.1 ? -5.864 - 9.421 * t : -6.896 + (3.081 - 0.803 * t) * t;
+    return of_period + 0.550 * *x.magnitude - 3.353 * ky - 0.390 * ky * ky + 0.538 * ky * sa + 3.060 * sa -
+           0.225 * sa * sa;
+}
+
+} // namespace
+
+double normal_cdf(double z)
+{
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+std::vector<Regression> flexible_block_rows()
+{
+    return {
+        {"rathje-antonakos-2011-pga-pgv",
+         "Rathje & Antonakos 2011, PGA, PGV",
+         "Saygili & Rathje 2008 (PGA, PGV) with kmax, k-velmax for amax, PGV; + 1.42 Ts (Ts <= 0.5 s) or 0.71",
+         Logarithm::natural,
+         antonakos_pgv,
+         [](const Inputs& x) { return 0.400 + 0.284 * ratio_of_the_mass(x); },
+         {Input::yield_coefficient, Input::pga, Input::pgv, Input::mean_period, Input::period},
+         {},
+         "as Saygili & Rathje 2008; Ts/Tm capped at 8",
+         rathje_antonakos,
+         EnsembleUse::estimate,
+         k_max},
+        {"rathje-antonakos-2011-pga-magnitude",
+         "Rathje & Antonakos 2011, PGA, M",
+         "Rathje & Saygili 2009 with kmax for amax; + 3.69 Ts - 1.22 Ts^2 (Ts <= 1.5 s) or 2.78",
+         Logarithm::natural,
+         antonakos_magnitude,
+         [](const Inputs& x) { return 0.694 + 0.32 * ratio_of_the_mass(x); },
+         {Input::yield_coefficient, Input::pga, Input::magnitude, Input::mean_period, Input::period},
+         {},
+         "as Rathje & Saygili 2009; Ts/Tm capped at 8",
+         rathje_antonakos,
+         EnsembleUse::estimate,
+         k_max},
+        {"bray-travasarou-2007",
+         "Bray & Travasarou 2007",
+         "ln D = -1.10 - 2.83 ln ky - 0.333 ln^2 ky + 0.566 ln ky ln Sa + 3.04 ln Sa - 0.244 ln^2 Sa + 1.5 Ts + 0.278 "
+         "(M - 7), Sa at 1.5 Ts; Ts < 0.05 s: -0.22 for -1.10, no Ts term, Sa = amax",
+         Logarithm::natural,
+         travasarou,
+         constant_sigma<660>,
+         {Input::yield_coefficient, Input::pga, Input::magnitude, Input::spectral_15},
+         {},
+         "688 records, 41 earthquakes; nonzero D",
+         bray_travasarou,
+         EnsembleUse::estimate,
+         nullptr,
+         travasarou_zero},
+        {"bray-macedo-2019-rigid",
+         "Bray & Macedo 2019, rigid",
+         "ln D = -4.684 - 2.482 ln ky - 0.244 ln^2 ky + 0.344 ln ky ln amax + 2.649 ln amax - 0.090 ln^2 amax + 0.603 "
+         "M",
+         Logarithm::natural,
+         macedo_rigid,
+         constant_sigma<720>,
+         {Input::yield_coefficient, Input::pga, Input::magnitude},
+         {{Input::period, 0.0, 0.0}},
+         "shallow crustal earthquakes, ordinary motions; nonzero D",
+         bray_macedo,
+         EnsembleUse::estimate,
+         peak_of_ground,
+         macedo_rigid_zero},
+        {"bray-macedo-2019",
+         "Bray & Macedo 2019, general",
+         "ln D = c1 + c2 Ts + c3 Ts^2 - 2.491 ln ky - 0.245 ln^2 ky + 0.344 ln ky ln Sa + 2.703 ln Sa - 0.089 ln^2 Sa "
+         "+ "
+         "0.607 M + [ln(PGV/115), PGV > 115 cm/s], Sa at 1.3 Ts; c = (-4.551, -9.690, 0) Ts < 0.1 s, (-5.894, 3.152, "
+         "-0.910) else",
+         Logarithm::natural,
+         macedo,
+         constant_sigma<740>,
+         {Input::yield_coefficient, Input::magnitude, Input::pgv, Input::period, Input::spectral_13},
+         {},
+         "shallow crustal earthquakes; nonzero D",
+         bray_macedo,
+         EnsembleUse::estimate,
+         nullptr},
+        {"bray-macedo-travasarou-2018",
+         "Bray, Macedo & Travasarou 2018 (subduction)",
+         "ln D = c1 + 0.550 M + c2 Ts + c3 Ts^2 - 3.353 ln ky - 0.390 ln^2 ky + 0.538 ln ky ln Sa + 3.060 ln Sa - "
+         "0.225 "
+         "ln^2 Sa, Sa at 1.5 Ts; c = (-5.864, -9.421, 0) Ts < 0.1 s, (-6.896, 3.081, -0.803) else",
+         Logarithm::natural,
+         subduction,
+         constant_sigma<730>,
+         {Input::yield_coefficient, Input::magnitude, Input::spectral_15},
+         {},
+         "subduction interface earthquakes; nonzero D",
+         bray_macedo_travasarou,
+         EnsembleUse::on_request,
+         nullptr},
+    };
+}
+
+} // namespace damslip::sliding

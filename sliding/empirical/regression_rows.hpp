@@ -1,0 +1,27 @@
+#pragma once
+
+#include "sliding/empirical/regression.hpp"
+
+/// The rows of the table by family. A new regression is a new row; nothing else knows their number.
+namespace damslip::sliding {
+
+std::vector<Regression> rigid_block_rows();    ///< Ambraseys & Menu, Jibson, Saygili & Rathje
+std::vector<Regression> flexible_block_rows(); ///< Rathje & Antonakos, Bray and co-authors
+std::vector<Regression> other_rows(); ///< Hynes-Griffin & Franklin, Yegian, Fotopoulou & Pitilakis, Hsieh & Lee
+
+template <int per_mille>
+double constant_sigma(const RegressionInputs&)
+{
+    return per_mille / 1000.0;
+}
+
+/// c0 + c1 x + c2 x^2 + c3 x^3 + c4 x^4
+inline double quartic(double x, double c0, double c1, double c2, double c3, double c4)
+{
+    return c0 + x * (c1 + x * (c2 + x * (c3 + x * c4)));
+}
+
+/// Distribution function of the standard normal, to round-off in both tails.
+double normal_cdf(double z);
+
+} // namespace damslip::sliding
