@@ -66,8 +66,8 @@ sliding::RegressionInputs regression_inputs(const RecordPair& pair, const Ground
     inputs.magnitude = pair.files.magnitude;
     // N_eq sine cycles of amplitude a_max and period T_m have the Arias intensity pi/(2g) N_eq T_m a_max^2/2.
     if (m.mean_period && m.pga > 0.0)
-        inputs.cycles = 4.0 * units::standard_gravity * m.arias_intensity /
-                        (std::numbers::pi * *m.mean_period * m.pga * m.pga);
+        inputs.cycles =
+            4.0 * units::standard_gravity * m.arias_intensity / (std::numbers::pi * *m.mean_period * m.pga * m.pga);
     inputs.sa_13_g = inputs.sa_15_g = inputs.pga_g;
     if (period_s > 0.0) {
         inputs.period_s = period_s;

@@ -1,8 +1,10 @@
 #include "cli/screening.hpp"
 
 #include "cli/seepage_source.hpp"
+#include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sliding/empirical/ensemble.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,19 +56,56 @@ std::string joined(const std::vector<std::string>& sentences)
     return out;
 }
 
+/// The scene's weights. @throws InputError for an id that no regression has.
+std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
+{
+    std::vector<sliding::RegressionWeight> weights;
+    for (const RegressionWeightKey& key : scene.regressions.weights) {
+        if (!sliding::find_regression(key.model)) {
+            std::string ids;
+            for (const sliding::Regression& r : sliding::regressions())
+                ids += (ids.empty() ? "" : ", ") + std::string(r.id);
+            throw InputError(Diagnostic{scene.file.string(), 0, 0,
+                                        fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
+                                        "write one of these"});
+        }
+        weights.push_back({key.model, key.weight});
+    }
+    return weights;
+}
+
+std::optional<double> metres(const std::optional<double>& value_cm)
+{
+    return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
+}
+
+/// The weighted mean with the 16 and 84 % of the weighted distribution; nothing where no regression is valid.
+std::optional<RegressionRow> ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
+{
+    if (!e.mean_cm) return std::nullopt;
+    std::string remark = fmt::format("{} valid regressions, {}; median {:.4g} mm; band: 16 and 84 %", e.members.size(),
+                                     weights_given ? "weights of the scene" : "equal weights", 10.0 * *e.median_cm);
+    if (weights_given && e.weight_left_out > 0.0)
+        remark +=
+            fmt::format("; {:.3g} % of the weight is on regressions without a valid value", 100.0 * e.weight_left_out);
+    return RegressionRow{record, "weighted mean", metres(e.mean_cm), metres(e.low_cm), metres(e.high_cm), remark};
+}
+
 std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
                                            const std::vector<RecordPair>& records)
 {
+    const std::vector<sliding::RegressionWeight> weights = regression_weights(scene);
     std::vector<RegressionRow> rows;
-    const auto metres = [](const std::optional<double>& value_cm) {
-        return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
-    };
-    for (const RecordPair& pair : records)
-        for (const sliding::RegressionResult& r :
-             sliding::evaluate_all(regression_inputs(pair, ground_motion(scene, pair), model)))
+    for (const RecordPair& pair : records) {
+        const auto results =
+            sliding::evaluate_all(regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period));
+        for (const sliding::RegressionResult& r : results)
             if (r.status != sliding::RegressionStatus::missing_input)
                 rows.push_back({pair.files.name, std::string(r.regression->name), metres(r.median_cm),
                                 metres(r.minus_sd_cm), metres(r.plus_sd_cm), joined(r.warnings)});
+        if (auto row = ensemble_row(pair.files.name, sliding::weighted_ensemble(results, weights), !weights.empty()))
+            rows.push_back(std::move(*row));
+    }
     return rows;
 }
 

@@ -717,6 +717,19 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          number("force_x", line_force, Range::any(), "0", "positive downstream", "50", at(&F::force_x)),
          number("force_y", line_force, Range::any(), "0", "positive up", "-200", at(&F::force_y))}));
     append(motion_groups());
+    groups.push_back(group("regressions", "Empirical regressions of the slip: what they need beyond the record.",
+                           &Scene::regressions,
+                           {number("period", seconds, Range::between(0, 10), "0 (rigid)",
+                                   "fundamental period of the sliding mass, for the regressions of flexible masses",
+                                   "0.3", at(&RegressionOptions::period))}));
+    using W = RegressionWeightKey;
+    groups.push_back(list_group<W>(
+        "regressions.weight",
+        "Weight of one regression in the weighted mean and band; without any, all that are valid count equally.",
+        [](Scene& s) -> std::vector<W>& { return s.regressions.weights; },
+        {word("model", "required", "id of a regression, as listed in docs/regressions.md", "\"jibson-2007-ratio\"",
+              at(&W::model)),
+         number("weight", none, Range::at_least(0), "1", "relative to the other weights", "2", at(&W::weight))}));
     groups.push_back(group(
         "criteria", "What is allowed.", &Scene::criteria,
         {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0), "none",

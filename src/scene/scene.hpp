@@ -194,6 +194,18 @@ struct Motion {
 enum class LiftOff { no_friction, ballistic };
 enum class SlidingScheme { exact, slammer };
 
+/// Weight of one empirical regression in the weighted mean and band.
+struct RegressionWeightKey {
+    std::string model;   ///< id, as in docs/regressions.md
+    double weight = 1.0; ///< relative to the others [-]
+};
+
+/// Empirical regressions of the slip.
+struct RegressionOptions {
+    double period = 0.0;                      ///< T_s of the sliding mass [s]; 0: rigid
+    std::vector<RegressionWeightKey> weights; ///< none: all that are valid, equally
+};
+
 /// Options of the rigid-block integration.
 struct SlidingOptions {
     SlidingScheme scheme = SlidingScheme::exact;
@@ -309,6 +321,7 @@ struct Scene {
     std::optional<Drains> drains;
     Motion motion;
     SlidingOptions sliding;
+    RegressionOptions regressions;
     std::vector<Combination> combinations; ///< empty: usual, seismic and post-seismic made from the scene
     Criteria criteria;
     MeshOptions mesh;

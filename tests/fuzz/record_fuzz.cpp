@@ -40,6 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (data[0] & 2) options.dt = 0.01;
     if (data[0] & 4) options.uneven = records::UnevenTime::resample;
     if (data[0] & 8) options.column = "2";
+    if (data[0] & 16) options.column = "up";
     const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
     try {
         for (const Record& record : records::parse_record(content, "fuzz", options)) check(record);

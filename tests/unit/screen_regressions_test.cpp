@@ -1,0 +1,87 @@
+// Regressions in `screen`: the weighted mean under those of each record, weights and period from the scene.
+#include "cli/screening.hpp"
+#include "core/input_error.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "scene/read.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace damslip;
+using namespace damslip::cli;
+
+/// A dry block on friction 0.1 (k_y = 0.1 * 9.81/9.80665) and ten cycles of 3 m/s^2 at 2 Hz.
+std::vector<RegressionRow> regression_rows_of(const std::string& tables, const std::string& of_record = "")
+{
+    Scene scene =
+        parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.1\n" +
+                        tables + "[[motion.record]]\nhorizontal = \"sine.csv\"\n" + of_record,
+                    "block.toml", FileCheck::skip);
+    Record sine;
+    sine.name = "sine", sine.dt = 0.01;
+    for (int k = 0; k <= 500; ++k) sine.acceleration.push_back(3.0 * std::sin(4.0 * std::acos(-1.0) * 0.01 * k));
+    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
+    scene = called_for(plan, scene);
+    std::vector<RecordPair> records;
+    records.push_back({scene.motion.records.at(0), sine, std::nullopt});
+    return run_screening(scene, plan, records, 1).regressions;
+}
+
+const RegressionRow* row_named(const std::vector<RegressionRow>& rows, const std::string& model)
+{
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RegressionRow& r) { return r.model == model; });
+    return row == rows.end() ? nullptr : &*row;
+}
+
+} // namespace
+
+TEST(ScreenRegressions, weighted_mean_is_the_last_row)
+{
+    const auto rows = regression_rows_of("");
+    ASSERT_FALSE(rows.empty());
+    EXPECT_EQ(rows.back().model, "weighted mean");
+    EXPECT_GT(*rows.back().median, 0.0);
+    EXPECT_LT(*rows.back().low, *rows.back().high);
+    EXPECT_NE(rows.back().remark.find("equal weights"), std::string::npos) << rows.back().remark;
+}
+
+TEST(ScreenRegressions, weights_of_the_scene)
+{
+    const auto rows = regression_rows_of("[[regressions.weight]]\nmodel = \"jibson-2007-ratio\"\nweight = 1\n"
+                                         "[[regressions.weight]]\nmodel = \"ambraseys-menu-1988\"\nweight = 3\n");
+    const RegressionRow *a = row_named(rows, "Ambraseys & Menu 1988"), *b = row_named(rows, "Jibson 2007 (6)");
+    ASSERT_TRUE(a && b);
+    EXPECT_NEAR(*rows.back().median, 0.75 * *a->median + 0.25 * *b->median, 1e-12);
+    EXPECT_NE(rows.back().remark.find("2 valid regressions, weights of the scene"), std::string::npos);
+    EXPECT_THROW(regression_rows_of("[[regressions.weight]]\nmodel = \"jibson-207\"\n"), InputError);
+}
+
+// A magnitude calls the models that ask for one; a period those of flexible masses.
+TEST(ScreenRegressions, magnitude_and_period)
+{
+    EXPECT_EQ(row_named(regression_rows_of(""), "Bray & Travasarou 2007"), nullptr);
+    const auto rigid = regression_rows_of("", "magnitude = 6.5\n");
+    EXPECT_NE(row_named(rigid, "Bray & Travasarou 2007"), nullptr);
+    EXPECT_EQ(row_named(rigid, "Bray & Macedo 2019, general"), nullptr);
+    const auto flexible = regression_rows_of("[regressions]\nperiod_s = 0.3\n", "magnitude = 6.5\n");
+    EXPECT_NE(row_named(flexible, "Bray & Macedo 2019, general"), nullptr);
+    EXPECT_NE(row_named(flexible, "Rathje & Antonakos 2011, PGA, M"), nullptr);
+    // The oscillators of 0.39 and 0.45 s are near the 0.5 s of the motion: more slip than of the rigid mass.
+    EXPECT_GT(*row_named(flexible, "Bray & Travasarou 2007")->median,
+              *row_named(rigid, "Bray & Travasarou 2007")->median);
+}
+
+// Ten sine cycles are ten equivalent cycles of their amplitude and period: Yegian's D = a_max N T^2 10^f(r). The mean
+// period of a finite sine is within 1 % of its period, and N T^2 with it.
+TEST(ScreenRegressions, equivalent_cycles_of_a_sine)
+{
+    const RegressionRow* row = nullptr;
+    const auto rows = regression_rows_of("");
+    ASSERT_TRUE((row = row_named(rows, "Yegian et al. 1991")));
+    const double r = 0.981 / 3.0;
+    const double expected = 3.0 * 10.0 * 0.25 * std::pow(10.0, 0.22 - 10.12 * r + 16.38 * r * r - 11.48 * r * r * r);
+    EXPECT_NEAR(*row->median / expected, 1.0, 0.02);
+}
