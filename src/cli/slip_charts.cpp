@@ -232,8 +232,8 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
         curve.x.push_back(static_cast<double>(chart.x.categories.size()));
         chart.x.categories.push_back(row.model);
         curve.y.push_back(row.median.value_or(nothing) / mm);
-        curve.low.push_back(row.low.value_or(nothing) / mm);
-        curve.high.push_back(row.high.value_or(nothing) / mm);
+        curve.low.push_back(row.low.value_or(row.median.value_or(nothing)) / mm); // no published sigma: no band
+        curve.high.push_back(row.high.value_or(row.median.value_or(nothing)) / mm);
     }
     if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return v > 0; })) return std::nullopt;
     chart.horizontal.push_back({worse_horizontal(s, number).horizontal.max_slip / mm, "rigid block, horizontal"});
