@@ -9,8 +9,8 @@
 /// An FE contact run as the report that is handed in.
 namespace damslip::cli {
 
-/// The whole answer in one sentence with its verdict. FAIL: no equilibrium before or after the earthquake, a slip above
-/// the allowable or without end. Unresolved: a run that did not end properly, or an allowable slip within what the time
+/// The whole answer in one sentence with its verdict. FAIL: no equilibrium before or after the earthquake, a slip of
+/// base or lift joint above the allowable or without end. Unresolved: a run that did not end properly, or an allowable slip within what the time
 /// step leaves open.
 report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_report.sh CHROMIUM LEAST_CHARTS LARGEST_BYTES DAMSLIP COMMAND SCENE [OPTION ...]: makes the report of `damslip COMMAND SCENE
 # OPTION ...` and opens it in a headless browser. Fails when the page's script reports an error, a chart or picture is not drawn or
-# empty, there are fewer of them than LEAST_CHARTS, the file is too large, or the console says anything.
+# empty, a slider, choice or key has no effect (interact.html), there are fewer charts than LEAST_CHARTS, the file is too large, or the console says anything.
 # With "#check" in its address the page unfolds all parts and looks for the colour of a curve in each chart (page.js).
 set -euo pipefail
 chromium=$1 least=$2 largest=$3 damslip=$4 command=$5
@@ -14,8 +14,9 @@ else out="$work/out" page="$work/out/report.html"; fi
 "$damslip" "$command" "$@" --out "$out" >"$work/stdout" 2>"$work/talk" || { cat "$work/talk"; exit 1; }
 [ "$(tail -n 1 "$work/talk")" = "report: $page" ] || { echo "the last line of the talk does not name the report:"; cat "$work/talk"; exit 1; }
 
+cat "$page" "$(dirname "$0")/interact.html" >"$work/copy.html"
 timeout 90 "$chromium" --headless --no-sandbox --disable-gpu --disable-background-networking --user-data-dir="$work/profile" \
-    --enable-logging=stderr --window-size=1100,900 --virtual-time-budget=4000 --dump-dom "file://$page#check" >"$work/dom" 2>"$work/log" ||
+    --enable-logging=stderr --window-size=1100,900 --virtual-time-budget=4000 --dump-dom "file://$work/copy.html#check" >"$work/dom" 2>"$work/log" ||
     { echo "the browser failed:"; tail -n 5 "$work/log"; exit 1; }
 
 mark=$(grep -o '<div id="drawn"[^>]*>' "$work/dom" || true)
@@ -27,6 +28,7 @@ fail() { echo "FAIL: $1"; status=1; }
 [ -n "$(value charts)" ] && [ "$(value charts)" -ge "$least" ] || fail "fewer than $least charts"
 [ "$(value drawn)" = "$(value charts)" ] || fail "charts not drawn"
 grep -q 'data-empty=""' <<<"$mark" || fail "empty charts: $(value empty)"
+grep -q 'data-interactions=""' <<<"$mark" || fail "without effect: $(value interactions)"
 bytes=$(stat -c %s "$page")
 [ "$bytes" -le "$largest" ] || fail "$bytes bytes, more than $largest"
 if grep CONSOLE "$work/log"; then fail "the console is not silent"; fi

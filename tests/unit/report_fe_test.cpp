@@ -183,6 +183,13 @@ TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
     scene.criteria.allowable_slip = 1.02 * slip;
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::pass);
+    fe2d::LiftResult neck;
+    neck.name = "neck";
+    neck.largest_slip = 1.03 * slip;
+    runs[1].fe.lifts = {neck};
+    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    EXPECT_NE(fe_headline(scene, runs).sentence.find("lift joint neck"), std::string::npos);
+    runs[1].fe.lifts.clear();
     scene.criteria.allowable_slip.reset();
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::none);
     runs[1].fe.after.status = fe2d::StageStatus::slides;
@@ -192,6 +199,32 @@ TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
     runs[1].fe.status = fe2d::RunStatus::static_failure;
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
     EXPECT_EQ(fe_headline(scene, {}).outcome, report::Outcome::none);
+}
+
+// A crest that goes 0, 3, 1, -2, 0 mm while the base slips 0, 1, 1, 1, 4 mm (downstream) at 0, 1, ... s: the lean is 0, 2,
+// 0, -3, -4 mm, so the farthest downstream is at 1 s, upstream at the end; the base is fastest from 3 to 4 s.
+TEST(StoredStates, AreThoseOfTheLargestLeansAndSlipRate)
+{
+    fe2d::StateKeeper keeper;
+    EXPECT_TRUE(keeper.states().empty());
+    const std::vector<double> crest{0, 3, 1, -2, 0}, slip{0, 1, 1, 1, 4};
+    for (std::size_t i = 0; i < crest.size(); ++i) {
+        fe2d::DynamicState state;
+        state.time = static_cast<double>(i);
+        state.u = Eigen::VectorXd::Constant(2, static_cast<double>(i));
+        keeper.look(state, 1e-3 * slip[i], 1e-3 * crest[i]);
+    }
+    const auto states = keeper.states();
+    ASSERT_EQ(states.size(), 5u);
+    const auto time_of = [&](fe2d::Instant instant) {
+        return std::find_if(states.begin(), states.end(), [&](const auto& s) { return s.instant == instant; })->time;
+    };
+    EXPECT_EQ(time_of(fe2d::Instant::start), 0.0);
+    EXPECT_EQ(time_of(fe2d::Instant::leans_downstream), 1.0);
+    EXPECT_EQ(time_of(fe2d::Instant::leans_upstream), 4.0);
+    EXPECT_EQ(time_of(fe2d::Instant::slides_fastest), 4.0);
+    EXPECT_EQ(time_of(fe2d::Instant::end), 4.0);
+    for (const auto& s : states) EXPECT_EQ(s.dam[0], s.time);
 }
 
 TEST(FeReportPage, SameBytesEachTime)
