@@ -54,7 +54,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
       stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
 {
     const auto start = Clock::now();
-    if (!full.structure().regular() || full.structure().slides_far()) return;
+    if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;
     const int wanted = std::max(modes, 2);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
     if (!reference.regular) return;
@@ -167,6 +167,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         result.message =
             full_.structure().slides_far()
                 ? "A reduced run needs small sliding: each dam node stays opposite its rock node."
+            : full_.structure().water()
+                ? "A reduced run has modes of the dam alone: water as added mass or hydrostatic, not acoustic."
                 : "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
         return result;
     }

@@ -9,24 +9,63 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-ContactStructure::ContactStructure(const Model& model, SlidingRange range) : model_(model), planes_(model.mesh)
+namespace {
+
+/// A matrix of the dam in the corner of a larger one, and another one added.
+SparseMatrix corner_and(const SparseMatrix& dam, const SparseMatrix& water)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index column = 0; column < dam.outerSize(); ++column)
+        for (SparseMatrix::InnerIterator it(dam, column); it; ++it) entries.emplace_back(it.row(), column, it.value());
+    SparseMatrix corner(water.rows(), water.cols());
+    corner.setFromTriplets(entries.begin(), entries.end());
+    return corner + water;
+}
+
+/// Water's unknowns stand alone with a number of the dam's size: at rest it takes no part.
+SparseMatrix at_rest(const SparseMatrix& dam, Index size)
+{
+    SparseMatrix alone(size, size);
+    const double unit = dam.diagonal().mean();
+    for (Index i = dam.rows(); i < size; ++i) alone.insert(i, i) = unit;
+    return corner_and(dam, alone);
+}
+
+} // namespace
+
+ContactStructure::ContactStructure(const Model& model, SlidingRange range, const WaterBody* water)
+    : model_(model), water_(water), planes_(model.mesh)
 {
     const Mesh& mesh = model.mesh;
     const Index dam = dam_dof_count(mesh, model.dofs);
     assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
-    const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam);
-    order_ = interface_last(stiffness, planes_.nodes());
+    const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam),
+                       mass = model.moving_mass().topLeftCorner(dam, dam);
+    if (water_) {
+        const SparseMatrix all = corner_and(stiffness, water_->stiffness) + water_->damping + water_->mass;
+        order_ = interface_last(all, planes_.nodes());
+        stiffness_ = order_.to_new(corner_and(stiffness, water_->stiffness));
+        mass_ = order_.to_new(corner_and(mass, water_->mass));
+        gyration_ = order_.to_new(water_->damping);
+        velocity_x_ = order_.to_new(water_->velocity_x);
+        velocity_y_ = order_.to_new(water_->velocity_y);
+        displacement_y_ = order_.to_new(water_->displacement_y);
+        for (Index node = dam / 2; node < order_.nodes(); ++node)
+            water_nodes_.push_back(order_.new_node[static_cast<std::size_t>(node)]);
+    } else {
+        order_ = interface_last(stiffness, planes_.nodes());
+        stiffness_ = order_.to_new(stiffness);
+        mass_ = order_.to_new(mass);
+    }
     anchor_.assign(static_cast<std::size_t>(order_.nodes()), 2 * order_.new_node[mesh.contact.dam_nodes.front()]);
     for (Index k = 1; k < planes_.count(); ++k) // upper blocks take theirs from the lower ones
         for (std::size_t node = 0; node < planes_.above(k).size(); ++node)
             if (planes_.above(k)[node])
                 anchor_[static_cast<std::size_t>(order_.new_node[node])] =
                     2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
-    stiffness_ = order_.to_new(stiffness);
-    mass_ = order_.to_new(SparseMatrix(model.moving_mass().topLeftCorner(dam, dam)));
-    inertia_x_ = order_.to_new(VectorXd(model.inertia_x.head(dam)));
-    inertia_y_ = order_.to_new(VectorXd(model.inertia_y.head(dam)));
-    static_factor_.emplace(stiffness_, order_.inner);
+    inertia_x_ = order_.to_new(extended(model.inertia_x.head(dam)));
+    inertia_y_ = order_.to_new(extended(model.inertia_y.head(dam)));
+    static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner);
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
         slides_far_ = range == SlidingRange::finite;
@@ -94,10 +133,15 @@ VectorXd loads_by_node(const Model& model, const VectorXd& load)
 
 } // namespace
 
+VectorXd ContactStructure::to_order(const VectorXd& all) const
+{
+    return order_.to_new(extended(all.head(2 * model_.mesh.dam_node_count)));
+}
+
 SplitLoad ContactStructure::split(const VectorXd& load) const
 {
     SplitLoad result;
-    result.dam = order_.to_new(VectorXd(load.head(dam_unknowns())));
+    result.dam = to_order(load);
     result.rock = VectorXd::Zero(2 * rock_count_);
     if (!has_rock()) return result;
     VectorXd rock = rock_order_.to_new(loads_by_node(model_, load));
@@ -106,12 +150,33 @@ SplitLoad ContactStructure::split(const VectorXd& load) const
     return result;
 }
 
+VectorXd ContactStructure::extended(const VectorXd& dam) const
+{
+    VectorXd result = VectorXd::Zero(water_ ? water_->size : dam.size());
+    result.head(dam.size()) = dam;
+    return result;
+}
+
+void ContactStructure::clear_water(VectorXd& vector) const
+{
+    for (const Index node : water_nodes_) vector.segment<2>(2 * node).setZero();
+}
+
+SparseMatrix ContactStructure::of_dam(const SparseMatrix& matrix) const
+{
+    if (!water_) return matrix;
+    VectorXd keep = VectorXd::Ones(matrix.rows());
+    clear_water(keep);
+    return SparseMatrix(keep.asDiagonal() * matrix * keep.asDiagonal()).pruned();
+}
+
 void ContactStructure::take_off_translations(const VectorXd& u, VectorXd& deformation) const
 {
     deformation.resize(u.size());
     for (Index node = 0; node < order_.nodes(); ++node)
         deformation.segment<2>(2 * node) =
             u.segment<2>(2 * node) - u.segment<2>(anchor_[static_cast<std::size_t>(node)]);
+    for (const Index node : water_nodes_) deformation.segment<2>(2 * node) = u.segment<2>(2 * node);
 }
 
 Pairing::Matrix ContactStructure::trace(double slip) const
@@ -145,7 +210,8 @@ VectorXd ContactStructure::rock_load(const SplitLoad& load, const Pairing::Matri
 VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, const VectorXd& load) const
 {
     VectorXd all(model_.dofs.count);
-    all.head(dam_unknowns()) = order_.to_old(dam);
+    const Index moving = 2 * model_.mesh.dam_node_count;
+    all.head(moving) = order_.to_old(dam).head(moving);
     if (!has_rock()) return all;
     VectorXd inner = rock_order_.to_new(loads_by_node(model_, load));
     rock_factor_->forward(inner);

@@ -4,6 +4,7 @@
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/interface_factor.hpp"
 #include "fe2d/run/pairing.hpp"
+#include "fe2d/run/water_body.hpp"
 
 #include <optional>
 
@@ -31,7 +32,9 @@ enum class SlidingRange {
 class ContactStructure {
 public:
     /// @param model  built with Base::separate; kept by reference
-    explicit ContactStructure(const Model& model, SlidingRange range = SlidingRange::small);
+    /// @param water  moves with the dam, kept by reference; its unknowns stand among the dam's inner ones. Null: none
+    explicit ContactStructure(const Model& model, SlidingRange range = SlidingRange::small,
+                              const WaterBody* water = nullptr);
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
     const Model& model() const { return model_; }
@@ -43,8 +46,17 @@ public:
     /// elastic forces do not feel it; taken off, metres of slip cost no digits of them.
     void take_off_translations(const Eigen::VectorXd& u, Eigen::VectorXd& deformation) const;
     const NodeOrder& order() const { return order_; }
-    const SparseMatrix& stiffness() const { return stiffness_; } ///< of the dam, in its node order
-    const SparseMatrix& mass() const { return mass_; }           ///< of the dam with added mass, in its node order
+    /// Of the dam in its node order, and of the water with CoupledSystem's signs; mass with added mass.
+    const SparseMatrix& stiffness() const { return stiffness_; }
+    const SparseMatrix& mass() const { return mass_; }
+    const WaterBody* water() const { return water_; }          ///< null: none
+    const SparseMatrix& gyration() const { return gyration_; } ///< coupling and damping of the water, in the same order
+    /// Ground loads on the water, in the same order (WaterBody).
+    const Eigen::VectorXd& velocity_x() const { return velocity_x_; }
+    const Eigen::VectorXd& velocity_y() const { return velocity_y_; }
+    const Eigen::VectorXd& displacement_y() const { return displacement_y_; }
+    void clear_water(Eigen::VectorXd& vector) const;       ///< zeros on the water's unknowns; nothing without water
+    SparseMatrix of_dam(const SparseMatrix& matrix) const; ///< without rows and columns of the water
     const Eigen::VectorXd& inertia_x() const { return inertia_x_; }
     const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
     bool has_rock() const { return rock_factor_.has_value(); }
@@ -61,8 +73,10 @@ public:
 
     std::size_t rock_bytes() const; ///< of its factor and the two dense matrices; 0 for a rigid base
 
-    Eigen::Index dam_unknowns() const { return mass_.rows(); }
+    Eigen::Index dam_unknowns() const { return mass_.rows(); } ///< and the water's
     Eigen::Index inner_unknowns() const { return 2 * order_.inner; }
+    /// The dam's part of a vector on all unknowns of the model, in its node order.
+    Eigen::VectorXd to_order(const Eigen::VectorXd& all) const;
     SplitLoad split(const Eigen::VectorXd& load) const; ///< of a load on all unknowns of the model
     /// On the rock when the trace of its displacements on the pairs is `trace`.
     Eigen::VectorXd rock_load(const SplitLoad& load, const Pairing::Matrix& trace) const;
@@ -75,11 +89,15 @@ private:
     void condense_rock(const std::vector<int>& contact_nodes);
 
     const Model& model_;
+    const WaterBody* water_;
     ContactPlanes planes_;
     NodeOrder order_, rock_order_;
-    std::vector<Eigen::Index> anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block
-    SparseMatrix stiffness_, mass_;
-    Eigen::VectorXd inertia_x_, inertia_y_;
+    std::vector<Eigen::Index>
+        anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block
+    SparseMatrix stiffness_, mass_, gyration_;
+    Eigen::VectorXd inertia_x_, inertia_y_, velocity_x_, velocity_y_, displacement_y_;
+    std::vector<Eigen::Index> water_nodes_;                     ///< in the dam's order
+    Eigen::VectorXd extended(const Eigen::VectorXd& dam) const; ///< zeros for the water behind
     std::optional<InterfaceFactor> static_factor_, rock_factor_;
     std::optional<Pairing> pairing_;
     bool slides_far_ = false;

@@ -125,6 +125,7 @@ void DynamicContact::multiply(const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha, b = damping_.constants.stiffness;
     combined_ = (b * (c.scheme.alpha + w * c.a4)) * state_.v + (b * w * c.a5) * state_.a;
+    structure_.clear_water(combined_);
     structure_.take_off_translations(state_.u, deformation_);
     operators_->products().multiply({deformation_, combined_, state_.v, state_.a}, products_);
 }
@@ -136,8 +137,22 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
     const double a_m = damping_.constants.mass, b_k = damping_.constants.stiffness;
     const double h = w * ground.h - alpha * state_.ground.h, v = w * ground.v - alpha * state_.ground.v;
     // Relative to the ground, which accelerates by (-a_h, +a_v), the load is -M r_x (-a_h) - M r_y a_v.
-    free_.dam = load_.dam + h * structure_.inertia_x() - v * structure_.inertia_y() - products_.stiffness_1 +
-                products_.stiffness_2 + (c.a2 + a_m * cv) * products_.mass_1 + (c.a3 + a_m * ca) * products_.mass_2;
+    if (structure_.water()) {
+        free_.dam = (a_m * cv) * products_.mass_1 + (a_m * ca) * products_.mass_2;
+        structure_.clear_water(free_.dam); // Rayleigh damping is the dam's
+        free_.dam += load_.dam + h * structure_.inertia_x() - v * structure_.inertia_y() - products_.stiffness_1 +
+                     products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2;
+        free_.dam += structure_.gyration() * VectorXd(cv * state_.v + ca * state_.a);
+        const auto weighted = [&](double GroundAcceleration::*part) {
+            return w * ground.*part - alpha * state_.ground.*part;
+        };
+        free_.dam += weighted(&GroundAcceleration::displacement_v) * structure_.displacement_y() -
+                     weighted(&GroundAcceleration::velocity_h) * structure_.velocity_x() +
+                     weighted(&GroundAcceleration::velocity_v) * structure_.velocity_y();
+    } else {
+        free_.dam = load_.dam + h * structure_.inertia_x() - v * structure_.inertia_y() - products_.stiffness_1 +
+                    products_.stiffness_2 + (c.a2 + a_m * cv) * products_.mass_1 + (c.a3 + a_m * ca) * products_.mass_2;
+    }
     known_ = alpha * state_.contact.force;
     if (slip_damping_.active()) {
         const VectorXd slip = slip_damping_.weights.transpose() * (cv * rate_t_ + ca * accel_t_);
@@ -254,7 +269,15 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
 ContactReport DynamicContact::in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts)
 {
     ++counts_.halved;
-    const GroundAcceleration middle{0.5 * (state_.ground.h + ground.h), 0.5 * (state_.ground.v + ground.v)};
+    const auto mean = [&](double GroundAcceleration::*part) { return 0.5 * (state_.ground.*part + ground.*part); };
+    GroundAcceleration middle; // velocities by the trapezoid, displacements by velocities: acceleration is linear
+    for (const auto part : {&GroundAcceleration::h, &GroundAcceleration::v, &GroundAcceleration::velocity_h,
+                            &GroundAcceleration::velocity_v, &GroundAcceleration::displacement_v})
+        middle.*part = mean(part);
+    const double eighth = dt / 8.0;
+    middle.velocity_h -= eighth * (ground.h - state_.ground.h);
+    middle.velocity_v -= eighth * (ground.v - state_.ground.v);
+    middle.displacement_v -= eighth * (ground.velocity_v - state_.ground.velocity_v);
     const ContactReport first = step(0.5 * dt, middle, law, cuts - 1);
     ContactReport second = step(0.5 * dt, ground, law, cuts - 1);
     second.path = std::max(first.path, second.path);

@@ -2,6 +2,7 @@
 
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/step_operators.hpp"
+#include "fe2d/run/water_ledger.hpp"
 #include "fe2d/time/energy.hpp"
 
 #include <map>
@@ -14,6 +15,8 @@ namespace damslip::fe2d {
 struct GroundAcceleration {
     double h = 0.0; ///< positive upstream: drives the dam downstream [m/s²]
     double v = 0.0; ///< positive up [m/s²]
+    double velocity_h = 0.0, velocity_v = 0.0,
+           displacement_v = 0.0; ///< integrals, felt by acoustic water [m/s, m/s, m]
 };
 
 /// Motion relative to the ground and contact at one instant.
@@ -111,15 +114,17 @@ private:
     PairProblem& problem_of(const DynamicOperator& op);
     const StepContact& step_contact(const DynamicOperator& op, const PairProblem& problem) const;
 
-    void begin(double dt, const GroundAcceleration& ground);                 ///< right-hand side of a step on free_.dam
-    ContactReport solve_contact(const ContactLaw& law);                      ///< after the forward pass
-    void accept();                                                           ///< before the backward pass
-    void end(const GroundAcceleration& ground, const ContactReport& report, const ContactLaw& law); ///< the step itself, once Δu is known
+    void begin(double dt, const GroundAcceleration& ground); ///< right-hand side of a step on free_.dam
+    ContactReport solve_contact(const ContactLaw& law);      ///< after the forward pass
+    void accept();                                           ///< before the backward pass
+    void end(const GroundAcceleration& ground, const ContactReport& report,
+             const ContactLaw& law); ///< the step itself, once Δu is known
     ContactReport step(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
     ContactReport in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
 
     void land(const ContactStates& before, const ContactLaw& law);
     void multiply(const StepConstants& constants);
+    WaterLedger::Instant water_instant() const;
     void start_ledger();
     void gather_forces(Forces& forces) const;
     void add_energy(const StepConstants& constants, const Eigen::VectorXd& gap_step,
@@ -159,6 +164,8 @@ private:
     GroundAcceleration ground_before_;
     Energy energy_, energy_start_;
     double energy_scale_ = 0.0;
+    std::shared_ptr<const WaterLedger> water_ledger_; ///< null: no acoustic water
+    WaterLedger::Instant water_, water_before_, water_before2_;
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     DynamicCounts counts_;
 

@@ -11,7 +11,7 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
 {
     JointSolver& solver = *problems_[op_].solver;
     const ContactStates& states = state_.contact.states;
-    if (!solver.lands() || states == before) return;
+    if (!solver.lands() || states == before || structure_.water()) return; // impulses on acoustic water: not yet
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
     bool newly = false;
     for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);

@@ -20,8 +20,13 @@ MatrixXd symmetric_inverse(const MatrixXd& matrix)
 SparseMatrix dam_matrix(const ContactStructure& structure, const RunDamping& damping, const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha;
-    return (c.a0 + w * c.a1 * damping.constants.mass) * structure.mass() +
-           w * (1.0 + c.a1 * damping.constants.stiffness) * structure.stiffness();
+    if (!structure.water())
+        return (c.a0 + w * c.a1 * damping.constants.mass) * structure.mass() +
+               w * (1.0 + c.a1 * damping.constants.stiffness) * structure.stiffness();
+    return c.a0 * structure.mass() + w * structure.stiffness() +
+           w * c.a1 *
+               (damping.constants.mass * structure.of_dam(structure.mass()) +
+                damping.constants.stiffness * structure.of_dam(structure.stiffness()) + structure.gyration());
 }
 
 } // namespace
@@ -31,8 +36,8 @@ SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& da
 {
     if (damping.mass != MassDamping::deformation_only || damping.constants.mass == 0.0) return;
     const MatrixXd motions = sliding_motions(structure.planes());
-    MatrixXd ordered(motions.rows(), motions.cols());
-    for (Index k = 0; k < motions.cols(); ++k) ordered.col(k) = structure.order().to_new(VectorXd(motions.col(k)));
+    MatrixXd ordered(structure.dam_unknowns(), motions.cols());
+    for (Index k = 0; k < motions.cols(); ++k) ordered.col(k) = structure.to_order(motions.col(k));
     momentum = damping.constants.mass * (structure.mass() * ordered);
     drag = ordered.transpose() * momentum;
 }
@@ -40,7 +45,7 @@ SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& da
 DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDamping& damping,
                                  const SlipDamping& slip_damping, const StepConstants& constants)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
-      factor_(dam_matrix(structure, damping, constants), structure.order().inner)
+      factor_(dam_matrix(structure, damping, constants), structure.order().inner, structure.water() ? -1 : 0)
 {
     if (!factor_.regular()) return;
     const double w = 1.0 + constants.scheme.alpha;

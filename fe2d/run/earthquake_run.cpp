@@ -1,7 +1,7 @@
 #include "fe2d/run/earthquake_run.hpp"
 
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/run/ground_input.hpp"
+#include "fe2d/time/coupled_structure.hpp"
 
 #include <fmt/format.h>
 
@@ -61,7 +61,9 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
 {
     const auto start = Clock::now();
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
-    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range);
+    if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
+        water_ = std::make_unique<WaterBody>(scene_, *model_);
+    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, water_.get());
     stages_ = load_stages(scene_, *model_, options_.uplift);
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
@@ -87,6 +89,10 @@ void EarthquakeRun::find_damping()
         return;
     }
     const Model tied = build_model(scene_, model_options(options_, Base::tied));
+    if (water_) { // the leading modes, without those of the water alone
+        damping_.constants = damping_of(scene_, tied, water_->water, {}).constants;
+        return;
+    }
     const int modes = std::max(wanted.first_mode, wanted.second_mode);
     const NaturalModes natural = natural_modes(tied, modes);
     if (natural.frequency.size() < modes) {

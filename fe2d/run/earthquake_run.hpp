@@ -104,6 +104,7 @@ public:
     EarthquakeRun& operator=(const EarthquakeRun&) = delete;
 
     const Model& model() const { return *model_; }
+    const WaterBody* water() const { return water_.get(); } ///< acoustic; null: none
     const ContactStructure& structure() const { return *structure_; }
     const RayleighConstants& damping() const { return damping_.constants; }
     double seconds() const { return seconds_; }                                ///< that making it ready took
@@ -135,6 +136,7 @@ private:
     Scene scene_;
     RunOptions options_;
     std::unique_ptr<Model> model_;
+    std::unique_ptr<WaterBody> water_; ///< acoustic; null: none
     std::unique_ptr<ContactStructure> structure_;
     std::shared_ptr<const StaticOperator> statics_;
     std::shared_ptr<StepOperators> operators_;

@@ -4,7 +4,8 @@
 
 namespace damslip::fe2d {
 
-GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient) : motion_(motion)
+GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient)
+    : motion_(motion), history_(motion)
 {
     if (damping != MassDamping::total || mass_coefficient == 0.0) return;
     // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
@@ -16,12 +17,14 @@ GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double
 GroundAcceleration GroundInput::at(double time) const
 {
     const double place = time / motion_.dt, last = static_cast<double>(motion_.accel_h.size() - 1);
-    if (place > last * (1.0 + 1e-12)) return {};
+    const GroundState ground = history_.at(time);
+    if (place > last * (1.0 + 1e-12)) return {0.0, 0.0, ground.velocity_h, ground.velocity_v, ground.displacement_v};
     const double clamped = std::clamp(place, 0.0, last);
     const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
     const double share = clamped - static_cast<double>(k);
     const auto value = [&](const std::vector<double>& a) { return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]); };
-    return {value(motion_.accel_h), value(motion_.accel_v)};
+    return {value(motion_.accel_h), value(motion_.accel_v), ground.velocity_h, ground.velocity_v,
+            ground.displacement_v};
 }
 
 void GroundInput::add_velocity(std::vector<double>& acceleration, double coefficient) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/run/dynamic_contact.hpp"
+#include "fe2d/time/ground_load.hpp"
 #include "records/record.hpp"
 #include "scene/scene.hpp"
 
@@ -19,6 +20,7 @@ private:
     void add_velocity(std::vector<double>& acceleration, double coefficient) const;
 
     GroundMotion motion_;
+    GroundHistory history_; ///< of the motion itself
 };
 
 } // namespace damslip::fe2d

@@ -8,7 +8,7 @@ namespace damslip::fe2d {
 
 using Eigen::Index;
 
-InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes) : inner_(inner_nodes)
+InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative) : inner_(inner_nodes)
 {
     // The interface part may be singular; with a multiple of the identity added it is not, and taking it off again
     // costs one rounding because it is of the size of the diagonal.
@@ -19,7 +19,8 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes) : 
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt(shifted);
     if (ldlt.info() != Eigen::Success) return;
     const Eigen::VectorXd d = ldlt.vectorD();
-    if (!(d.minCoeff() > 0.0)) return;
+    if (!d.allFinite() || d.cwiseAbs().minCoeff() == 0.0 || !(d.tail(rest).minCoeff() > 0.0)) return;
+    if (negative >= 0 && (d.head(inner).array() < 0.0).count() != negative) return;
     regular_ = true;
     const auto& lower = ldlt.matrixL().nestedExpression(); // CSC without the unit diagonal, rows ascending
 

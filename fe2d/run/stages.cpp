@@ -72,7 +72,7 @@ void let_water_ride(const ContactStructure& structure, const Polyline& uplift, S
     const Model& model = structure.model();
     const VectorXd on_dam = uplift_load(model.mesh, model.dofs, uplift, ContactSide::dam);
     const VectorXd on_rock = uplift_load(model.mesh, model.dofs, uplift, ContactSide::rock);
-    const VectorXd dam = structure.order().to_new(VectorXd(on_dam.head(structure.dam_unknowns())));
+    const VectorXd dam = structure.to_order(on_dam);
     load.joint = -(structure.planes().gaps() * dam.tail(2 * structure.interface()));
     load.rock -= structure.split(on_rock).rock;
 }
@@ -177,8 +177,7 @@ std::string StageResult::text() const
         return fmt::format("{}: {} floats, {}: uplift exceeds all weight.", name, body, forces);
     case StageStatus::overturns:
         return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", name, body,
-                           forces, r.position, is_base ? "heel" : "upstream face",
-                           is_base ? "base" : "joint");
+                           forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
     case StageStatus::not_resolved:
         return fmt::format("{}: no contact state in equilibrium found, {}, mu needed {:.5f}, {} iterations.", name,
                            forces, friction_needed, contact.iterations);

@@ -60,11 +60,10 @@ std::optional<ModelTables> model_tables(const Scene& given, const EffectPlan& pl
     return ModelTables{count_table(model.counts), joint_table(scene, model.mesh)};
 }
 
-/// Nothing for the rigid block, nor for what contact runs do not have.
+/// Nothing for the rigid block.
 std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
 {
     if (plan.method != Method::finite_elements) return std::nullopt;
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic) return std::nullopt;
     return contact_cost(scene, plan);
 }
 
@@ -78,7 +77,8 @@ std::vector<std::string> water_notes(const Scene& scene, const EffectPlan& plan)
         notes.push_back(choice->reason);
         if (resolved.reservoir->model == ReservoirModel::acoustic)
             notes.push_back(
-                "modes and fe --base tied take acoustic water; contact runs of this version keep added mass");
+                "modes and fe --base tied take acoustic water; contact runs keep added mass unless the scene says "
+                "model = \"acoustic\"");
     }
     if (resolved.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(resolved, 20.0)) notes.push_back(std::move(warning));

@@ -16,7 +16,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
     Scene given = read_run_scene(arguments.inputs);
     EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     const bool tied = arguments.base == "tied" && !arguments.reduced;
-    Scene scene = fe_scene(given, plan, tied ? AcousticWater::allowed : AcousticWater::refused);
+    Scene scene = fe_scene(given, plan);
     if (tied)
         if (const auto choice = resolve_reservoir_model(scene)) {
             if (!streams.quiet) streams.talk << choice->reason << "\n";

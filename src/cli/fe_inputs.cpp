@@ -28,15 +28,9 @@ double first_frequency(const Scene& scene)
 
 } // namespace
 
-Scene fe_scene(const Scene& given, const EffectPlan& plan, AcousticWater acoustic)
+Scene fe_scene(const Scene& given, const EffectPlan& plan)
 {
-    Scene scene = called_for(plan, given);
-    if (acoustic == AcousticWater::refused && scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
-                                    "reservoir.model = \"acoustic\" is not available in contact runs of this version.",
-                                    "\"added-mass\", \"hydrostatic\" or \"auto\"; with --base tied \"acoustic\" too",
-                                    "write  model = \"added-mass\"  in [reservoir], or give --base tied"});
-    return scene;
+    return called_for(plan, given);
 }
 
 std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene)

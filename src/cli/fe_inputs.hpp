@@ -9,10 +9,8 @@
 
 namespace damslip::cli {
 
-enum class AcousticWater { refused, allowed }; ///< contact runs do not have it yet
-
-/// The scene with what the plan calls for. @throws UsageError for what the run cannot do
-Scene fe_scene(const Scene& given, const EffectPlan& plan, AcousticWater acoustic = AcousticWater::refused);
+/// The scene with what the plan calls for.
+Scene fe_scene(const Scene& given, const EffectPlan& plan);
 
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
 fe2d::AddedMassLaw added_mass_law(const Scene& scene);

@@ -92,6 +92,10 @@ void check_reducible(const Scene& scene)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with mesh.rock_contact_size_m.",
                                     "facing nodes on both sides of the plane",
                                     "run without --reduced, or delete rock_contact_size_m"});
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with reservoir.model = \"acoustic\".",
+                                    "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
+                                    "run without --reduced, or write  model = \"added-mass\"  in [reservoir]"});
     if (!scene.lift_joints.empty())
         throw UsageError(Diagnostic{scene.file.string(), 0, 0,
                                     fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
