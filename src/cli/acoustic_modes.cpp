@@ -102,6 +102,12 @@ std::vector<std::string> reservoir_warnings(const Scene& scene, double highest)
     if (water.far_end == FarEnd::absorbing && ratio < 0.5)
         warnings.push_back(
             fmt::format("the reservoir is {:.3g} depths long; the absorbing end wants half a depth at least", ratio));
+    if (water.bottom_motion == BottomMotion::ground && scene.motion.vertical && water.bottom_reflection == 1.0 &&
+        !water.bottom_density && highest > first)
+        warnings.push_back(fmt::format(
+            "a rigid bottom that moves (bottom_reflection = 1) has no damping of the water's vertical resonance at {:.3g} "
+            "Hz: vertical motion may raise the slip several times; give the bottom its bottom_reflection",
+            first));
     const double size = water.mesh_size.value_or(water.level / 20.0),
                  resolved = c / (10.0 * std::max(size, water.level / 12.0));
     if (highest > resolved)

@@ -1,5 +1,6 @@
 #include "cli/contact_run.hpp"
 
+#include "cli/acoustic_modes.hpp"
 #include "cli/contact_law.hpp"
 #include "cli/contact_options.hpp"
 #include "cli/contact_tables.hpp"
@@ -30,6 +31,8 @@ namespace {
 std::vector<std::string> run_messages(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     std::vector<std::string> messages = contact_law_notes(scene);
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
     for (const ContactRun& r : runs)
         if (r.fe.status != fe2d::RunStatus::at_rest) messages.push_back(r.record + ": " + r.fe.message);
     return messages;
