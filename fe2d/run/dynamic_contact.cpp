@@ -104,14 +104,23 @@ void DynamicContact::follow_slip()
         slide_to(slip, structure_.trace(slip));
 }
 
+/// All that passes from rock to dam at one instant: contact forces, and the slip damping that acts like them [N/m].
+VectorXd DynamicContact::across(const Forces& f) const
+{
+    VectorXd force = f.contact;
+    if (slip_damping_.active())
+        force.tail(structure_.pairs()) -= slip_damping_.weights * (slip_damping_.drag * f.slip_rate - f.mean_velocity);
+    return force;
+}
+
 /// Takes the contact to another place. What moves on the rock is no motion of it: the work ledger's forces of the two
 /// last instants are kept as they were, and the jump of the present ones counts with the next step.
 void DynamicContact::slide_to(double slip, const Pairing::Matrix& trace)
 {
     const Pairing::Matrix change = trace - trace_;
-    load_jump_ = change.transpose() * state_.contact.force;
+    load_jump_ = change.transpose() * across(forces_);
     if (load_.joint.size() > 0) load_jump_ -= change.transpose() * load_.joint;
-    forces_before_.rock -= change.transpose() * forces_before_.contact;
+    forces_before_.rock -= change.transpose() * across(forces_before_);
     trace_ = trace;
     trace_slip_ = slip;
     ++place_;

@@ -133,6 +133,7 @@ private:
     void follow_slip();
     double base_slip() const { return structure_.planes().mean(0, state_.contact.slip); }
     Eigen::VectorXd opening_at(double slip) const;
+    Eigen::VectorXd across(const Forces& forces) const;
     void slide_to(double slip, const Pairing::Matrix& trace);
 
     std::shared_ptr<StepOperators> operators_;
