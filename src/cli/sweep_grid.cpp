@@ -31,7 +31,7 @@ Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, cons
         grid.records.push_back(pair.files.name);
         for (const double scale : axes.scale) {
             const GroundMotion motion = ground_motion(scene, pair, scale);
-            grid.measured.push_back(regression_inputs(pair, motion, grid.models.front()));
+            grid.measured.push_back(regression_inputs(pair, motion, grid.models.front(), scene.regressions.period));
             grid.horizontal_motions.emplace_back(horizontal_only(motion));
             grid.motions.emplace_back(motion);
         }
