@@ -1,11 +1,34 @@
 #pragma once
 
+#include "core/input_error.hpp"
+#include "records/read/read_record.hpp"
+
 #include <fmt/format.h>
+
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Small accelerogram files in the layouts of the agencies, made here: every number in them is chosen by the test.
 namespace damslip::agency_files {
+
+/// What a file is refused with; empty where it is read.
+inline std::string refusal(const std::string& text, const std::string& name, const records::ReadOptions& options)
+{
+    try {
+        records::parse_record(text, name, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+inline bool warned(const Record& record, std::string_view words)
+{
+    for (const std::string& warning : record.warnings)
+        if (warning.find(words) != std::string::npos) return true;
+    return false;
+}
 
 /// Numbers in fields of `width`, `per_line` to a line, with `decimals` places (0: whole numbers).
 inline std::string fields(const std::vector<double>& values, int per_line, int width, int decimals)

@@ -9,6 +9,7 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
+using agency_files::warned;
 using agency_files::Cosmos;
 
 std::vector<Record> read_cosmos_text(const std::string& text, const ReadOptions& options = {})
@@ -18,19 +19,7 @@ std::vector<Record> read_cosmos_text(const std::string& text, const ReadOptions&
 
 std::string cosmos_error(const std::string& text, const ReadOptions& options = {})
 {
-    try {
-        parse_record(text, "c.v2", options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool warned(const Record& record, std::string_view words)
-{
-    for (const std::string& warning : record.warnings)
-        if (warning.find(words) != std::string::npos) return true;
-    return false;
+    return agency_files::refusal(text, "c.v2", options);
 }
 
 TEST(RecordCosmos, unit_step_component_and_lines)

@@ -9,6 +9,7 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
+using agency_files::warned;
 using agency_files::Csmip;
 using agency_files::fields;
 
@@ -16,19 +17,7 @@ constexpr double g = 9.80665;
 
 std::string csmip_error(const std::string& text, const ReadOptions& options = {})
 {
-    try {
-        parse_record(text, "c.v1", options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool warned(const Record& record, std::string_view words)
-{
-    for (const std::string& warning : record.warnings)
-        if (warning.find(words) != std::string::npos) return true;
-    return false;
+    return agency_files::refusal(text, "c.v1", options);
 }
 
 const std::string points = "    9 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)\r\n";

@@ -13,12 +13,7 @@ using agency_files::Esm;
 
 std::string esm_error(const std::string& text, const ReadOptions& options = {})
 {
-    try {
-        parse_record(text, "e.ASC", options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return agency_files::refusal(text, "e.ASC", options);
 }
 
 TEST(RecordEsm, samples_step_and_names)

@@ -9,6 +9,7 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
+using agency_files::warned;
 using agency_files::KNet;
 
 /// 100 samples: an offset of 8000 counts with +-100 around it, so that the mean is 8000.
@@ -27,13 +28,6 @@ std::string k_net_error(const std::string& text)
         return error.what();
     }
     return "";
-}
-
-bool warned(const Record& record, std::string_view words)
-{
-    for (const std::string& warning : record.warnings)
-        if (warning.find(words) != std::string::npos) return true;
-    return false;
 }
 
 // 100 counts * 3920/6182761 gal = 0.063402 gal = 0.00063402 m/s^2, the factor applied once.

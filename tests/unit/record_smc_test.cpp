@@ -9,23 +9,12 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
+using agency_files::warned;
 using agency_files::Smc;
 
 std::string smc_error(const std::string& text, const ReadOptions& options = {})
 {
-    try {
-        parse_record(text, "s.smc", options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool warned(const Record& record, std::string_view words)
-{
-    for (const std::string& warning : record.warnings)
-        if (warning.find(words) != std::string::npos) return true;
-    return false;
+    return agency_files::refusal(text, "s.smc", options);
 }
 
 TEST(RecordSmc, samples_step_and_names)
