@@ -130,6 +130,7 @@ bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, in
     lambda << result.z.head(m), result.z.segment(m, m) - result.z.segment(2 * m, m);
     solution.force = force * lambda;
     solution.displacement = scale * force * (w * lambda + free);
+    solution.states.resize(static_cast<std::size_t>(m));
     const VectorXd sigma = result.z.tail(m);
     for (Index i = 0; i < m; ++i) {
         const double slip = solution.displacement[m + i];

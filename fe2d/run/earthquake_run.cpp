@@ -1,5 +1,6 @@
 #include "fe2d/run/earthquake_run.hpp"
 
+#include "core/input_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 
@@ -36,6 +37,23 @@ ModelOptions model_options(const RunOptions& options, Base base)
 
 } // namespace
 
+namespace {
+
+/// Massless rock has an infinite frequency: a scheme that is stable below some step only is not stable at all.
+void check_scheme(const Scene& scene)
+{
+    const Scheme scheme = scheme_of(scene.time);
+    if (!scene.foundation || scheme.unconditionally_stable()) return;
+    throw InputError(
+        Diagnostic{scene.file.string(), 0, 0,
+                   fmt::format("time.beta = {:g} with time.gamma = {:g}: unstable at any step on massless rock.",
+                               scheme.beta, scheme.gamma),
+                   fmt::format("beta >= gamma/2 = {:g}, no unit", 0.5 * scheme.gamma),
+                   "write  beta = 0.25  (average acceleration), or  scheme = \"hht\"  in [time]"});
+}
+
+} // namespace
+
 RunOptions completed(RunOptions options, const Scene& scene)
 {
     if (!options.separation)
@@ -59,6 +77,7 @@ RunOptions completed(RunOptions options, const Scene& scene)
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     : scene_(scene), options_(completed(std::move(options), scene))
 {
+    check_scheme(scene_);
     const auto start = Clock::now();
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)

@@ -1,4 +1,5 @@
 // The staged run as a whole.
+#include "core/input_error.hpp"
 #include "verification/fe_run_scenes.hpp"
 
 #include "sliding/block/slide.hpp"
@@ -280,6 +281,24 @@ TEST(FeRun, penalty_tends_to_exact_and_no_separation_slides_less)
     EXPECT_EQ(shut.counts.unresolved, 0);
     EXPECT_LT(shut.slip, 0.9 * exact);
     EXPECT_EQ(*std::max_element(shut.history.largest_opening.begin(), shut.history.largest_opening.end()), 0.0);
+}
+
+// Linear acceleration is stable below 0.55 periods: massless rock has none.
+TEST(FeRun, conditionally_stable_scheme_on_massless_rock_is_refused)
+{
+    Scene scene = sliding_dam(0.77);
+    scene.time.scheme = TimeScheme::newmark;
+    scene.time.gamma = 0.5;
+    scene.time.beta = 1.0 / 6.0;
+    try {
+        const EarthquakeRun run(scene, options_of(scene));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("time.beta"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("0.25"), std::string::npos) << error.what();
+    }
+    scene.time.beta = 0.25;
+    EXPECT_NO_THROW(EarthquakeRun(scene, options_of(scene)));
 }
 
 } // namespace
