@@ -469,21 +469,6 @@ Section make_section(const SectionInput& in, Findings& findings)
     return section;
 }
 
-void apply_preset(Scene& scene, const Findings& findings)
-{
-    if (scene.analysis.preset != AnalysisPreset::goldgruber_2015) return;
-    const auto open = [&findings](const char* key) { return !findings.given(key); };
-    if (open("contact.enforcement")) scene.contact.enforcement = ContactEnforcement::slip_tolerance;
-    if (open("contact.slip_tolerance")) scene.contact.slip_tolerance = 0.005;
-    if (open("contact.separation")) scene.contact.separation = JointOpening::none;
-    if (scene.reservoir && open("reservoir.far_end")) scene.reservoir->far_end = FarEnd::damper;
-    if (scene.reservoir && open("reservoir.bottom_motion")) scene.reservoir->bottom_motion = BottomMotion::still;
-    if (open("damping.mass")) scene.damping.mass = MassDamping::relative;
-    if (open("time.alpha")) scene.time.alpha = -1.0 / 3.0;
-    if (open("time.dt")) scene.time.dt = 0.01;
-    if (open("time.substeps") && open("time.slip_tolerance")) scene.time.substeps = 0;
-}
-
 void fill_defaults(Scene& scene, const Findings& findings)
 {
     const double base = base_length(scene.section);

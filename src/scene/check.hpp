@@ -9,9 +9,6 @@ namespace damslip {
 /// Turns what [section] says into the polygon. Problems go to `findings`.
 Section make_section(const SectionInput& input, Findings& findings);
 
-/// Defaults of analysis.preset for what the file does not say itself.
-void apply_preset(Scene& scene, const Findings& findings);
-
 /// Defaults that depend on other keys: levels, lengths, uplift model.
 void fill_defaults(Scene& scene, const Findings& findings);
 

@@ -6,6 +6,7 @@
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/key_table.hpp"
+#include "scene/preset.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -398,7 +399,7 @@ Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
     if (scene.title.empty()) scene.title = file.stem().string();
     if (!findings.any()) { // a second look at values only when each is right by itself
         resolve_paths(scene);
-        apply_preset(scene, findings);
+        apply_preset(scene, [&findings](const char* key) { return !findings.given(key); }); // what the file says wins
         fill_defaults(scene, findings);
         check_consistency(scene, findings, check);
         std::sort(scene.lift_joints.begin(), scene.lift_joints.end(),
