@@ -107,9 +107,13 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         if (exact && !interrupt.interrupted()) r.exact = exact->run(motion);
         if (rigid.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene, rigid, motion, 1);
         if (!arguments.out.empty()) write_run(arguments.out, scene, r);
-        if (r.fe.displacement.size())
-            fields.add(r.record + "_end", r.fe.end_time, r.fe.displacement, r.fe.displacement,
+        if (r.fe.displacement.size()) {
+            Eigen::VectorXd elastic =
+                r.fe.displacement; // gravity's part carries stress where it does not count as motion
+            if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
+            fields.add(r.record + "_end", r.fe.end_time, r.fe.displacement, elastic,
                        contact_arrays(model.model().mesh, r.fe));
+        }
         if (page) page->add(r, motion);
         r.fe.history.by_pair = {};
         r.fe.history.states = {};
