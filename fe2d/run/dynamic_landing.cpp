@@ -11,7 +11,7 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
 {
     JointSolver& solver = *problems_[op_].solver;
     const ContactStates& states = state_.contact.states;
-    if (!solver.lands() || states == before || structure_.water()) return; // impulses on acoustic water: not yet
+    if (!solver.lands() || states == before) return;
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
     bool newly = false;
     for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);
@@ -52,16 +52,31 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
     landed_.pending = true;
     landed_.dam = damping_.constants.mass * (structure_.mass() * change) +
                   damping_.constants.stiffness * (structure_.stiffness() * change);
+    if (structure_.water()) {
+        structure_.clear_water(landed_.dam);
+        landed_.dam += structure_.gyration() * change;
+        structure_.clear_water(landed_.dam);
+    }
     if (structure_.has_rock())
         landed_.rock = damping_.constants.stiffness * (structure_.rock_stiffness() * rock_change);
     if (slip_damping_.active()) {
         landed_.slip_rate = slip_damping_.weights.transpose() * jump.tail(m);
         landed_.mean_velocity = slip_damping_.momentum.transpose() * change;
     }
-    const double kinetic = energy_.kinetic;
+    const double before_landing = energy_.kinetic + energy_.strain;
     multiply(op_->constants());
-    energy_.kinetic = 0.5 * state_.v.dot(products_.mass_1);
-    energy_.numerical += kinetic - energy_.kinetic;
+    VectorXd velocity = state_.v;
+    structure_.clear_water(velocity);
+    energy_.kinetic = 0.5 * velocity.dot(products_.mass_1);
+    if (structure_.water()) {
+        const WaterLedger::Instant now = water_instant();
+        water_.jolt = now.force - water_.force;
+        energy_.strain += water_ledger_->compression(now) - water_ledger_->compression(water_);
+        energy_.kinetic += water_ledger_->flow(now);
+        water_.v = now.v;
+        water_.force = now.force;
+    }
+    energy_.numerical += before_landing - energy_.kinetic - energy_.strain;
     gather_forces(forces_);
 }
 

@@ -42,11 +42,23 @@ VectorXd WaterLedger::water_of(const VectorXd& vector) const
 WaterLedger::Instant WaterLedger::instant(const VectorXd& z, const VectorXd& v, const VectorXd& a, double velocity_h,
                                           double velocity_v, double displacement_v) const
 {
-    Instant now{z, v, a, {}, {}};
+    Instant now{z, v, a, {}, {}, {}};
     now.load = -velocity_h * velocity_x_ + velocity_v * velocity_y_ + displacement_v * displacement_y_;
     const VectorXd phi = water_of(z);
     now.force = damping_ * water_of(v) + stiffness_ * phi.head(mesh_) + end_stiffness_ * phi + coupling_ * v - now.load;
     return now;
+}
+
+double WaterLedger::flow(const Instant& instant) const
+{
+    const VectorXd phi = water_of(instant.z).head(mesh_);
+    return 0.5 * phi.dot(stiffness_ * phi);
+}
+
+double WaterLedger::compression(const Instant& instant) const
+{
+    const VectorXd rate = water_of(instant.v).head(mesh_);
+    return 0.5 * rate.dot(mass_ * rate);
 }
 
 void WaterLedger::add(const StepConstants& c, const Instant& before2, const Instant& before, const Instant& now,
@@ -57,13 +69,14 @@ void WaterLedger::add(const StepConstants& c, const Instant& before2, const Inst
                    a0 = water_of(before.a), a1 = water_of(now.a);
     const VectorXd step = (phi1 - phi0).head(mesh_), da = (a1 - a0).head(mesh_);
     const VectorXd m_a0 = mass_ * a0.head(mesh_), m_a1 = mass_ * a1.head(mesh_);
-    energy.kinetic += 0.5 * phi1.head(mesh_).dot(stiffness_ * phi1.head(mesh_));
-    energy.strain += 0.5 * v1.head(mesh_).dot(mass_ * v1.head(mesh_));
+    energy.kinetic += flow(now);
+    energy.strain += compression(now);
     energy.radiated += 0.5 * step.dot(end_mass_ * (a0 + a1) + damping_ * (v0 + v1) + end_stiffness_ * (phi0 + phi1));
     energy.external += 0.5 * step.dot(before.load + now.load);
     energy.numerical += -(gamma - 0.5) * step.dot(m_a1 - m_a0) + (gamma - 0.5) * half_beta * dt2 * da.dot(m_a1 - m_a0) +
                         0.5 * half_beta * dt2 * (a1.head(mesh_).dot(m_a1) - a0.head(mesh_).dot(m_a0));
     energy.numerical += 0.5 * c.scheme.alpha * step.dot(now.force - before2.force);
+    if (before.jolt.size() > 0) energy.numerical -= 0.5 * (1.0 + c.scheme.alpha) * step.dot(before.jolt);
     energy.numerical +=
         0.5 * (step.dot(coupling_ * (before.v + now.v)) - (coupling_ * (now.z - before.z)).dot((v0 + v1).head(mesh_)));
 }

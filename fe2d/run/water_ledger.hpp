@@ -19,7 +19,10 @@ public:
         Eigen::VectorXd z, v, a; ///< of all unknowns
         Eigen::VectorXd load;    ///< on the mesh's rows, turned
         Eigen::VectorXd force;   ///< F of the mesh's rows, turned: all but the inertia s²Q φ̈
+        Eigen::VectorXd jolt;    ///< change of F by contact impulses at its end; empty: none
     };
+    double flow(const Instant& instant) const;        ///< ½ ψᵀL_b ψ [J/m]
+    double compression(const Instant& instant) const; ///< ½ pᵀQ_b p [J/m]
     Instant instant(const Eigen::VectorXd& z, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double velocity_h,
                     double velocity_v, double displacement_v) const;
 

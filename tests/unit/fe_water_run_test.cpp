@@ -85,6 +85,24 @@ TEST(FeWaterRun, EnergyOfASlidingDamCloses)
     }
 }
 
+// On a rigid base, which nodes with mass hit, contact impulses go into the water too: the ledger knows them.
+TEST(FeWaterRun, EnergyClosesWithLandingsOnARigidBase)
+{
+    Scene scene = acoustic_dam(0.70);
+    scene.foundation.reset();
+    scene.curtain.reset();
+    scene.damping.ratio = 0.05;
+    RunOptions options = options_of(scene);
+    for (const int halvings : {0, 2}) {
+        options.halvings = halvings;
+        const RunResult result = EarthquakeRun(scene, options).run(sines(1.0, 6.0));
+        EXPECT_GT(result.counts.landings, 50);
+        EXPECT_LT(result.energy_error, 1e-10);
+        EXPECT_GT(std::abs(result.slip), 1e-3);
+        EXPECT_LT(result.history.energy.back().contact_normal, 0.01 * result.history.energy.back().friction);
+    }
+}
+
 // Without a reservoir nothing of it is there.
 TEST(FeWaterRun, DryDamHasNoWaterUnknowns)
 {
