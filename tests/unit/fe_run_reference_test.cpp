@@ -8,6 +8,8 @@
 #include <Eigen/SparseLU>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 namespace {
 
 using namespace damslip;
@@ -65,58 +67,74 @@ public:
     VectorXd solve(const VectorXd& free, const VectorXd& opening, double friction, ContactStates& states,
                    VectorXd& lambda)
     {
-        const Index n = free.size(), m = whole_.pairs;
+        const Index m = whole_.pairs;
+        VectorXd held = VectorXd::Zero(2 * m);
+        held.head(m) = -opening;
         for (int iteration = 0; iteration < 30; ++iteration) {
-            std::vector<Eigen::Triplet<double>> entries;
-            const auto add = [&](const SparseMatrix& a, Index row, Index column, double factor) {
-                for (Index j = 0; j < a.outerSize(); ++j)
-                    for (SparseMatrix::InnerIterator it(a, j); it; ++it)
-                        entries.emplace_back(row + it.row(), column + it.col(), factor * it.value());
-            };
-            add(step_matrix_, 0, 0, 1.0);
-            add(SparseMatrix(whole_.interface.transpose()), 0, n, -weight_ * force_unit);
-            VectorXd right(n + 2 * m);
-            right << step_matrix_ * free, VectorXd::Zero(2 * m);
-            const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = whole_.interface;
-            const auto gap_row = [&](Index k) {
-                for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, k); it; ++it)
-                    entries.emplace_back(n + k, it.col(), force_unit * it.value());
-            };
-            for (Index i = 0; i < m; ++i) {
-                const ContactState state = states[static_cast<std::size_t>(i)];
-                if (state == ContactState::open) {
-                    entries.emplace_back(n + i, n + i, force_unit);
-                } else {
-                    gap_row(i);
-                    right[n + i] = -force_unit * opening[i];
-                }
-                if (state == ContactState::stick) {
-                    gap_row(m + i);
-                } else {
-                    entries.emplace_back(n + m + i, n + m + i, force_unit);
-                    if (is_slip(state))
-                        entries.emplace_back(n + m + i, n + i,
-                                             force_unit *
-                                                 (state == ContactState::slip_downstream ? friction : -friction));
-                }
-            }
-            SparseMatrix all(n + 2 * m, n + 2 * m);
-            all.setFromTriplets(entries.begin(), entries.end());
-            Eigen::SparseLU<SparseMatrix> lu(all);
-            VectorXd x = lu.solve(right);
-            x += lu.solve(right - all * x);
-            ++factorisations;
-            lambda = force_unit * x.tail(2 * m);
-            const VectorXd gap = whole_.interface * x.head(n);
-            if (!update(states, lambda, gap, opening, friction)) return x.head(n);
+            const VectorXd step = with_states(step_matrix_ * free, held, friction, states, lambda);
+            if (!update(states, lambda, whole_.interface * step, opening, friction)) return step;
         }
         ADD_FAILURE() << "the reference did not settle";
         return free;
     }
 
+    /// Velocities that impulses on the held gaps take away: the gaps' rates become zero there.
+    /// @param rate  of all gaps
+    VectorXd landing(const VectorXd& rate, double friction, const ContactStates& states)
+    {
+        VectorXd impulse;
+        return with_states(VectorXd::Zero(step_matrix_.rows()), -rate, friction, states, impulse);
+    }
+
     int factorisations = 0;
 
 private:
+    /// A x - w Bᵀλ = right, B x = `held` on held gaps, λ of the law on the others; all in one matrix.
+    VectorXd with_states(const VectorXd& right, const VectorXd& held, double friction, const ContactStates& states,
+                         VectorXd& lambda)
+    {
+        const Index n = right.size(), m = whole_.pairs;
+        std::vector<Eigen::Triplet<double>> entries;
+        const auto add = [&](const SparseMatrix& a, Index row, Index column, double factor) {
+            for (Index j = 0; j < a.outerSize(); ++j)
+                for (SparseMatrix::InnerIterator it(a, j); it; ++it)
+                    entries.emplace_back(row + it.row(), column + it.col(), factor * it.value());
+        };
+        add(step_matrix_, 0, 0, 1.0);
+        add(SparseMatrix(whole_.interface.transpose()), 0, n, -weight_ * force_unit);
+        VectorXd all_right(n + 2 * m);
+        all_right << right, VectorXd::Zero(2 * m);
+        const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = whole_.interface;
+        const auto hold = [&](Index k) {
+            for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, k); it; ++it)
+                entries.emplace_back(n + k, it.col(), force_unit * it.value());
+            all_right[n + k] = force_unit * held[k];
+        };
+        for (Index i = 0; i < m; ++i) {
+            const ContactState state = states[static_cast<std::size_t>(i)];
+            if (state == ContactState::open)
+                entries.emplace_back(n + i, n + i, force_unit);
+            else
+                hold(i);
+            if (state == ContactState::stick) {
+                hold(m + i);
+                continue;
+            }
+            entries.emplace_back(n + m + i, n + m + i, force_unit);
+            if (is_slip(state))
+                entries.emplace_back(n + m + i, n + i,
+                                     force_unit * (state == ContactState::slip_downstream ? friction : -friction));
+        }
+        SparseMatrix all(n + 2 * m, n + 2 * m);
+        all.setFromTriplets(entries.begin(), entries.end());
+        Eigen::SparseLU<SparseMatrix> lu(all);
+        VectorXd x = lu.solve(all_right);
+        x += lu.solve(all_right - all * x);
+        ++factorisations;
+        lambda = force_unit * x.tail(2 * m);
+        return x.head(n);
+    }
+
     bool update(ContactStates& states, const VectorXd& lambda, const VectorXd& gap, const VectorXd& opening,
                 double friction) const
     {
@@ -151,6 +169,16 @@ private:
     SparseMatrix step_matrix_;
 };
 
+/// Does some gap come to be held: shut, or stuck?
+bool newly_holds(const ContactStates& before, const ContactStates& now)
+{
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (before[i] == ContactState::open && now[i] != ContactState::open) return true;
+        if (before[i] != ContactState::stick && now[i] == ContactState::stick) return true;
+    }
+    return false;
+}
+
 /// A coarse dam on a small piece of rock, ready to be run both ways.
 struct Setting {
     Scene scene;
@@ -181,21 +209,26 @@ struct Setting {
         Strength strength(scene.contact, structure->plane());
         memory = ContactMemory(structure->plane().pairs());
         for (std::size_t k = 0; k < stages.loads.size(); ++k)
-            EXPECT_EQ(solve_stage(statics, *structure, stages.names[k], structure->split(stages.loads[k]), strength, memory).status,
-                      StageStatus::ok);
+            EXPECT_EQ(
+                solve_stage(statics, *structure, stages.names[k], structure->split(stages.loads[k]), strength, memory)
+                    .status,
+                StageStatus::ok);
         start = statics.displacements(load, memory);
     }
 };
 
 /// 500 steps of strong shaking by the condensed run and by `solve(free increment, opening, states, λ) -> Δu`; compares
 /// slips, openings and forces after each step and the energies at the end.
+/// @param land  what impulses at the end of a step change of the velocities, (rates of the gaps, states) -> δv; null:
+/// none, nor in the condensed run. The ledger of this side knows no impulses, so energies are compared without them.
 template <class Solve>
-void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator, const StepOperator& op, Solve solve)
+void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator, const StepOperator& op, Solve solve,
+             const std::function<VectorXd(const VectorXd&, const ContactStates&)>& land = {})
 {
     const double dt = 0.01;
-    ContactOptions plain;
-    plain.landing = Landing::ringing; // the integrator knows no landings
-    DynamicContact fast(*s.structure, s.damping, integrator.scheme(), s.load, s.start, s.memory, plain);
+    ContactOptions options;
+    options.landing = land ? Landing::at_rest : Landing::ringing;
+    DynamicContact fast(*s.structure, s.damping, integrator.scheme(), s.load, s.start, s.memory, options);
     const ContactLaw law = uniform_law(whole.pairs, s.scene.contact.friction);
     const VectorXd u0 = s.structure->assemble(s.start.dam, s.start.rock, s.whole_load);
     VectorXd lambda = s.memory.force, opening = s.memory.opening, slip = s.memory.slip;
@@ -206,13 +239,14 @@ void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator,
     const GroundMotion motion = fe2d::test::sines(3.0, 6.0);
     const double force_scale = s.memory.force.cwiseAbs().maxCoeff();
     double worst_slip = 0.0, worst_force = 0.0;
-    int sliding = 0, open = 0;
+    int sliding = 0, open = 0, landings = 0;
     for (std::size_t k = 1; k <= 500; ++k) {
         const GroundAcceleration ground{motion.accel_h[k], motion.accel_v[k]};
         fast.advance(dt, ground, law);
         const VectorXd load = s.whole_load + ground.h * s.model->inertia_x - ground.v * s.model->inertia_y;
         const FreeStep free = integrator.free_step(op, before, load);
         const VectorXd lambda_before = lambda;
+        const ContactStates states_before = states;
         const VectorXd step = solve(free.increment, opening, states, lambda);
         const double weight = 1.0 + integrator.scheme().alpha;
         integrator.finish_step(op, before, load, free,
@@ -224,6 +258,13 @@ void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator,
                          .normal = mean.head(whole.pairs).dot(gap.head(whole.pairs))});
         opening += gap.head(whole.pairs);
         slip += gap.tail(whole.pairs);
+        if (land && newly_holds(states_before, states)) {
+            const VectorXd change = land(whole.interface * after.velocity, states);
+            after.velocity += change;
+            after.momentum = whole.system.mass * after.velocity;
+            after.damping_force = whole.system.damping * after.velocity;
+            ++landings;
+        }
         std::swap(before, after);
         const ContactMemory& c = fast.state().contact;
         worst_slip =
@@ -244,6 +285,12 @@ void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator,
                   .cwiseAbs()
                   .maxCoeff(),
               1e-9 * total);
+    EXPECT_EQ(fast.counts().landings, landings);
+    if (land) {
+        EXPECT_GT(landings, 50);
+        EXPECT_LT(std::abs(fast.energy_imbalance()), 1e-10 * fast.energy_scale());
+        return;
+    }
     const Energy &a = fast.energy(), &b = ledger.energy();
     const double scale = ledger.largest_scale();
     EXPECT_NEAR(a.kinetic, b.kinetic, 1e-9 * scale);
@@ -268,6 +315,23 @@ TEST(FeRunReference, monolithic_solution_over_500_sliding_steps)
             [&](const VectorXd& free, const VectorXd& opening, ContactStates& states, VectorXd& lambda) {
                 return reference.solve(free, opening, s.scene.contact.friction, states, lambda);
             });
+}
+
+// The same with contact impulses where gaps come to be held, as runs have them.
+TEST(FeRunReference, monolithic_solution_with_landings)
+{
+    const Setting s(MassDamping::relative);
+    const Whole whole(*s.model, s.structure->plane(), s.damping);
+    LinearIntegrator integrator(whole.system, hht(-0.05));
+    const StepOperator& op = integrator.step_operator(0.01);
+    Monolithic reference(whole, op.constants());
+    const double friction = s.scene.contact.friction;
+    compare(
+        s, whole, integrator, op,
+        [&](const VectorXd& free, const VectorXd& opening, ContactStates& states, VectorXd& lambda) {
+            return reference.solve(free, opening, friction, states, lambda);
+        },
+        [&](const VectorXd& rate, const ContactStates& states) { return reference.landing(rate, friction, states); });
 }
 
 // Damping of the deformation only, by the general low-rank formula on all unknowns; contact with V = W⁻¹ of the whole.
