@@ -52,16 +52,27 @@ JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const Vector
     lands_ = rigid_ && !elastic_stick_.active() && options.landing == Landing::at_rest;
 }
 
-bool JointSolver::land(const ContactLaw& law, const VectorXd& held_jump, ContactSolution& solution)
-{
-    return lands_ && rigid_->land(law, held_jump, solution);
-}
-
 bool holds(const ContactStates& states, Eigen::Index gap)
 {
     const auto m = static_cast<Eigen::Index>(states.size());
     const ContactState state = states[static_cast<std::size_t>(gap < m ? gap : gap - m)];
     return gap < m ? state != ContactState::open : state == ContactState::stick;
+}
+
+bool JointSolver::lands(const ContactStates& before, const ContactStates& now) const
+{
+    if (!lands_ || before == now) return false;
+    for (Eigen::Index gap = 0; gap < 2 * static_cast<Eigen::Index>(now.size()); ++gap)
+        if (holds(now, gap) && !holds(before, gap)) return true;
+    return false;
+}
+
+bool JointSolver::land(const ContactLaw& law, const VectorXd& rate, ContactSolution& jumps)
+{
+    VectorXd held = VectorXd::Zero(rate.size());
+    for (Eigen::Index gap = 0; gap < rate.size(); ++gap)
+        if (holds(jumps.states, gap)) held[gap] = -rate[gap];
+    return rigid_->land(law, held, jumps);
 }
 
 JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)

@@ -30,9 +30,12 @@ public:
     ContactReport solve(Eigen::VectorXd stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
                         ContactSolution& solution);
 
-    /// ContactSolver::land(); false where sticking or shutting is elastic, or by the options.
-    bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
-    bool lands() const { return lands_; } ///< are there landings at all?
+    /// Do gaps come to be held between two sets of states, so that land() has to bring them to rest? Never where
+    /// sticking or shutting is elastic, or by the options.
+    bool lands(const ContactStates& before, const ContactStates& now) const;
+    /// Impulses that make the rates of all held gaps zero (ContactSolver::land()). @returns false for a mechanism.
+    /// @param rate  of all gaps, 2m @param jumps  states on entry; changes of the rates, and impulses
+    bool land(const ContactLaw& law, const Eigen::VectorXd& rate, ContactSolution& jumps);
 
 private:
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;

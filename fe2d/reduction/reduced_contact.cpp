@@ -1,7 +1,8 @@
 #include "fe2d/reduction/reduced_contact.hpp"
 
+#include "core/stopwatch.hpp"
+
 #include <algorithm>
-#include <chrono>
 
 namespace damslip::fe2d {
 
@@ -59,12 +60,12 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     for (Index i = 0; i < m; ++i)
         if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
 
-    const auto before = std::chrono::steady_clock::now();
+    const Stopwatch before;
     solution_.states = memory.states;
     solution_.force = memory.force;
     const VectorXd elastic = memory.elastic;
     const ContactReport report = op.contact().solve(stuck_, law, memory.elastic, solution_);
-    counts_.contact_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    counts_.contact_seconds += before.seconds();
 
     const VectorXd tangential = solution_.displacement.tail(m) + memory.elastic - elastic;
     const double slip = system_.weights.dot(tangential);
@@ -92,13 +93,8 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     state_.ground = ground;
     land(op, states_before, law);
 
-    ++counts_.steps;
     counts_.contact_iterations += report.iterations;
-    counts_.largest_iterations = std::max(counts_.largest_iterations, report.iterations);
-    ++counts_.by_path[static_cast<int>(report.path)];
-    counts_.unresolved += !report.resolved();
-    counts_.largest_residual =
-        std::max(counts_.largest_residual, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
+    counts_.add(report, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
     return report;
 }
 
@@ -106,17 +102,11 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
 void ReducedContact::land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law)
 {
     const ContactStates& states = state_.contact.states;
-    if (!op.contact().lands() || states == before) return;
+    if (!op.contact().lands(before, states)) return;
     const Index m = plane_.pairs();
-    bool newly = false;
-    for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);
-    if (!newly) return;
     const VectorXd rate = system_.modes.on_plane * state_.q_v + system_.flexibility * state_.p_v;
-    VectorXd held = VectorXd::Zero(2 * m);
-    for (Index gap = 0; gap < 2 * m; ++gap)
-        if (holds(states, gap)) held[gap] = -rate[gap];
     ContactSolution jumps{states, {}, {}};
-    if (!op.contact().land(law, held, jumps)) return;
+    if (!op.contact().land(law, rate, jumps)) return;
     ++counts_.landings;
     const double slip = system_.weights.dot(jumps.displacement.tail(m));
     const VectorXd none = VectorXd::Zero(2 * m);

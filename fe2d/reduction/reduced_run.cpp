@@ -1,9 +1,10 @@
 #include "fe2d/reduction/reduced_run.hpp"
 
+#include "core/stopwatch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,13 +14,6 @@ namespace damslip::fe2d {
 using Eigen::Index;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr int coarse_pairs = 22; ///< of the plane of the estimate
 
@@ -53,7 +47,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     : full_(full), scene_(scene), options_(completed(std::move(options), scene)),
       stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
 {
-    const auto start = Clock::now();
+    const Stopwatch start;
     if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;
     const int wanted = std::max(modes, 2);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
@@ -69,7 +63,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
         coarse_reference_ = std::make_unique<ReducedSystem>(
             coarse_.coarsened(ReducedSystem(full.structure(), std::move(reference), damping)));
     }
-    seconds_ = seconds_since(start);
+    seconds_ = start.seconds();
 }
 
 void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
@@ -175,20 +169,20 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.modes = static_cast<int>(system_->modes.count()) - 3;
     result.highest_frequency = std::sqrt(system_->modes.omega2.tail(1)[0]) / (2.0 * std::numbers::pi);
     const ContactStructure& structure = full_.structure();
-    auto clock = Clock::now();
+    Stopwatch clock;
     StaticContact statics(structure, options_.contact);
     Strength strength(contact.value_or(scene_.contact), structure.plane());
     strength.set_separation(*options_.separation);
     ContactMemory memory(structure.plane().pairs());
     result.stages = full_.statics(statics, strength, memory);
-    result.seconds.statics = seconds_since(clock);
+    result.seconds.statics = clock.seconds();
     if (result.stages.back().status != StageStatus::ok) {
         result.status = RunStatus::static_failure;
         result.message = result.stages.back().text();
         return result;
     }
 
-    clock = Clock::now();
+    clock = Stopwatch();
     Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1,
                 options_.contact};
     const Strength at_start = strength;
@@ -209,16 +203,16 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
             break;
     }
     result.truncation_error = truncation_error(loop, contact.value_or(scene_.contact), memory);
-    result.seconds.dynamics = seconds_since(clock);
+    result.seconds.dynamics = clock.seconds();
 
-    clock = Clock::now();
+    clock = Stopwatch();
     const Eigen::VectorXd after = load_with(stages_, full_.model(), options_.uplift_after);
     ContactMemory end = memory;
     end.force = result.pair_force;
     end.slip = memory.slip + result.pair_slip;
     end.opening = result.pair_opening;
     result.after = solve_stage(statics, structure, "after the earthquake", structure.split(after), strength, end);
-    result.seconds.statics += seconds_since(clock);
+    result.seconds.statics += clock.seconds();
 
     if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
     result.message = fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * result.slip,

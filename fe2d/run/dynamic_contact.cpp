@@ -1,6 +1,7 @@
 #include "fe2d/run/dynamic_contact.hpp"
 
-#include <chrono>
+#include "core/stopwatch.hpp"
+
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -10,16 +11,18 @@ using Eigen::VectorXd;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 constexpr double update_share = 0.01; ///< slip after which P is made anew, of the smallest element [-]
 
 } // namespace
+
+void DynamicCounts::add(const ContactReport& report, double residual)
+{
+    ++steps;
+    largest_iterations = std::max(largest_iterations, report.iterations);
+    ++by_path[static_cast<int>(report.path)];
+    unresolved += !report.resolved();
+    largest_residual = std::max(largest_residual, residual);
+}
 
 DynamicContact::DynamicContact(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                                SplitLoad load, const StaticState& start, const ContactMemory& memory,
@@ -204,12 +207,12 @@ ContactReport DynamicContact::solve_contact(const ContactLaw& law)
     for (Index i = 0; i < m; ++i) // Δg = x - (opening at the start, 0)
         if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
 
-    const auto before_contact = Clock::now();
+    const Stopwatch before_contact;
     solution_.states = memory.states;
     solution_.force = memory.force;
     elastic_ = memory.elastic;
     const ContactReport report = problem.solver->solve(stuck_, law, elastic_, solution_);
-    counts_.contact_seconds += seconds_since(before_contact);
+    counts_.contact_seconds += before_contact.seconds();
     counts_.contact_iterations += report.iterations;
     return report;
 }
@@ -266,12 +269,7 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
     add_energy(c, gap_, force_before);
     land(states_before, law);
 
-    ++counts_.steps;
-    counts_.largest_iterations = std::max(counts_.largest_iterations, report.iterations);
-    ++counts_.by_path[static_cast<int>(report.path)];
-    counts_.unresolved += !report.resolved();
-    counts_.largest_residual =
-        std::max(counts_.largest_residual, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
+    counts_.add(report, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
 }
 
 /// Nothing of the state has changed when the contact of a step turns out not to be resolved.

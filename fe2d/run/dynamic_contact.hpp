@@ -37,6 +37,9 @@ struct DynamicCounts {
     double largest_residual = 0.0;    ///< complementarity residual over the static normal force N' [-]
     int factorisations = 0;           ///< step sizes used
     double contact_seconds = 0.0;     ///< in the contact solver
+
+    /// A step that was made. @param residual  of its contact over the static normal force [-]
+    void add(const ContactReport& report, double residual);
 };
 
 /// When a step's contact is not resolved, nothing of it is kept and it is made in two halves, these in halves again,

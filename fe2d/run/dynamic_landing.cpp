@@ -11,20 +11,13 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
 {
     JointSolver& solver = *problems_[op_].solver;
     const ContactStates& states = state_.contact.states;
-    if (!solver.lands() || states == before) return;
+    if (!solver.lands(before, states)) return;
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
-    bool newly = false;
-    for (Index gap = 0; gap < 2 * m; ++gap) newly |= holds(states, gap) && !holds(before, gap);
-    if (!newly) return;
-
     VectorXd rate = structure_.planes().gaps() * state_.v.tail(2 * structure_.interface());
     if (structure_.has_rock()) rate -= trace_ * state_.rock_v;
     rate.tail(m) = rate_t_;
-    VectorXd held = VectorXd::Zero(2 * m);
-    for (Index gap = 0; gap < 2 * m; ++gap)
-        if (holds(states, gap)) held[gap] = -rate[gap];
     ContactSolution jumps{states, {}, {}};
-    if (!solver.land(law, held, jumps)) return;
+    if (!solver.land(law, rate, jumps)) return;
     ++counts_.landings;
     const VectorXd& jump = jumps.displacement;
     DynamicOperator::Free free;

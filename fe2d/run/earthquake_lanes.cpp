@@ -2,10 +2,11 @@
 #include "fe2d/run/ground_input.hpp"
 #include "fe2d/run/step_error.hpp"
 
+#include "core/stopwatch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -16,13 +17,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Energy that contact or the scheme has made up, beyond what the ground and the weights gave.
 bool diverges(const Energy& energy)
@@ -60,7 +54,7 @@ struct EarthquakeRun::Lane {
 /// The static stages. lane.result.status stays model_failed where they end in equilibrium.
 void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
 {
-    const auto clock = Clock::now();
+    const Stopwatch clock;
     RunResult& result = lane.result;
     StaticContact contact_statics(statics_, options_.contact);
     lane.strength = strength_of(contact);
@@ -73,7 +67,7 @@ void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
         result.status = RunStatus::static_failure;
         result.message = result.stages.back().text();
     }
-    result.seconds.statics = seconds_since(clock);
+    result.seconds.statics = clock.seconds();
 }
 
 namespace {
@@ -103,7 +97,7 @@ struct Pass {
 std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const
 {
-    const auto clock = Clock::now();
+    const Stopwatch clock;
     const double dt = scene_.time.dt.value_or(motion.dt),
                  duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
     const int parts = 1 << halvings;
@@ -153,7 +147,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
                 pass->end(RunStatus::at_rest);
         }
     }
-    const double seconds = seconds_since(clock) / static_cast<double>(lanes.size());
+    const double seconds = clock.seconds() / static_cast<double>(lanes.size());
     std::vector<RunResult> results;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         Pass& pass = *passes[i];

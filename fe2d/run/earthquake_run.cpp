@@ -1,13 +1,13 @@
 #include "fe2d/run/earthquake_run.hpp"
 
 #include "core/input_error.hpp"
+#include "core/stopwatch.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,13 +18,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 ModelOptions model_options(const RunOptions& options, Base base)
 {
@@ -78,7 +71,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     : scene_(scene), options_(completed(std::move(options), scene))
 {
     check_scheme(scene_);
-    const auto start = Clock::now();
+    const Stopwatch start;
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
         water_ = std::make_unique<WaterBody>(scene_, *model_);
@@ -91,7 +84,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
         statics_ = std::make_shared<const StaticOperator>(*structure_);
         operators_ = std::make_shared<StepOperators>(*structure_, damping_, scheme_of(scene_.time));
     }
-    seconds_ = seconds_since(start);
+    seconds_ = start.seconds();
 }
 
 void EarthquakeRun::find_damping()

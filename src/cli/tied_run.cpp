@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/usage_error.hpp"
 #include "core/file.hpp"
+#include "core/stopwatch.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
@@ -16,7 +17,6 @@
 #include "scene/write.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -105,9 +105,9 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::Flu
         shown = now;
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch start;
     run.history = fe2d::integrate(model, motion, options);
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.seconds = start.seconds();
     run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
     return run;
 }

@@ -2,10 +2,10 @@
 
 #include "cli/progress.hpp"
 #include "cli/usage_error.hpp"
+#include "core/stopwatch.hpp"
 #include "report/table_text.hpp"
 #include "verification/registry.hpp"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -88,9 +88,9 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
     {
         Progress progress(streams, "verify", selected.size());
         for (const Case* c : selected) {
-            const auto start = std::chrono::steady_clock::now();
+            const Stopwatch start;
             outcomes.push_back({c, c->run(), 0.0});
-            outcomes.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            outcomes.back().seconds = start.seconds();
             seconds += outcomes.back().seconds;
             checks += outcomes.back().checks.size();
             for (const Check& check : outcomes.back().checks) failed += check.passed() ? 0 : 1;
