@@ -419,6 +419,20 @@ void check_fe(const Scene& s, Findings& f)
     if (d.mass_coefficient.has_value() != d.stiffness_coefficient.has_value())
         f.wrong("damping", "damping.mass_coefficient_1_s and damping.stiffness_coefficient_s are not both given.",
                 "both or neither", "add the other, 0 if it is meant to be absent");
+    const auto at_least = [&](const char* key, const std::optional<double>& size, double length, double most,
+                              const char* of) {
+        if (!size || *size * most >= length) return;
+        f.wrong(key,
+                fmt::format("{} makes {:.3g} elements along the {:.4g} m of {}.",
+                            value((std::string(key) + "_m").c_str(), *size), length / *size, length, of),
+                fmt::format("at most {:.0f} elements there: {} m or more", most, shortest(length / most)),
+                "give a larger size, or leave it out");
+    };
+    at_least("mesh.size", s.mesh.size, crest_level(s.section) - heel(s.section).y, 1000.0, "the dam's height");
+    at_least("mesh.contact_size", s.mesh.contact_size, base_length(s.section), 2000.0, "the base");
+    at_least("mesh.rock_contact_size", s.mesh.rock_contact_size, base_length(s.section), 2000.0, "the base");
+    if (s.reservoir)
+        at_least("reservoir.mesh_size", s.reservoir->mesh_size, s.reservoir->level, 400.0, "the water's depth");
     if (s.mesh.size && s.mesh.contact_size && *s.mesh.contact_size > *s.mesh.size)
         f.wrong("mesh.contact_size",
                 fmt::format("{} is above {}.", value("mesh.contact_size_m", *s.mesh.contact_size),
