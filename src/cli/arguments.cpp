@@ -8,7 +8,7 @@
 #include "cli/schema_command.hpp"
 #include "cli/screen_command.hpp"
 #include "cli/sweep_command.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "cli/verify_command.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
 #include "cli/explain_command.hpp"
 
-#include "cli/acoustic_modes.hpp"
-#include "cli/contact_cost.hpp"
-#include "cli/fe_inputs.hpp"
-#include "cli/fe_output.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/run/contact_cost.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/show/acoustic_modes.hpp"
+#include "cli/show/effect_table.hpp"
+#include "cli/show/fe_output.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "report/table_text.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/read.hpp"
@@ -17,16 +18,6 @@
 #include <ostream>
 
 namespace damslip::cli {
-
-Table effect_table(const EffectPlan& plan)
-{
-    Table table;
-    table.title = plan.method == Method::rigid_block ? "Effect plan, rigid block" : "Effect plan, finite elements";
-    table.columns = {
-        {"effect", "effect", "", 4}, {"on", "on", "", 4}, {"reason", "because", "", 4}, {"cost", "cost", "", 4}};
-    for (const PlannedEffect& e : plan.effects) table.rows.push_back({e.name, e.on, e.reason, e.cost});
-    return table;
-}
 
 namespace {
 

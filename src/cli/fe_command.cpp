@@ -1,10 +1,10 @@
 #include "cli/fe_command.hpp"
 
 #include "cli/contact_run.hpp"
-#include "cli/fe_inputs.hpp"
 #include "cli/reduced_command.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "cli/tied_run.hpp"
-#include "cli/usage_error.hpp"
 
 #include <fmt/format.h>
 #include <ostream>

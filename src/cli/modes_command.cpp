@@ -1,9 +1,9 @@
 #include "cli/modes_command.hpp"
 
-#include "cli/acoustic_modes.hpp"
-#include "cli/fe_inputs.hpp"
-#include "cli/fe_output.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/show/acoustic_modes.hpp"
+#include "cli/show/fe_output.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"

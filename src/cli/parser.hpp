@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/record_command.hpp"
-#include "cli/streams.hpp"
+#include "cli/terminal/streams.hpp"
 
 #include <CLI/CLI.hpp>
 

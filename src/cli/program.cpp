@@ -1,7 +1,7 @@
 #include "cli/program.hpp"
 
 #include "cli/arguments.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/terminal/usage_error.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

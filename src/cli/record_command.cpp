@@ -1,6 +1,6 @@
 #include "cli/record_command.hpp"
 
-#include "cli/usage_error.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "records/generate/spectrum_file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/streams.hpp"
+#include "cli/terminal/streams.hpp"
 #include "records/generate/generate.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/baseline.hpp"

@@ -1,12 +1,13 @@
 #include "cli/reduced_command.hpp"
 
-#include "cli/contact_options.hpp"
-#include "cli/contact_tables.hpp"
-#include "cli/explain_command.hpp"
-#include "cli/fe_output.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/progress.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/run/contact_options.hpp"
+#include "cli/run/reducible.hpp"
+#include "cli/show/contact_tables.hpp"
+#include "cli/show/effect_table.hpp"
+#include "cli/show/fe_output.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/progress.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "report/table_text.hpp"
@@ -81,31 +82,6 @@ Table stage_table(const std::vector<NamedResult>& runs)
 }
 
 } // namespace
-
-void check_reducible(const Scene& scene)
-{
-    if (scene.contact.sliding == JointPath::finite)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
-                                    "contact.sliding = \"small\", the modes are those of one place on the rock",
-                                    "run without --reduced, or write  sliding = \"small\"  in [contact]"});
-    if (scene.mesh.rock_contact_size)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with mesh.rock_contact_size_m.",
-                                    "facing nodes on both sides of the plane",
-                                    "run without --reduced, or delete rock_contact_size_m"});
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with reservoir.model = \"acoustic\".",
-                                    "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
-                                    "run without --reduced, or write  model = \"added-mass\"  in [reservoir]"});
-    if (!scene.lift_joints.empty())
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
-                                    fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
-                                    "no [[lift_joint]], the modes are those of a dam of one piece",
-                                    "run without --reduced, or delete the [[lift_joint]]"});
-    if (scene.contact.normal == NormalContact::exponential)
-        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.normal = \"exponential\".",
-                                    "contact.normal = \"hard\", the reduced base has no springs across it",
-                                    "run without --reduced, or write  normal = \"hard\"  in [contact]"});
-}
 
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
                 const std::vector<RecordPair>& records, const Streams& streams)

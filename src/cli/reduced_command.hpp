@@ -1,12 +1,9 @@
 #pragma once
 
 #include "cli/fe_command.hpp"
-#include "cli/run_inputs.hpp"
+#include "cli/run/run_inputs.hpp"
 
 namespace damslip::cli {
-
-/// @throws UsageError for what a reduced run cannot do
-void check_reducible(const Scene& scene);
 
 /// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
 /// changes.

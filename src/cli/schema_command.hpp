@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/streams.hpp"
+#include "cli/terminal/streams.hpp"
 
 namespace damslip::cli {
 

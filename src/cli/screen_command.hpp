@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/run_inputs.hpp"
-#include "cli/streams.hpp"
+#include "cli/run/run_inputs.hpp"
+#include "cli/terminal/streams.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 #include "cli/verify_command.hpp"
 
-#include "cli/progress.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/terminal/progress.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "core/stopwatch.hpp"
 #include "report/table_text.hpp"
 #include "verification/registry.hpp"

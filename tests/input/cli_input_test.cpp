@@ -1,7 +1,7 @@
 // Wrong command lines and the exact words their users read.
-#include "cli/number_list.hpp"
 #include "cli/program.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/sweep/number_list.hpp"
+#include "cli/terminal/usage_error.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // Bad wishes to `record generate`, `scale`, `baseline`, `spectrum`, and what is answered.
 #include "cli/record_command.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/terminal/usage_error.hpp"
 #include "core/input_error.hpp"
 #include "records/generate/spectrum_file.hpp"
 

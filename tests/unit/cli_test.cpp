@@ -1,5 +1,5 @@
 #include "cli/program.hpp"
-#include "cli/screening.hpp"
+#include "cli/run/screening.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

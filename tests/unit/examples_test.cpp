@@ -1,6 +1,6 @@
 // Every examples/*.toml is read and held against the figures it states under [expect].
-#include "cli/rigid_model.hpp"
-#include "cli/seepage_source.hpp"
+#include "cli/run/rigid_model.hpp"
+#include "cli/run/seepage_source.hpp"
 #include "core/units.hpp"
 #include "scene/read.hpp"
 

@@ -1,7 +1,7 @@
 // The report of FE contact runs: its charts say what the runs say.
-#include "cli/contact_options.hpp"
-#include "cli/fe_inputs.hpp"
-#include "cli/fe_report.hpp"
+#include "cli/run/contact_options.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/show/fe_report.hpp"
 #include "core/units.hpp"
 #include "report/page_html.hpp"
 #include "scene/read.hpp"

@@ -1,4 +1,4 @@
-#include "cli/screen_report.hpp"
+#include "cli/show/screen_report.hpp"
 #include "core/units.hpp"
 #include "scene/read.hpp"
 

@@ -1,6 +1,6 @@
 // The report of a sweep: its charts say what the rows say.
-#include "cli/sweep_charts.hpp"
-#include "cli/sweep_report.hpp"
+#include "cli/sweep/sweep_charts.hpp"
+#include "cli/sweep/sweep_report.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>

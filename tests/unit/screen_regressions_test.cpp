@@ -1,5 +1,5 @@
 // Regressions in `screen`: the weighted mean under those of each record, weights and period from the scene.
-#include "cli/screening.hpp"
+#include "cli/run/screening.hpp"
 #include "core/input_error.hpp"
 #include "records/measure/measures.hpp"
 #include "scene/read.hpp"

@@ -1,5 +1,5 @@
 // The journal of a sweep: torn and damaged lines, foreign and unfinished journals.
-#include "cli/sweep_journal.hpp"
+#include "cli/sweep/sweep_journal.hpp"
 #include "core/input_error.hpp"
 #include "sweep_scene.hpp"
 

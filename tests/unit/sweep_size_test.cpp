@@ -1,7 +1,7 @@
 // Sizes of a sweep: every length of a scene grows, nothing else does, and a run does not tell a grown scene from one
 // that was written so.
-#include "cli/rigid_model.hpp"
-#include "cli/sweep_size.hpp"
+#include "cli/run/rigid_model.hpp"
+#include "cli/sweep/sweep_size.hpp"
 #include "core/number.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"

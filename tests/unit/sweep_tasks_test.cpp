@@ -1,8 +1,8 @@
 // Order, parts and FE groups of a sweep's rows; sizes; quoting of commands.
-#include "cli/rigid_model.hpp"
-#include "cli/sweep_plan.hpp"
-#include "cli/sweep_size.hpp"
-#include "cli/sweep_tasks.hpp"
+#include "cli/run/rigid_model.hpp"
+#include "cli/sweep/sweep_plan.hpp"
+#include "cli/sweep/sweep_size.hpp"
+#include "cli/sweep/sweep_tasks.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,34 @@
+#include "cli/run/reducible.hpp"
+
+#include "cli/terminal/usage_error.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+void check_reducible(const Scene& scene)
+{
+    if (scene.contact.sliding == JointPath::finite)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.sliding = \"finite\".",
+                                    "contact.sliding = \"small\", the modes are those of one place on the rock",
+                                    "run without --reduced, or write  sliding = \"small\"  in [contact]"});
+    if (scene.mesh.rock_contact_size)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with mesh.rock_contact_size_m.",
+                                    "facing nodes on both sides of the plane",
+                                    "run without --reduced, or delete rock_contact_size_m"});
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with reservoir.model = \"acoustic\".",
+                                    "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
+                                    "run without --reduced, or write  model = \"added-mass\"  in [reservoir]"});
+    if (!scene.lift_joints.empty())
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0,
+                                    fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
+                                    "no [[lift_joint]], the modes are those of a dam of one piece",
+                                    "run without --reduced, or delete the [[lift_joint]]"});
+    if (scene.contact.normal == NormalContact::exponential)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with contact.normal = \"exponential\".",
+                                    "contact.normal = \"hard\", the reduced base has no springs across it",
+                                    "run without --reduced, or write  normal = \"hard\"  in [contact]"});
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,103 @@
+#include "cli/run/rigid_model.hpp"
+
+#include "core/units.hpp"
+#include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+
+#include <numbers>
+
+namespace damslip::cli {
+
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
+{
+    sliding::BlockOptions options;
+    options.crack = crack;
+    options.seepage = seepage;
+    RigidModel model;
+    model.block = sliding::make_rigid_block(scene, options);
+    model.stages = sliding::strength_stages(model.block, scene.contact);
+    if (scene.drains && scene.drains->lost_at_slip) {
+        sliding::BlockOptions later = options;
+        later.drains = sliding::DrainState::ineffective;
+        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
+                                                sliding::make_rigid_block(scene, later));
+    }
+    model.downstream = sliding::yield_downstream(model.block);
+    model.upstream = sliding::yield_upstream(model.block);
+    model.state = sliding::static_state(model.block);
+    model.critical_friction = sliding::critical_friction(model.block);
+    return model;
+}
+
+namespace {
+
+sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::HistoryOutput history)
+{
+    return {scene.sliding, polarity, history};
+}
+
+} // namespace
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history)
+{
+    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+}
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history)
+{
+    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+}
+
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s)
+{
+    Record horizontal;
+    horizontal.dt = motion.dt;
+    horizontal.acceleration = motion.accel_h;
+    const records::Measures m = records::measure(horizontal);
+    sliding::RegressionInputs inputs;
+    inputs.yield_coefficient = model.downstream.law.constant / units::standard_gravity;
+    inputs.pga_g = m.pga / units::standard_gravity;
+    inputs.arias_m_s = m.arias_intensity;
+    inputs.pgv_cm_s = m.pgv / units::cm;
+    inputs.mean_period_s = m.mean_period;
+    inputs.magnitude = pair.files.magnitude;
+    // N_eq sine cycles of amplitude a_max and period T_m have the Arias intensity pi/(2g) N_eq T_m a_max^2/2.
+    if (m.mean_period && m.pga > 0.0)
+        inputs.cycles =
+            4.0 * units::standard_gravity * m.arias_intensity / (std::numbers::pi * *m.mean_period * m.pga * m.pga);
+    inputs.sa_13_g = inputs.sa_15_g = inputs.pga_g;
+    if (period_s > 0.0) {
+        inputs.period_s = period_s;
+        const double periods[] = {1.3 * period_s, 1.5 * period_s};
+        const auto spectrum = records::response_spectrum(motion.accel_h, motion.dt, periods, 0.05);
+        inputs.sa_13_g = spectrum.points[0].pseudo_acceleration / units::standard_gravity;
+        inputs.sa_15_g = spectrum.points[1].pseudo_acceleration / units::standard_gravity;
+    }
+    return inputs;
+}
+
+GroundMotion horizontal_only(GroundMotion motion)
+{
+    motion.accel_v.clear();
+    return motion;
+}
+
+std::string status_word(sliding::SlideStatus status)
+{
+    switch (status) {
+    case sliding::SlideStatus::at_rest:
+        return "at rest";
+    case sliding::SlideStatus::sliding_at_end:
+        return "sliding at end";
+    case sliding::SlideStatus::static_sliding:
+        return "slides statically";
+    case sliding::SlideStatus::unresolved:
+        return "UNRESOLVED";
+    }
+    return "";
+}
+
+} // namespace damslip::cli

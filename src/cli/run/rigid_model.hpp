@@ -1,0 +1,44 @@
+#pragma once
+
+#include "cli/run/run_inputs.hpp"
+#include "scene/scene.hpp"
+#include "sliding/block/skipping_motion.hpp"
+#include "sliding/block/slide.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/empirical/regression.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+
+namespace damslip::cli {
+
+/// The rigid block of a scene, what it becomes with slip, and what holds it.
+struct RigidModel {
+    sliding::RigidBlock block;  ///< before any slip
+    sliding::SlipStages stages; ///< strength and uplift over slip
+    sliding::Yield downstream, upstream;
+    sliding::StaticState state = sliding::StaticState::at_rest;
+    double critical_friction = 0.0; ///< [-]
+};
+
+/// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
+/// @param crack    in place of the scene's uplift.crack, if given
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage,
+                            std::optional<CrackRule> crack = std::nullopt);
+
+/// Slip of the model under a motion with the scene's [sliding] options.
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history = sliding::HistoryOutput::none);
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+/// What the regressions ask for, measured from the scaled horizontal component; magnitude as the scene gives it.
+/// @param period_s  T_s of the sliding mass [s]; 0: rigid, spectral accelerations are then the PGA
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s = 0.0);
+
+/// The same motion without its vertical component.
+GroundMotion horizontal_only(GroundMotion motion);
+
+/// "at rest", "sliding at end", ...
+std::string status_word(sliding::SlideStatus status);
+
+} // namespace damslip::cli

@@ -1,0 +1,134 @@
+#include "cli/run/run_inputs.hpp"
+
+#include "cli/terminal/usage_error.hpp"
+#include "records/read/read_record.hpp"
+#include "records/transform/ground_motion.hpp"
+#include "scene/read.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
+constexpr double largest_accel = 1e4; ///< [m/s2], a thousand times gravity
+
+[[noreturn]] void refuse_scale(const RecordPair& pair, double factor)
+{
+    throw InputError(
+        Diagnostic{pair.files.horizontal.string(), 0, 0,
+                   fmt::format("scaled by {:g} the record has accelerations above {:g} m/s2.", factor, largest_accel),
+                   fmt::format("at most {:g} m/s2 after --scale, motion.scale and motion.record.scale", largest_accel),
+                   "lessen the factors; 0.1 to 10 is usual"});
+}
+
+/// The records of the command line in place of the scene's.
+std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
+{
+    if (!inputs.verticals.empty() && inputs.verticals.size() != inputs.records.size())
+        usage(fmt::format("{} --record and {} --vertical are given.", inputs.records.size(), inputs.verticals.size()),
+              "no --vertical, or one for each --record in the same order",
+              "leave --vertical out for records without one and run them separately");
+    std::vector<RecordFiles> files;
+    for (std::size_t i = 0; i < inputs.records.size(); ++i) {
+        RecordFiles f;
+        f.name = inputs.records[i].stem().string();
+        const auto taken = std::count_if(files.begin(), files.end(), [&](const RecordFiles& o) {
+            return o.horizontal.stem() == inputs.records[i].stem();
+        });
+        if (taken > 0) f.name += fmt::format(" ({})", taken + 1);
+        f.horizontal = inputs.records[i];
+        if (!inputs.verticals.empty()) f.vertical = inputs.verticals[i];
+        files.push_back(std::move(f));
+    }
+    return files;
+}
+
+} // namespace
+
+Scene read_run_scene(const RunInputs& inputs)
+{
+    Scene scene = read_scene(inputs.scene);
+    if (!inputs.verticals.empty() && inputs.records.empty())
+        usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
+    if (!inputs.records.empty()) scene.motion.records = command_line_records(inputs);
+    for (RecordFiles& record : scene.motion.records) {
+        if (record.unit.empty()) record.unit = inputs.unit;
+        if (!record.dt) record.dt = inputs.dt;
+    }
+    if (inputs.friction) {
+        if (!(*inputs.friction >= 0 && *inputs.friction <= 10))
+            usage(fmt::format("--friction {} is not allowed.", *inputs.friction), "Coulomb mu, 0 ... 10",
+                  "for example  --friction 0.77");
+        scene = with_friction(scene, *inputs.friction);
+    }
+    if (inputs.scale) {
+        if (!(*inputs.scale >= 0 && std::isfinite(*inputs.scale)))
+            usage(fmt::format("--scale {} is not allowed.", *inputs.scale), "a factor >= 0",
+                  "for example  --scale 1.5");
+        scene.motion.scale *= *inputs.scale;
+    }
+    if (!inputs.scheme.empty()) {
+        if (inputs.scheme != "exact" && inputs.scheme != "slammer")
+            usage(fmt::format("--scheme {} is not known.", inputs.scheme), "exact or slammer",
+                  "for example  --scheme slammer");
+        scene.sliding.scheme = inputs.scheme == "slammer" ? SlidingScheme::slammer : SlidingScheme::exact;
+    }
+    return scene;
+}
+
+Scene with_friction(Scene scene, double friction)
+{
+    if (!scene.contact.friction_table.empty())
+        usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
+              "one of them", "take friction_table_m out of the scene to vary the friction");
+    scene.contact.friction = friction;
+    if (scene.contact.residual_friction)
+        scene.contact.residual_friction = std::min(*scene.contact.residual_friction, friction);
+    return scene;
+}
+
+std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
+{
+    std::vector<RecordPair> pairs;
+    std::vector<Diagnostic> wrong;
+    for (const RecordFiles& files : scene.motion.records) {
+        records::ReadOptions options;
+        options.unit = files.unit;
+        options.dt = files.dt;
+        try {
+            RecordPair pair{files, records::read_record(files.horizontal, options), std::nullopt};
+            if (files.vertical && plan.on(Effect::vertical_motion))
+                pair.vertical = records::read_record(*files.vertical, options);
+            pairs.push_back(std::move(pair));
+        } catch (const InputError& error) { // go on, so that all bad files are reported at once
+            wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+        }
+    }
+    if (!wrong.empty()) throw InputError(wrong);
+    return pairs;
+}
+
+GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale, int polarity)
+{
+    records::MotionOptions options;
+    options.scale = scene.motion.scale * pair.files.scale * scale;
+    options.scale_to_pga = scene.motion.scale_to_pga;
+    options.polarity = scene.motion.polarity * polarity;
+    if (!std::isfinite(options.scale)) refuse_scale(pair, options.scale);
+    GroundMotion motion = records::make_ground_motion(pair.horizontal, pair.vertical, options);
+    motion.name = pair.files.name;
+    for (const auto* component : {&motion.accel_h, &motion.accel_v})
+        if (!std::all_of(component->begin(), component->end(), [](double a) { return std::abs(a) <= largest_accel; }))
+            refuse_scale(pair, options.scale);
+    return motion;
+}
+
+} // namespace damslip::cli

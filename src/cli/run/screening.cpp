@@ -1,0 +1,234 @@
+#include "cli/run/screening.hpp"
+
+#include "cli/run/seepage_source.hpp"
+#include "core/input_error.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "sliding/empirical/ensemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace damslip::cli {
+
+namespace {
+
+double peak(const std::vector<double>& a)
+{
+    double p = 0.0;
+    for (const double x : a) p = std::max(p, std::abs(x));
+    return p;
+}
+
+std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, const std::vector<RecordPair>& records,
+                               int jobs, std::vector<std::string>& warnings)
+{
+    std::vector<GroundMotion> motions;
+    std::vector<SlipRow> rows;
+    for (const RecordPair& pair : records) {
+        motions.push_back(ground_motion(scene, pair));
+        for (const std::string& note : motions.back().notes) warnings.push_back(motions.back().name + ": " + note);
+        for (const int polarity : {1, -1}) {
+            SlipRow row;
+            row.record = motions.back().name;
+            row.polarity = polarity;
+            row.pga = peak(motions.back().accel_h);
+            rows.push_back(std::move(row));
+        }
+    }
+    parallel_for(2 * rows.size(), jobs, [&](std::size_t task) {
+        SlipRow& row = rows[task / 2];
+        const GroundMotion& motion = motions[task / 4];
+        if (task % 2 == 0)
+            row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
+        else if (!motion.accel_v.empty())
+            row.with_vertical = slide_model(scene, model, motion, row.polarity);
+    });
+    return rows;
+}
+
+std::string joined(const std::vector<std::string>& sentences)
+{
+    std::string out;
+    for (const std::string& sentence : sentences) out += (out.empty() ? "" : "; ") + sentence;
+    return out;
+}
+
+/// The scene's weights. @throws InputError for an id that no regression has.
+std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
+{
+    std::vector<sliding::RegressionWeight> weights;
+    for (const RegressionWeightKey& key : scene.regressions.weights) {
+        if (!sliding::find_regression(key.model)) {
+            std::string ids;
+            for (const sliding::Regression& r : sliding::regressions())
+                ids += (ids.empty() ? "" : ", ") + std::string(r.id);
+            throw InputError(Diagnostic{scene.file.string(), 0, 0,
+                                        fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
+                                        "write one of these"});
+        }
+        weights.push_back({key.model, key.weight});
+    }
+    return weights;
+}
+
+std::optional<double> metres(const std::optional<double>& value_cm)
+{
+    return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
+}
+
+/// The weighted mean with the 16 and 84 % of the weighted distribution; nothing where no regression is valid.
+std::optional<RegressionRow> ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
+{
+    if (!e.mean_cm) return std::nullopt;
+    std::string remark = fmt::format("{} valid regressions, {}; median {:.4g} mm; band: 16 and 84 %", e.members.size(),
+                                     weights_given ? "weights of the scene" : "equal weights", 10.0 * *e.median_cm);
+    if (weights_given && e.weight_left_out > 0.0)
+        remark +=
+            fmt::format("; {:.3g} % of the weight is on regressions without a valid value", 100.0 * e.weight_left_out);
+    return RegressionRow{record, "weighted mean", metres(e.mean_cm), metres(e.low_cm), metres(e.high_cm), remark};
+}
+
+std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
+                                           const std::vector<RecordPair>& records)
+{
+    const std::vector<sliding::RegressionWeight> weights = regression_weights(scene);
+    std::vector<RegressionRow> rows;
+    for (const RecordPair& pair : records) {
+        const auto results =
+            sliding::evaluate_all(regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period));
+        for (const sliding::RegressionResult& r : results)
+            if (r.status != sliding::RegressionStatus::missing_input)
+                rows.push_back({pair.files.name, std::string(r.regression->name), metres(r.median_cm),
+                                metres(r.minus_sd_cm), metres(r.plus_sd_cm), joined(r.warnings)});
+        if (auto row = ensemble_row(pair.files.name, sliding::weighted_ensemble(results, weights), !weights.empty()))
+            rows.push_back(std::move(*row));
+    }
+    return rows;
+}
+
+SetStatistics statistics_of(const std::string& quantity, const std::vector<std::pair<std::string, double>>& slip,
+                            const std::optional<double>& allowable)
+{
+    std::vector<double> values;
+    for (const auto& [record, value] : slip) values.push_back(value);
+    SetStatistics s{quantity,
+                    values.size(),
+                    percentile(values, 0.5),
+                    percentile(values, 0.16),
+                    percentile(values, 0.84),
+                    std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
+                    0.0,
+                    {},
+                    ""};
+    const auto worst =
+        std::max_element(slip.begin(), slip.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    s.largest = worst->second;
+    s.controlling_record = worst->first;
+    if (allowable)
+        s.share_above_allowable =
+            static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v > *allowable; })) /
+            static_cast<double>(values.size());
+    return s;
+}
+
+/// Largest slip, where it means something: none of a block that slides without an earthquake.
+std::optional<double> dynamic_slip(const sliding::SlideResult& r)
+{
+    return r.status == sliding::SlideStatus::static_sliding ? std::nullopt : std::optional(r.max_slip);
+}
+
+/// Rows come in pairs of polarities: the worse one of each record.
+template <class Select>
+std::vector<std::pair<std::string, double>> worse_polarity(const std::vector<SlipRow>& rows, Select&& slip)
+{
+    std::vector<std::pair<std::string, double>> worse;
+    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
+        const std::optional<double> a = slip(rows[i]), b = slip(rows[i + 1]);
+        if (a && b) worse.emplace_back(rows[i].record, std::max(*a, *b));
+    }
+    return worse;
+}
+
+std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, const std::optional<double>& allowable)
+{
+    std::vector<SetStatistics> out;
+    const auto add = [&](const std::string& name, auto&& select) {
+        const auto worse = worse_polarity(rows, select);
+        if (!worse.empty()) out.push_back(statistics_of(name, worse, allowable));
+    };
+    add("rigid, horizontal", [](const SlipRow& r) { return dynamic_slip(r.horizontal); });
+    add("rigid, with vertical",
+        [](const SlipRow& r) { return r.with_vertical ? dynamic_slip(*r.with_vertical) : std::nullopt; });
+    return out;
+}
+
+void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
+{
+    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, 0.0}, seepage);
+    if (scene.reservoir || scene.tailwater)
+        s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
+}
+
+void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
+{
+    if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift))
+        warnings.push_back("The base is taken as dry although there is water: give [uplift] or a [curtain].");
+    const RigidModel& model = s.bases.front().model;
+    if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
+        warnings.push_back(fmt::format(
+            "The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.",
+            model.block.friction, model.critical_friction));
+    if (model.state == sliding::StaticState::lifts_off)
+        warnings.push_back("The uplift carries more than the weight: the block floats without any earthquake.");
+    if (scene.sliding.scheme == SlidingScheme::slammer)
+        warnings.push_back("SLAMMER's trapezoid scheme has an error of second order in the time step, largest where "
+                           "the yield acceleration is near the peak; the exact scheme has none.");
+    for (const SlipRow& row : s.slips)
+        for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
+            if (!r) continue;
+            if (r->status == sliding::SlideStatus::sliding_at_end)
+                warnings.push_back(fmt::format(
+                    "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
+                    row.record, row.polarity, scene.sliding.run_out_max));
+            if (r->status == sliding::SlideStatus::unresolved)
+                for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
+        }
+}
+
+} // namespace
+
+double percentile(std::vector<double> samples, double q)
+{
+    if (samples.empty()) return std::nan("");
+    std::sort(samples.begin(), samples.end());
+    const double at = q * static_cast<double>(samples.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t above = std::min(below + 1, samples.size() - 1);
+    return samples[below] + (at - static_cast<double>(below)) * (samples[above] - samples[below]);
+}
+
+Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+{
+    Screening s;
+    s.plan = plan;
+    SeepageSource source;
+    const sliding::SeepageProfile seepage = source.profile_of(scene);
+    s.bases.push_back(
+        {plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene, seepage)});
+    if (!plan.on(Effect::base_crack))
+        s.bases.push_back({"cracked under static loads", make_rigid_model(scene, seepage, CrackRule::fixed_static)});
+    else
+        s.bases.push_back({"uncracked", make_rigid_model(scene, seepage, CrackRule::none)});
+    s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
+    for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
+    add_equilibrium(scene, seepage, s);
+    s.regressions = regression_rows(scene, s.bases.front().model, records);
+    s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
+    add_warnings(scene, s, s.warnings);
+    return s;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "cli/run/rigid_model.hpp"
+#include "cli/run/run_inputs.hpp"
+#include "sliding/equilibrium/combinations.hpp"
+
+#include <string>
+#include <vector>
+
+/// What `screen` computes, as data; screen_command.cpp prints it.
+namespace damslip::cli {
+
+/// The base with its uplift, once as the scene says and once with a crack where none was asked for.
+struct BaseRow {
+    std::string base; ///< "as given", "cracked base"
+    RigidModel model;
+};
+
+/// One record with one polarity.
+struct SlipRow {
+    std::string record;
+    int polarity = 1;
+    double pga = 0.0;                                  ///< of the scaled horizontal component [m/s^2]
+    sliding::SlideResult horizontal;                   ///< without the vertical component
+    std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
+
+    /// The slip to judge by: with the vertical component where there is one.
+    const sliding::SlideResult& judged() const { return with_vertical ? *with_vertical : horizontal; }
+};
+
+struct RegressionRow {
+    std::string record;
+    std::string model;
+    std::optional<double> median, low, high; ///< slip and its -1/+1 sigma band [m]; none: not defined here
+    std::string remark;                      ///< outside its range, or why not defined
+};
+
+/// Over the records, each with the worse polarity. A block that slides statically has none.
+struct SetStatistics {
+    std::string quantity; ///< "rigid, horizontal", "rigid, with vertical"
+    std::size_t n = 0;
+    double median = 0.0, percentile_16 = 0.0, percentile_84 = 0.0, mean = 0.0, largest = 0.0; ///< [m]
+    std::optional<double> share_above_allowable;                                              ///< [-]
+    std::string controlling_record;
+};
+
+struct Screening {
+    EffectPlan plan;
+    std::vector<BaseRow> bases;
+    std::vector<sliding::Equilibrium> combinations; ///< limit equilibrium per load combination
+    std::vector<sliding::UpliftComparison> uplifts; ///< what each uplift profile asks for
+    std::vector<SlipRow> slips;
+    std::vector<RegressionRow> regressions;
+    std::vector<SetStatistics> statistics;
+    double largest_pga = 0.0; ///< of all records [m/s^2]
+    std::vector<std::string> warnings;
+};
+
+/// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
+Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
+
+/// Value below which the share q of the sorted samples lies, linear between order statistics (Hyndman & Fan 1996, type 7).
+double percentile(std::vector<double> samples, double q);
+
+} // namespace damslip::cli

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "core/table.hpp"
+#include "fe2d/run/earthquake_run.hpp"
+#include "sliding/block/slide.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Results of FE contact runs as tables.
+namespace damslip::cli {
+
+struct ContactRun {
+    std::string record;
+    fe2d::RunResult fe;
+    std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
+};
+
+/// "at rest", "sliding at end", "static failure", ...
+std::string word(fe2d::RunStatus status);
+
+/// Is the answer final, a recognised static failure included?
+bool ended_properly(fe2d::RunStatus status);
+
+// One row per run (or stage).
+Table contact_stage_table(const std::vector<ContactRun>& runs);
+Table contact_run_table(const std::vector<ContactRun>& runs);
+Table contact_slip_table(const std::vector<ContactRun>& runs);   ///< slip along the base, rocking, opening
+Table contact_lift_table(const std::vector<ContactRun>& runs);   ///< without rows where the scene has no lift joint
+Table contact_count_table(const std::vector<ContactRun>& runs);  ///< steps by the path of the contact solver
+Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at the end
+
+/// Slip of each run beside that of the same run with exact contact: what penalty, slip tolerance or soft
+/// normal contact err by.
+Table contact_law_table(const std::vector<ContactRun>& runs);
+
+// Of one run.
+Table contact_history_table(const fe2d::RunHistory& history);
+Table base_table(const fe2d::RunResult& result); ///< the pairs at the end
+
+/// Pressure, shear, slip, opening and state of the pairs over time, one row per pair and instant: every k-th row of the
+/// history with the least k that keeps `largest` instants at most, and the last one.
+Table pair_table(const fe2d::RunResult& result, std::size_t largest = 200);
+
+/// One row per step of the history, one letter per pair from heel to toe: s sticks, d slips downstream, u upstream, o
+/// open, p pulled (without separation only).
+Table state_map(const fe2d::RunHistory& history);
+
+} // namespace damslip::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "cli/terminal/streams.hpp"
+#include "fe2d/model/model.hpp"
+#include "fe2d/output/vtu.hpp"
+#include "scene/scene.hpp"
+
+#include <vector>
+
+namespace damslip::cli {
+
+/// What both kinds of FE runs write: fields for ParaView, counts, crest motion.
+Table count_table(const fe2d::ModelCounts& counts);
+
+/// Displacement of the upstream end of the crest [m].
+Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::VectorXd& displacement);
+
+/// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
+Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
+
+/// A name with everything that is awkward in file names replaced by '_'.
+std::string file_word(const std::string& name);
+
+/// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
+class FieldSeries {
+public:
+    FieldSeries(std::filesystem::path folder, const fe2d::Model& model) : folder_(std::move(folder)), model_(model) {}
+
+    /// @param displacement  shown [m] @param elastic  that carries the stresses [m]
+    /// @param more  other arrays on the nodes
+    void add(const std::string& name, double time, const Eigen::VectorXd& displacement, const Eigen::VectorXd& elastic,
+             std::vector<fe2d::VtuArray> more = {});
+    void write_collection() const;
+
+private:
+    std::filesystem::path folder_;
+    const fe2d::Model& model_;
+    std::vector<fe2d::PvdEntry> entries_;
+};
+
+/// summary.json, fields.pvd and the resolved scene, and a line that says so; nothing for an empty folder.
+void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json,
+                   const FieldSeries& fields, const Streams& streams);
+
+} // namespace damslip::cli

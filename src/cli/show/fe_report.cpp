@@ -1,0 +1,252 @@
+#include "cli/show/fe_report.hpp"
+
+#include "cli/show/base_charts.hpp"
+#include "cli/show/effect_table.hpp"
+#include "cli/show/fe_charts.hpp"
+#include "cli/show/fe_output.hpp"
+#include "cli/show/record_charts.hpp"
+#include "cli/show/report_provenance.hpp"
+#include "cli/show/section_drawing.hpp"
+#include "cli/terminal/streams.hpp"
+#include "core/units.hpp"
+#include "scene/write.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+using report::Fold;
+using report::Layout;
+using report::Outcome;
+using report::Section;
+using report::TablePart;
+
+constexpr double mm = units::mm;
+constexpr std::size_t open_records = 3;   ///< further ones are folded
+constexpr std::size_t stress_records = 4; ///< whose stresses are shown
+
+const ContactRun& worst_of(const std::vector<ContactRun>& runs)
+{
+    return *std::max_element(runs.begin(), runs.end(), [](const ContactRun& a, const ContactRun& b) {
+        return std::abs(a.fe.max_slip) < std::abs(b.fe.max_slip);
+    });
+}
+
+const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
+{
+    const auto at = std::find_if(runs.begin(), runs.end(), condition);
+    return at == runs.end() ? nullptr : &*at;
+}
+
+bool falls_after(const ContactRun& r)
+{
+    return !r.fe.after.name.empty() && r.fe.after.status != fe2d::StageStatus::ok;
+}
+
+TablePart rows(Table table, Fold fold = Fold::open)
+{
+    return {std::move(table), Layout::rows, 1, fold};
+}
+
+sliding::PressureProfile profile_of(const Polyline& uplift)
+{
+    sliding::PressureProfile profile;
+    for (const Point& p : uplift) profile.points.push_back({p.x, p.y});
+    return profile;
+}
+
+/// The table of runs without its seconds, which would make every report of the same scene another file.
+Table without_seconds(Table table)
+{
+    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
+                                 [&](const Column& column) { return column.key == "seconds"; });
+    if (at == table.columns.end()) return table;
+    const auto k = at - table.columns.begin();
+    table.columns.erase(at);
+    for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + k);
+    for (std::string& note : table.notes)
+        if (const auto end = note.find("; time without"); end != std::string::npos) note = note.substr(0, end) + ".";
+    return table;
+}
+
+struct LiftSlip {
+    double slip = 0.0; ///< largest |slip| of the lift joints in all runs [m]
+    std::string name;
+};
+
+LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
+{
+    LiftSlip largest;
+    for (const ContactRun& r : runs)
+        for (const fe2d::LiftResult& lift : r.fe.lifts)
+            if (lift.largest_slip > largest.slip)
+                largest = {lift.largest_slip, lift.name.empty() ? lift.plane : lift.name};
+    return largest;
+}
+
+std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs)
+{
+    const ContactRun& worst = worst_of(runs);
+    const double slip = std::abs(worst.fe.max_slip);
+    std::string out =
+        slip < 1e-7 ? fmt::format("The dam does not slide in {}",
+                                  runs.size() > 1 ? fmt::format("any of the {} records", runs.size())
+                                                  : "the record " + worst.record)
+                    : fmt::format("The dam slides {:.4g} mm at most by finite elements{} (record {})", slip / mm,
+                                  runs.size() > 1 ? fmt::format(" over {} records", runs.size()) : "", worst.record);
+    if (std::isfinite(worst.fe.slip_error) && worst.fe.slip_error > 0.0)
+        out += fmt::format(", ± {:.2g} mm from the time step", worst.fe.slip_error / mm);
+    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
+        out += fmt::format("; lift joint {} {:.4g} mm", lift.name, lift.slip / mm);
+    if (worst.rigid) out += fmt::format("; the rigid block {:.4g} mm", worst.rigid->max_slip / mm);
+    if (scene.criteria.allowable_slip)
+        out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    return out + ".";
+}
+
+std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    if (runs.empty()) return list;
+    const ContactRun& worst = worst_of(runs);
+    const bool failure = worst.fe.status == fe2d::RunStatus::static_failure;
+    list.emplace_back("Largest slip, FE",
+                      failure ? "slides statically" : fmt::format("{:.4g} mm", std::abs(worst.fe.max_slip) / mm));
+    list.emplace_back("Rigid block, same record",
+                      worst.rigid ? fmt::format("{:.4g} mm", worst.rigid->max_slip / mm) : "slides statically");
+    if (scene.criteria.allowable_slip)
+        list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
+    list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
+    if (!worst.fe.stages.empty())
+        list.emplace_back("Stands without earthquake from μ",
+                          fmt::format("{:.4g}", worst.fe.stages.back().friction_needed));
+    double open = 0.0;
+    for (const ContactRun& r : runs)
+        for (const double length : r.fe.history.open_length) open = std::max(open, length);
+    list.emplace_back("Largest open length", fmt::format("{:.3g} m", open));
+    return list;
+}
+
+Section statics_section(const std::vector<ContactRun>& runs)
+{
+    return {"Static stages", {rows(contact_stage_table(runs))}, Fold::open};
+}
+
+std::vector<std::string> falls_after_earthquake(const std::vector<ContactRun>& runs)
+{
+    std::vector<std::string> list;
+    for (const ContactRun& r : runs)
+        if (falls_after(r)) list.push_back(r.record + ": " + r.fe.after.text());
+    return list;
+}
+
+} // namespace
+
+report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs)
+{
+    if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
+    if (const ContactRun* r =
+            find(runs, [](const ContactRun& run) { return run.fe.status == fe2d::RunStatus::static_failure; }))
+        return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
+    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !ended_properly(run.fe.status); }))
+        return {r->record + ": " + r->fe.message, Outcome::unresolved, "UNRESOLVED"};
+
+    const std::string sentence = slip_sentence(scene, runs);
+    if (const ContactRun* r = find(runs, falls_after))
+        return {sentence + " After the earthquake it does not stand: " + r->fe.after.text(), Outcome::fail, "FAIL"};
+    if (const ContactRun* r =
+            find(runs, [](const ContactRun& run) { return run.fe.status == fe2d::RunStatus::sliding_at_end; }))
+        return {sentence + " " + r->record + ": " + r->fe.message, Outcome::fail, "FAIL"};
+    if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
+    const double allowable = *scene.criteria.allowable_slip, slip = std::abs(worst_of(runs).fe.max_slip),
+                 error = worst_of(runs).fe.slip_error;
+    if (slip > allowable || largest_lift_slip(runs).slip > allowable) return {sentence, Outcome::fail, "FAIL"};
+    if (std::isfinite(error) && slip + error > allowable)
+        return {sentence, Outcome::unresolved, "Within what the time step leaves open."};
+    return {sentence, Outcome::pass, "PASS"};
+}
+
+FeReport::FeReport(const Input& input)
+    : in_(input),
+      stresses_(input.model.structure(), fe2d::load_stages(input.scene, input.model.model(), input.uplift).last())
+{
+}
+
+void FeReport::add(const ContactRun& run, const GroundMotion& motion)
+{
+    motions_.push_back(motion);
+    Section section{"Record " + run.record, {}, motions_.size() <= open_records ? Fold::open : Fold::folded};
+    if (!run.fe.message.empty()) section.parts.push_back(report::Paragraph{run.fe.message});
+    if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
+        sections_.push_back(std::move(section));
+        return;
+    }
+    std::optional<sliding::SlideResult> rigid;
+    if (in_.rigid.state == sliding::StaticState::at_rest)
+        rigid = slide_model(in_.scene, in_.rigid, motion, 1, sliding::HistoryOutput::samples);
+    const RunView view{run, rigid ? &*rigid : nullptr, in_.scene.criteria.allowable_slip,
+                       fmt::format("record{}", motions_.size()), in_.records.size()};
+    for (report::Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
+    section.parts.emplace_back(base_states(view));
+    for (report::Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
+    sections_.push_back(std::move(section));
+    if (stress_records_ < stress_records) {
+        ++stress_records_;
+        stresses_.add(run.record, run.fe);
+    }
+}
+
+report::Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
+                            const std::vector<std::string>& messages) const
+{
+    report::Page page;
+    page.title = in_.scene.title.empty() ? in_.scene.file.filename().string() : in_.scene.title;
+    page.subtitle = "Sliding in an earthquake: finite elements with contact. " + in_.scene.file.filename().string() +
+                    ", scene " + scene_hash(in_.scene).substr(0, 12) + ", damslip " + program_version();
+    page.headline = fe_headline(in_.scene, runs);
+    page.key_figures = key_figures(in_.scene, runs);
+    page.warnings = messages;
+    for (std::string& w : falls_after_earthquake(runs)) page.warnings.push_back(std::move(w));
+    for (std::string& w : record_warnings(in_.records)) page.warnings.push_back(std::move(w));
+
+    page.sections.push_back(
+        {"Section",
+         {section_drawing(in_.scene, profile_of(in_.uplift), dam_mesh_lines(in_.model.model().mesh))},
+         Fold::open});
+    Section slip{"Slip", {rows(without_seconds(contact_run_table(runs))), rows(contact_slip_table(runs))}, Fold::open};
+    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows(contact_lift_table(runs)));
+    page.sections.push_back(std::move(slip));
+    page.sections.push_back(statics_section(runs));
+    if (!stresses_.empty()) {
+        report::MeshView view = stresses_.view();
+        if (motions_.size() > stress_records_)
+            view.note += fmt::format(" The first {} of {} records.", stress_records_, motions_.size());
+        page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
+    }
+    for (const Section& section : sections_) page.sections.push_back(section);
+    if (!motions_.empty())
+        page.sections.push_back({"Records", {rows(record_table(motions_)), spectra(motions_, 1)}, Fold::open});
+    Section model{
+        "Model and solution", {rows(effect_table(in_.plan)), rows(count_table(in_.model.model().counts))}, Fold::open};
+    for (const Table& table : tables) model.parts.push_back(rows(table));
+    page.sections.push_back(std::move(model));
+    page.sections.push_back(
+        {"Scene",
+         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in_.scene)}},
+         Fold::open});
+    page.provenance = {
+        {"program", "damslip " + program_version()},
+        {"scene", in_.scene.file.string()},
+        {"scene hash", scene_hash(in_.scene)},
+        {"method", fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for "
+                               "comparison with events located exactly",
+                               in_.model.model().dofs.count, in_.model.structure().pairs())}};
+    add_record_provenance(in_.records, page.provenance);
+    return page;
+}
+
+} // namespace damslip::cli

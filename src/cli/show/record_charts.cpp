@@ -1,0 +1,208 @@
+#include "cli/show/record_charts.hpp"
+
+#include "cli/show/slip_charts.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+using report::Curve;
+using report::Mark;
+using report::Scale;
+using report::Weight;
+
+constexpr std::size_t named_records = 6;
+
+std::vector<double> sample_times(const GroundMotion& motion)
+{
+    std::vector<double> t(motion.accel_h.size());
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<double>(i) * motion.dt;
+    return t;
+}
+
+report::Axis time_axis()
+{
+    return {"time", "s", Scale::linear, 0.1, {}, {}, {}};
+}
+
+Curve line(std::string name, std::vector<double> x, std::vector<double> y, int colour)
+{
+    return {std::move(name), std::move(x), std::move(y), {}, {}, Mark::line, Weight::normal, colour};
+}
+
+report::Chart acceleration_chart(const GroundMotion& motion)
+{
+    report::Chart chart;
+    chart.title = motion.name + ": ground acceleration";
+    chart.x = time_axis();
+    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.height = 260;
+    chart.curves.push_back(line("horizontal, upstream", sample_times(motion), motion.accel_h, 0));
+    if (!motion.accel_v.empty()) chart.curves.push_back(line("vertical, up", sample_times(motion), motion.accel_v, 1));
+    return chart;
+}
+
+Curve slip_curve(const sliding::SlideHistory& history, const std::string& name, int colour)
+{
+    std::vector<double> slip = history.slip;
+    for (double& v : slip) v /= units::mm;
+    return line(name, history.time, std::move(slip), colour);
+}
+
+/// Ground acceleration of the run and what the block withstands at each instant; it starts to slide where they cross.
+report::Chart demand_chart(const GroundMotion& motion, const sliding::SlideHistory& history, int polarity)
+{
+    report::Chart chart;
+    chart.title = motion.name + ": yield acceleration with vertical motion";
+    chart.x = time_axis();
+    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    std::vector<double> demand = motion.accel_h;
+    for (double& a : demand) a *= polarity;
+    chart.curves.push_back(
+        line(fmt::format("ground, polarity {:+d}", polarity), sample_times(motion), std::move(demand), 0));
+    chart.curves.push_back(line("yield acceleration", history.time, history.yield, 6));
+    // Beyond the record's end the ground rests: that part of the history says nothing here.
+    Curve& yield = chart.curves.back();
+    yield.x.resize(std::min(yield.x.size(), motion.accel_h.size()));
+    yield.y.resize(yield.x.size());
+    return chart;
+}
+
+/// Sample times of the integrator as k dt, so that all curves of a record share one list of times.
+void on_record_grid(const GroundMotion& motion, Curve& curve)
+{
+    const std::size_t n = std::min(curve.x.size(), motion.accel_h.size());
+    for (std::size_t i = 0; i < n; ++i)
+        if (std::abs(curve.x[i] - static_cast<double>(i) * motion.dt) < 1e-9 * motion.dt * static_cast<double>(n))
+            curve.x[i] = static_cast<double>(i) * motion.dt;
+}
+
+Record horizontal_record(const GroundMotion& motion)
+{
+    Record r;
+    r.name = motion.name;
+    r.dt = motion.dt;
+    r.acceleration = motion.accel_h;
+    return r;
+}
+
+double peak(const std::vector<double>& a)
+{
+    double p = 0.0;
+    for (const double x : a) p = std::max(p, std::abs(x));
+    return p;
+}
+
+} // namespace
+
+void thin_for(report::Chart& chart, std::size_t records)
+{
+    chart.thin_above = std::clamp<std::size_t>(80000 / std::max<std::size_t>(records, 1), 800, 20000);
+    chart.thin_buckets = chart.thin_above / (2 * std::max<std::size_t>(chart.curves.size(), 1));
+}
+
+report::Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
+{
+    const std::vector<double> periods = records::logarithmic_periods(0.03, 4.0, 48);
+    std::vector<std::vector<double>> psa(motions.size(), std::vector<double>(periods.size()));
+    // One task per record and period: long and short records share the threads evenly.
+    parallel_for(motions.size() * periods.size(), jobs, [&](std::size_t task) {
+        const std::size_t i = task / periods.size(), k = task % periods.size();
+        const auto spectrum =
+            records::response_spectrum(motions[i].accel_h, motions[i].dt, std::span(&periods[k], 1), 0.05);
+        psa[i][k] = spectrum.points.front().pseudo_acceleration;
+    });
+    report::Chart chart;
+    chart.title = "Response spectra, 5 % damping, horizontal";
+    chart.x = {"period", "s", Scale::log, 0.1, {}, {}, {}};
+    chart.y = {"pseudo-acceleration", "m/s²", Scale::linear, 0.1, 0.0, {}, {}};
+    const bool named = motions.size() <= named_records;
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        chart.curves.push_back({motions[i].name,
+                                periods,
+                                psa[i],
+                                {},
+                                {},
+                                Mark::line,
+                                named ? Weight::normal : Weight::faint,
+                                named ? static_cast<int>(i) : 7});
+    if (named) return chart;
+    Curve median{"median, band 16 to 84 %", periods, {}, {}, {}, Mark::line, Weight::strong, 0};
+    for (std::size_t k = 0; k < periods.size(); ++k) {
+        std::vector<double> values;
+        for (const auto& row : psa) values.push_back(row[k]);
+        median.y.push_back(percentile(values, 0.5));
+        median.low.push_back(percentile(values, 0.16));
+        median.high.push_back(percentile(values, 0.84));
+    }
+    chart.curves.push_back(std::move(median));
+    return chart;
+}
+
+Table record_table(const std::vector<GroundMotion>& motions)
+{
+    Table t;
+    t.title = "Records as scaled";
+    t.columns = {{"record", "record", "", 4},          {"duration_s", "duration", "s", 4},
+                 {"pga_m_s2", "PGA", "m/s²", 4},       {"pga_vertical_m_s2", "PGA vertical", "m/s²", 4},
+                 {"pgv_m_s", "PGV", "m/s", 4},         {"arias_intensity_m_s", "Arias intensity", "m/s", 4},
+                 {"duration_5_95_s", "D5-95", "s", 4}, {"mean_period_s", "mean period", "s", 4}};
+    for (const GroundMotion& motion : motions) {
+        const records::Measures m = records::measure(horizontal_record(motion));
+        t.rows.push_back({motion.name, m.duration, m.pga, motion.accel_v.empty() ? Cell() : Cell(peak(motion.accel_v)),
+                          m.pgv, m.arias_intensity, m.duration_5_95, m.mean_period ? Cell(*m.mean_period) : Cell()});
+    }
+    return t;
+}
+
+std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion,
+                                       std::size_t number, std::size_t records)
+{
+    const RigidModel& model = s.bases.front().model;
+    const std::string together = fmt::format("record{}", number + 1);
+    std::vector<report::Part> parts;
+    const auto add = [&](report::Chart chart) {
+        chart.together = together;
+        for (Curve& curve : chart.curves) on_record_grid(motion, curve);
+        thin_for(chart, records);
+        parts.emplace_back(std::move(chart));
+    };
+    add(acceleration_chart(motion));
+
+    report::Chart slip;
+    slip.title = motion.name + ": slip";
+    slip.x = time_axis();
+    slip.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    const SlipRow& h = worse_horizontal(s, number);
+    const auto horizontal =
+        slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
+    slip.curves.push_back(slip_curve(horizontal.history, fmt::format("horizontal, polarity {:+d}", h.polarity), 0));
+    if (scene.criteria.allowable_slip && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
+        slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
+    const SlipRow* hv = worse_with_vertical(s, number);
+    if (h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0))
+        slip.note = "The dam does not slide in this record.";
+    if (!hv) {
+        add(std::move(slip));
+    } else {
+        const auto both = slide_model(scene, model, motion, hv->polarity, sliding::HistoryOutput::samples);
+        slip.curves.push_back(slip_curve(both.history, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1));
+        add(std::move(slip));
+        add(demand_chart(motion, both.history, hv->polarity));
+    }
+    if (auto regressions = regressions_beside(s, number)) {
+        regressions->title = motion.name + ": " + regressions->title;
+        parts.emplace_back(std::move(*regressions));
+    }
+    return parts;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,281 @@
+#include "cli/show/screen_report.hpp"
+
+#include "cli/show/effect_table.hpp"
+#include "cli/show/record_charts.hpp"
+#include "cli/show/report_provenance.hpp"
+#include "cli/show/screen_tables.hpp"
+#include "cli/show/section_drawing.hpp"
+#include "cli/show/slip_charts.hpp"
+#include "cli/show/yield_charts.hpp"
+#include "cli/terminal/streams.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "report/page_html.hpp"
+#include "scene/write.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+using report::Fold;
+using report::Layout;
+using report::Outcome;
+using report::Section;
+using report::TablePart;
+
+constexpr double mm = units::mm;
+constexpr double g = units::standard_gravity;
+constexpr std::size_t open_records = 3; ///< further ones are folded
+
+struct CheckCount {
+    std::size_t judged = 0, failed = 0;
+};
+
+CheckCount count_checks(const Screening& s)
+{
+    CheckCount count;
+    for (const sliding::Equilibrium& e : s.combinations)
+        for (const sliding::Check& check : e.checks) {
+            count.judged += check.verdict != sliding::Verdict::no_criterion;
+            count.failed += check.verdict == sliding::Verdict::fail;
+        }
+    return count;
+}
+
+bool any_status(const Screening& s, sliding::SlideStatus status)
+{
+    return std::any_of(s.slips.begin(), s.slips.end(), [&](const SlipRow& r) { return r.judged().status == status; });
+}
+
+const SlipRow& largest(const Screening& s)
+{
+    return *std::max_element(s.slips.begin(), s.slips.end(), [](const SlipRow& a, const SlipRow& b) {
+        return a.judged().max_slip < b.judged().max_slip;
+    });
+}
+
+std::string slip_sentence(const Scene& scene, const Screening& s)
+{
+    const SlipRow& worst = largest(s);
+    const std::size_t n = s.slips.size() / 2;
+    const double slip = worst.judged().max_slip;
+    std::string out = slip > 0
+                          ? fmt::format("The dam slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", slip / mm,
+                                        n > 1 ? fmt::format(" over {} records", n) : "", worst.record, worst.polarity,
+                                        worst.with_vertical ? ", with vertical motion" : "")
+                          : fmt::format("The dam does not slide in {}",
+                                        n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst.record);
+    if (n > 1 && slip > 0) {
+        std::vector<double> worse;
+        for (std::size_t i = 0; i < n; ++i)
+            worse.push_back(std::max(s.slips[2 * i].judged().max_slip, s.slips[2 * i + 1].judged().max_slip));
+        out += fmt::format(", median {:.4g} mm", percentile(worse, 0.5) / mm);
+    }
+    if (scene.criteria.allowable_slip)
+        out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    return out + ".";
+}
+
+std::string checks_sentence(const CheckCount& checks)
+{
+    if (checks.failed > 0) return fmt::format(" {} of {} limit-equilibrium checks fail.", checks.failed, checks.judged);
+    if (checks.judged > 0) return fmt::format(" All {} limit-equilibrium checks pass.", checks.judged);
+    return "";
+}
+
+/// Combinations without an earthquake in which the shear exceeds the strength: the dam does not stand then, whether or not
+/// a required factor is given.
+std::string standing_sentence(const Screening& s)
+{
+    std::string out;
+    for (const sliding::Equilibrium& e : s.combinations)
+        if (e.k_h == 0.0 && e.k_v == 0.0 && e.sliding_factor < 1.0)
+            out += fmt::format("{}{} (crack rule {}, sliding factor {:.3g})", out.empty() ? "" : ", ", e.name,
+                               sliding::word(e.crack_rule), e.sliding_factor);
+    return out.empty() ? "" : " Without earthquake the base does not hold in: " + out + ".";
+}
+
+std::string metres_per_second2(double a)
+{
+    return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / g);
+}
+
+Section section_part(const Scene& scene, const Screening& s)
+{
+    const Scene solved = with_solved_uplift(scene, s);
+    const sliding::BaseState state = sliding::base_state(solved, sliding::scene_static_case(solved));
+    return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
+}
+
+Section equilibrium_section(const Screening& s)
+{
+    Section section{"Limit equilibrium", {}, Fold::open};
+    section.parts.push_back(TablePart{sliding::equilibrium_table(s.combinations), Layout::columns, 3, Fold::open});
+    Table verdicts = sliding::verdict_table(s.combinations);
+    const CheckCount checks = count_checks(s);
+    if (checks.judged == 0)
+        section.parts.push_back(report::Paragraph{
+            "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
+            "[[combination]]."});
+    else
+        section.parts.push_back(TablePart{std::move(verdicts), Layout::rows, 1, Fold::open});
+    for (const sliding::Equilibrium& e : s.combinations) {
+        Table loads = sliding::load_table(e);
+        loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
+        section.parts.push_back(TablePart{std::move(loads), Layout::rows, 1, Fold::folded});
+    }
+    return section;
+}
+
+Section yield_section(const Scene& scene, const Screening& s)
+{
+    Section section{"Yield acceleration", {}, Fold::open};
+    section.parts.push_back(TablePart{yield_table(s), Layout::rows, 1, Fold::open});
+    section.parts.push_back(yield_over_friction(scene, s));
+    if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
+    if (!s.uplifts.empty())
+        section.parts.push_back(TablePart{sliding::uplift_comparison_table(s.uplifts), Layout::rows, 1, Fold::open});
+    return section;
+}
+
+Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
+{
+    const Screening& s = in.screening;
+    Section section{"Slip", {}, Fold::open};
+    section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
+    const bool slides = !s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding;
+    if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
+    if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
+    if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
+    if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
+    if (!s.regressions.empty())
+        section.parts.push_back(
+            TablePart{regression_table(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
+    return section;
+}
+
+std::vector<Section> record_sections(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
+{
+    std::vector<Section> sections(1);
+    sections[0] = {"Records", {}, Fold::open};
+    sections[0].parts.push_back(TablePart{record_table(motions), Layout::rows, 1, Fold::open});
+    sections[0].parts.push_back(spectra(motions, in.jobs));
+    std::vector<std::vector<report::Part>> parts(motions.size());
+    parallel_for(motions.size(), in.jobs, [&](std::size_t i) {
+        parts[i] = record_parts(in.scene, in.screening, motions[i], i, motions.size());
+    });
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        sections.push_back(
+            {"Record " + motions[i].name, std::move(parts[i]), i < open_records ? Fold::open : Fold::folded});
+    return sections;
+}
+
+std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
+{
+    std::vector<std::pair<std::string, std::string>> list{
+        {"program", "damslip " + program_version()},
+        {"scene", in.scene.file.string()},
+        {"scene hash", scene_hash(in.scene)},
+        {"method", in.scene.sliding.scheme == SlidingScheme::exact
+                       ? "rigid block, events located exactly, acceleration linear between samples"
+                       : "rigid block, SLAMMER's trapezoid scheme"}};
+    add_record_provenance(in.records, list);
+    return list;
+}
+
+std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene, const Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    std::vector<std::pair<std::string, std::string>> list{
+        {"Yield acceleration", metres_per_second2(model.downstream.law.constant)},
+        {"Friction μ", fmt::format("{:.4g}", model.block.friction)},
+        {"Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction)}};
+    if (!s.slips.empty()) {
+        list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
+        list.emplace_back("Largest slip", largest(s).judged().status == sliding::SlideStatus::static_sliding
+                                              ? "slides statically"
+                                              : fmt::format("{:.4g} mm", largest(s).judged().max_slip / mm));
+    }
+    if (scene.criteria.allowable_slip)
+        list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
+    return list;
+}
+
+std::vector<std::string> all_warnings(const ScreenReportInput& in)
+{
+    std::vector<std::string> list = in.screening.warnings;
+    for (std::string& w : record_warnings(in.records)) list.push_back(std::move(w));
+    return list;
+}
+
+} // namespace
+
+report::Headline screen_headline(const Scene& scene, const Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    const CheckCount checks = count_checks(s);
+    if (model.state == sliding::StaticState::lifts_off)
+        return {"The uplift carries more than the weight: the dam floats without any earthquake.", Outcome::fail,
+                "FAIL"};
+    if (model.state != sliding::StaticState::at_rest)
+        return {fmt::format("The dam slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
+                            model.block.friction, model.critical_friction),
+                Outcome::fail, "FAIL"};
+    if (s.slips.empty()) {
+        const std::string sentence = fmt::format("The dam starts to slide at a ground acceleration of {}; no record is "
+                                                 "given.",
+                                                 metres_per_second2(model.downstream.law.constant)) +
+                                     checks_sentence(checks) + standing_sentence(s);
+        if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
+        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : "PASS"};
+    }
+    const std::string standing = standing_sentence(s);
+    const std::string sentence = slip_sentence(scene, s) + checks_sentence(checks) + standing;
+    if (any_status(s, sliding::SlideStatus::unresolved)) return {sentence, Outcome::unresolved, "UNRESOLVED"};
+    const bool too_far = scene.criteria.allowable_slip && largest(s).judged().max_slip > *scene.criteria.allowable_slip;
+    if (too_far || checks.failed > 0 || any_status(s, sliding::SlideStatus::sliding_at_end))
+        return {sentence, Outcome::fail, "FAIL"};
+    if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
+    return {sentence, Outcome::pass, "PASS"};
+}
+
+report::Page screen_page(const ScreenReportInput& in)
+{
+    std::vector<GroundMotion> motions;
+    for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
+    report::Page page;
+    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
+    page.subtitle = "Sliding in an earthquake: screening with the rigid block. " + in.scene.file.filename().string() +
+                    ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.headline = screen_headline(in.scene, in.screening);
+    page.key_figures = key_figures(in.scene, in.screening);
+    page.warnings = all_warnings(in);
+    page.sections.push_back(section_part(in.scene, in.screening));
+    if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
+    page.sections.push_back(yield_section(in.scene, in.screening));
+    page.sections.push_back(equilibrium_section(in.screening));
+    if (!motions.empty())
+        for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
+    Table effects = effect_table(in.screening.plan);
+    page.sections.push_back(
+        {"Effects taken into account", {TablePart{std::move(effects), Layout::rows, 1, Fold::open}}, Fold::open});
+    page.sections.push_back(
+        {"Scene",
+         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.given)}},
+         Fold::open});
+    page.provenance = provenance(in);
+    return page;
+}
+
+std::string screen_report(const ScreenReportInput& in)
+{
+    return report::page_html(screen_page(in));
+}
+
+} // namespace damslip::cli

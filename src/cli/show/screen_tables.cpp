@@ -1,0 +1,154 @@
+#include "cli/show/screen_tables.hpp"
+
+#include "core/units.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+constexpr double mm = units::mm;
+constexpr double g = units::standard_gravity;
+
+Cell cell(const std::optional<double>& value, double unit = 1.0)
+{
+    return value ? Cell(*value / unit) : Cell();
+}
+
+std::string state_word(const RigidModel& model)
+{
+    switch (model.state) {
+    case sliding::StaticState::at_rest:
+        return "stands";
+    case sliding::StaticState::slides_downstream:
+        return "SLIDES STATICALLY";
+    case sliding::StaticState::slides_upstream:
+        return "SLIDES UPSTREAM";
+    case sliding::StaticState::lifts_off:
+        return "FLOATS";
+    }
+    return "";
+}
+
+std::string verdict(const sliding::SlideResult& r, const std::optional<double>& allowable)
+{
+    if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::sliding_at_end)
+        return "FAIL";
+    if (r.status == sliding::SlideStatus::unresolved) return "unresolved";
+    if (!allowable) return "no criterion";
+    return r.max_slip <= *allowable ? "PASS" : "FAIL";
+}
+
+/// A slip means nothing where the block needs no earthquake to slide: it grows for as long as the record lasts.
+Cell slip_cell(const sliding::SlideResult& r, double slip)
+{
+    return r.status == sliding::SlideStatus::static_sliding ? Cell() : Cell(slip);
+}
+
+void note_static_sliding(const Screening& s, Table& table)
+{
+    const RigidModel& m = s.bases.front().model;
+    if (!s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding)
+        table.notes.push_back(fmt::format(
+            "slides statically: no slip is given, it would grow for as long as the record lasts; critical μ = {:.4g}.",
+            m.critical_friction));
+}
+
+} // namespace
+
+Table yield_table(const Screening& s)
+{
+    Table t;
+    t.title = "Yield acceleration";
+    t.columns = {{"base", "base", "", 4},
+                 {"friction", "μ", "–", 4},
+                 {"uplift_kN_m", "uplift U", "kN/m", 6},
+                 {"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6},
+                 {"yield_coefficient_g", "a_y downstream", "g", 6},
+                 {"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 6},
+                 {"critical_friction", "critical μ", "–", 6},
+                 {"state", "without earthquake", "", 4}};
+    for (const BaseRow& row : s.bases) {
+        const RigidModel& m = row.model;
+        t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant,
+                          m.downstream.law.constant / g, m.upstream.law.constant, m.critical_friction, state_word(m)});
+    }
+    t.notes.push_back("a_y: ground acceleration at which the dam starts to slide; critical μ: friction that just holds "
+                      "it without an earthquake.");
+    return t;
+}
+
+Table slip_table(const Screening& s, const std::optional<double>& allowable)
+{
+    Table t;
+    t.title = "Rigid-block displacement";
+    t.columns = {{"record", "record", "", 4},
+                 {"polarity", "polarity", "", 4},
+                 {"pga_m_s2", "PGA", "m/s²", 4},
+                 {"yield_over_pga", "a_y/PGA", "–", 4},
+                 {"slip_h_mm", "slip h", "mm", 5},
+                 {"slip_hv_mm", "slip h+v", "mm", 5},
+                 {"max_slip_m", "largest slip", "m", 5},
+                 {"upstream_slip_mm", "upstream", "mm", 4},
+                 {"lift_offs", "lift-offs", "", 4},
+                 {"status", "status", "", 4},
+                 {"verdict", "verdict", "", 4}};
+    const double a_y = s.bases.front().model.downstream.law.constant;
+    for (const SlipRow& row : s.slips) {
+        const sliding::SlideResult& r = row.judged();
+        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
+                          row.pga > 0 ? Cell(a_y / row.pga) : Cell(),
+                          slip_cell(row.horizontal, row.horizontal.slip / mm),
+                          row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
+                          slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
+                          static_cast<std::int64_t>(r.lift_offs), status_word(r.status), verdict(r, allowable)});
+    }
+    t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
+                      "component where the record has one.");
+    note_static_sliding(s, t);
+    if (allowable)
+        t.notes.push_back(
+            fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
+    return t;
+}
+
+Table regression_table(const Screening& s)
+{
+    Table t;
+    t.title = "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
+    t.columns = {{"record", "record", "", 4},
+                 {"model", "regression", "", 4},
+                 {"slip_mm", "slip", "mm", 4},
+                 {"slip_minus_sigma_mm", "−1σ", "mm", 4},
+                 {"slip_plus_sigma_mm", "+1σ", "mm", 4},
+                 {"remark", "remark", "", 4}};
+    for (const RegressionRow& row : s.regressions)
+        t.rows.push_back(
+            {row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm), row.remark});
+    return t;
+}
+
+Table statistics_table(const Screening& s)
+{
+    Table t;
+    t.title = "Over the records (largest slip, worse polarity of each)";
+    t.columns = {{"quantity", "method", "", 4},
+                 {"n", "n", "", 4},
+                 {"median_mm", "median", "mm", 4},
+                 {"percentile_16_mm", "16 %", "mm", 4},
+                 {"percentile_84_mm", "84 %", "mm", 4},
+                 {"mean_mm", "mean", "mm", 4},
+                 {"largest_mm", "largest", "mm", 4},
+                 {"share_above_allowable_percent", "above allowable", "%", 3},
+                 {"controlling_record", "controlling record", "", 4}};
+    for (const SetStatistics& q : s.statistics)
+        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), q.median / mm, q.percentile_16 / mm,
+                          q.percentile_84 / mm, q.mean / mm, q.largest / mm,
+                          q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(),
+                          q.controlling_record});
+    note_static_sliding(s, t);
+    return t;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/run/screening.hpp"
+#include "core/table.hpp"
+
+namespace damslip::cli {
+
+Table yield_table(const Screening& s);
+Table slip_table(const Screening& s, const std::optional<double>& allowable);
+Table regression_table(const Screening& s);
+Table statistics_table(const Screening& s);
+
+} // namespace damslip::cli

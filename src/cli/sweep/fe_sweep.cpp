@@ -1,0 +1,209 @@
+#include "cli/sweep/fe_sweep.hpp"
+
+#include "cli/run/contact_law.hpp"
+#include "cli/run/contact_options.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/run/reducible.hpp"
+#include "cli/show/contact_tables.hpp"
+#include "cli/sweep/fe_meter.hpp"
+#include "cli/sweep/sweep_grid.hpp"
+#include "core/parallel.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace damslip::cli {
+
+namespace {
+
+/// Mesh and matrices of one variant and law while a group needs them.
+struct PreparedModel {
+    std::mutex mutex;
+    std::size_t groups_left = 0;
+    Scene scene;
+    fe2d::RunOptions options;
+    std::unique_ptr<const fe2d::EarthquakeRun> full;
+    std::unique_ptr<const fe2d::ReducedRun> reduced; ///< on `full`; none: not asked for yet
+};
+using ModelKey = std::pair<std::size_t, FeLaw>; ///< variant, law
+
+/// Members that full and reduced runs have in common.
+template <class Result>
+FeSlip slip_of(const Result& r, double step_error)
+{
+    FeSlip slip;
+    slip.status = word(r.status);
+    slip.good = ended_properly(r.status);
+    slip.interrupted = r.status == fe2d::RunStatus::interrupted;
+    if (!r.stages.empty()) slip.critical_friction = r.stages.back().friction_needed;
+    if (r.history.time.empty()) return slip;
+    slip.slip = r.slip;
+    slip.max_slip = r.max_slip;
+    if (!std::isnan(step_error)) slip.slip_error = step_error;
+    return slip;
+}
+
+template <class Result>
+void count(const Result& r, FeSweepCounts& counts)
+{
+    ++counts.runs;
+    counts.static_failures += r.status == fe2d::RunStatus::static_failure;
+    counts.steps += r.counts.steps;
+    counts.unresolved += r.counts.unresolved;
+    counts.static_seconds += r.seconds.statics;
+    counts.dynamic_seconds += r.seconds.dynamics;
+}
+
+void add(const FeSweepCounts& c, FeSweepCounts& sum)
+{
+    sum.set_ups += c.set_ups;
+    sum.runs += c.runs;
+    sum.static_failures += c.static_failures;
+    sum.steps += c.steps;
+    sum.factorisations += c.factorisations;
+    sum.unresolved += c.unresolved;
+    sum.set_up_seconds += c.set_up_seconds;
+    sum.static_seconds += c.static_seconds;
+    sum.dynamic_seconds += c.dynamic_seconds;
+}
+
+Scene scene_of(const FeSweepInputs& in, const GridIndex& at)
+{
+    const Scene scene =
+        with_law(variant_of(in.scene, in.axes, at), in.axes.method[at.method].law, in.penalty_stiffness);
+    return fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
+}
+
+/// Groups through their models.
+class FeGroups {
+public:
+    FeGroups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, Progress& progress,
+             const InterruptGuard& interrupt, const TakeSlips& take)
+        : in_(inputs), meter_(progress), interrupt_(interrupt), take_(take)
+    {
+        for (const FeGroup& group : groups) ++models_[key(group)].groups_left;
+    }
+
+    FeSweepCounts run(const FeGroup& group)
+    {
+        FeSweepCounts counts;
+        meter_.begin(group.rows.size());
+        PreparedModel& model = models_.at(key(group));
+        const GridIndex at = in_.tasks.index(group.rows.front());
+        if (!interrupt_.interrupted()) {
+            prepare(model, at, counts);
+            const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
+                                                      in_.axes.polarity[at.polarity]);
+            if (in_.axes.method[at.method].reduced)
+                run_reduced_group(model, motion, group, counts);
+            else
+                run_full(model, motion, group, counts);
+        }
+        meter_.end();
+        const std::lock_guard lock(model.mutex);
+        if (--model.groups_left == 0) {
+            if (model.full) counts.factorisations += model.full->factorisations();
+            model.reduced.reset();
+            model.full.reset();
+        }
+        return counts;
+    }
+
+private:
+    /// Laws that come to the same share a model.
+    ModelKey key(const FeGroup& group) const
+    {
+        const FeLaw law = in_.axes.method[group.method].law;
+        return {group.variant, law == FeLaw::exact && !with_exact_contact(in_.scene) ? FeLaw::scene : law};
+    }
+
+    void prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    {
+        const std::lock_guard lock(model.mutex); // others who need the same model wait for it
+        if (!model.full) {
+            model.scene = scene_of(in_, at);
+            if (model.scene.added_mass.period_of_dam) resolve_dam_period(model.scene);
+            SeepageSource seepage;
+            model.options = contact_options(model.scene, in_.records, seepage);
+            model.options.progress = [this](const fe2d::RunProgress& p) {
+                meter_.step(p);
+                return interrupt_.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+            };
+            model.full = std::make_unique<fe2d::EarthquakeRun>(model.scene, model.options);
+            ++counts.set_ups;
+            counts.set_up_seconds += model.full->seconds();
+        }
+        if (in_.axes.method[at.method].reduced && !model.reduced)
+            model.reduced = std::make_unique<fe2d::ReducedRun>(*model.full, model.scene, model.options,
+                                                               in_.modes.value_or(fe2d::default_modes));
+    }
+
+    Contact contact(const PreparedModel& model, std::size_t id) const
+    {
+        const double friction = in_.axes.friction[in_.tasks.index(id).friction];
+        return friction == model.scene.contact.friction ? model.scene.contact
+                                                        : with_friction(model.scene, friction).contact;
+    }
+
+    void run_full(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group, FeSweepCounts& counts)
+    {
+        std::vector<Contact> contacts;
+        for (const std::size_t id : group.rows) contacts.push_back(contact(model, id));
+        std::vector<FeSlip> slips;
+        for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
+            slips.push_back(slip_of(r, r.slip_error));
+            count(r, counts);
+        }
+        take_(group.rows, slips);
+    }
+
+    void run_reduced_group(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group,
+                           FeSweepCounts& counts)
+    {
+        for (const std::size_t& id : group.rows) {
+            if (interrupt_.interrupted()) return;
+            const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id));
+            FeSlip slip = slip_of(r, r.step_error);
+            if (slip.slip) slip.truncation_error = r.truncation_error;
+            count(r, counts);
+            take_({&id, 1}, {&slip, 1});
+            meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));
+        }
+    }
+
+    const FeSweepInputs& in_;
+    FeMeter meter_;
+    const InterruptGuard& interrupt_;
+    const TakeSlips& take_;
+    std::map<ModelKey, PreparedModel> models_;
+};
+
+} // namespace
+
+void check_fe_scenes(const FeSweepInputs& in)
+{
+    for (std::size_t variant = 0; variant < in.tasks.variants(); ++variant)
+        for (std::size_t method = 0; method < in.axes.method.size(); ++method) {
+            if (in.axes.method[method].kind != SweepKind::finite_elements) continue;
+            GridIndex at = in.tasks.index(variant * in.tasks.motions() * in.tasks.method);
+            at.method = method;
+            const Scene scene = scene_of(in, at);
+            if (in.axes.method[method].reduced) check_reducible(scene);
+        }
+}
+
+FeSweepCounts run_fe_groups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs,
+                            Progress& progress, const InterruptGuard& interrupt, const TakeSlips& take)
+{
+    FeGroups runner(inputs, groups, progress, interrupt, take);
+    std::vector<FeSweepCounts> counted(groups.size());
+    parallel_for(groups.size(), jobs, [&](std::size_t i) { counted[i] = runner.run(groups[i]); });
+    FeSweepCounts sum;
+    for (const FeSweepCounts& c : counted) add(c, sum);
+    return sum;
+}
+
+} // namespace damslip::cli

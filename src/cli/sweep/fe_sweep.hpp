@@ -1,0 +1,54 @@
+#pragma once
+
+#include "cli/run/run_inputs.hpp"
+#include "cli/sweep/sweep_tasks.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/progress.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace damslip::cli {
+
+/// What one FE contact run gives to a sweep. Empty: not computed.
+struct FeSlip {
+    std::string status = "not run";
+    bool good = false;        ///< ended properly; a recognised static failure does
+    bool interrupted = false; ///< stopped on the way: not a result
+    std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
+    std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
+};
+
+/// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.
+struct FeSweepCounts {
+    std::int64_t set_ups = 0; ///< meshes and matrices made
+    std::int64_t runs = 0, static_failures = 0, steps = 0, factorisations = 0, unresolved = 0;
+    double set_up_seconds = 0.0, static_seconds = 0.0, dynamic_seconds = 0.0;
+};
+
+/// What FE runs need of a sweep.
+struct FeSweepInputs {
+    const Scene& scene; ///< as given, not yet called for by an effect plan
+    const Axes& axes;
+    const TaskList& tasks;
+    const std::vector<RecordPair>& records;
+    std::optional<int> modes;                ///< of reduced runs
+    std::optional<double> penalty_stiffness; ///< [N/m^3]
+};
+
+/// Scenes that FE cannot take are found here, before anything is computed. @throws UsageError
+void check_fe_scenes(const FeSweepInputs& inputs);
+
+/// Takes ids and their slips as soon as they are there; called from several threads.
+using TakeSlips = std::function<void(std::span<const std::size_t> ids, std::span<const FeSlip> slips)>;
+
+/// Runs all groups. Mesh, matrices and condensed rock of a variant and contact law are made once, when the first of its
+/// groups comes up, and given back after the last; the frictions of a group go through the earthquake together.
+/// Results do not depend on the number of threads.
+FeSweepCounts run_fe_groups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs,
+                            Progress& progress, const InterruptGuard& interrupt, const TakeSlips& take);
+
+} // namespace damslip::cli

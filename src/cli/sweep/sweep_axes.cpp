@@ -1,0 +1,239 @@
+#include "cli/sweep/sweep_axes.hpp"
+
+#include "cli/sweep/number_list.hpp"
+#include "cli/sweep/sweep_size.hpp"
+#include "cli/terminal/usage_error.hpp"
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+const std::vector<std::pair<std::string, UpliftModel>> uplift_words{
+    {"none", UpliftModel::none},     {"linear", UpliftModel::linear}, {"curtain", UpliftModel::curtain},
+    {"drains", UpliftModel::drains}, {"points", UpliftModel::points}, {"seepage", UpliftModel::seepage}};
+const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{
+    {"westergaard", AddedMassFormula::westergaard},
+    {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
+    {"zangar", AddedMassFormula::zangar},
+    {"goldgruber", AddedMassFormula::goldgruber}};
+
+template <class Enum>
+std::string word_of(const std::vector<std::pair<std::string, Enum>>& words, Enum value)
+{
+    return std::find_if(words.begin(), words.end(), [value](const auto& w) { return w.second == value; })->first;
+}
+
+template <class Enum>
+Enum value_of(const std::vector<std::pair<std::string, Enum>>& words, const std::string& word)
+{
+    return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; })->second;
+}
+
+template <class Enum>
+std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>& words)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : words) keys.push_back(key);
+    return keys;
+}
+
+[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
+std::vector<double> checked_numbers(const std::string& text, const std::string& flag, double own, double low,
+                                    double high, const std::string& meaning)
+{
+    if (text.empty()) return {own};
+    std::vector<double> values = number_list(text, flag);
+    for (const double v : values)
+        if (!(v >= low && v <= high))
+            usage(fmt::format("{}: {} is not allowed.", flag, v), meaning,
+                  fmt::format("give values from {} to {}", low, high));
+    return values;
+}
+
+std::string reservoir_word(const Scene& scene)
+{
+    if (!scene.reservoir) return "none";
+    switch (scene.reservoir->model) {
+    case ReservoirModel::automatic:
+        return "auto";
+    case ReservoirModel::hydrostatic:
+        return "hydrostatic";
+    case ReservoirModel::acoustic:
+        return "acoustic";
+    case ReservoirModel::added_mass:
+        break;
+    }
+    return word_of(formula_words, scene.added_mass.formula);
+}
+
+std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
+{
+    if (!a.friction.empty() && !a.friction_deg.empty())
+        usage("--friction and --friction-deg are both given.", "one of them", "delete one");
+    if (a.friction_deg.empty())
+        return checked_numbers(a.friction, "--friction", scene.contact.friction, 0, 10, "Coulomb mu, 0 ... 10");
+    std::vector<double> values =
+        checked_numbers(a.friction_deg, "--friction-deg", 0, 0, 84, "friction angle [deg], 0 ... 84");
+    for (double& v : values) v = std::tan(v * units::degree);
+    return values;
+}
+
+std::vector<std::string> reservoir_axis_words()
+{
+    std::vector<std::string> words = keys_of(formula_words);
+    words.insert(words.begin(), {"auto", "hydrostatic", "acoustic"});
+    return words;
+}
+
+std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene)
+{
+    if (a.uplift.empty()) return {scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"};
+    std::vector<std::string> words = word_list(a.uplift, "--uplift", keys_of(uplift_words));
+    for (const std::string& u : words) {
+        const bool possible = (u != "curtain" || scene.curtain) && (u != "drains" || scene.drains) &&
+                              (u != "points" || (scene.uplift && !scene.uplift->points.empty()));
+        if (!possible)
+            usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u),
+                  "[curtain] for curtain, [drains] for drains, uplift.points_m for points",
+                  "add it to the scene or leave the profile out");
+    }
+    return words;
+}
+
+std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> ids{"rigid"};
+    const bool vertical = std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                      [](const RecordFiles& r) { return r.vertical.has_value(); });
+    if (!a.method.empty())
+        ids = word_list(a.method, "--method", sweep_methods());
+    else if (vertical && scene.motion.vertical)
+        ids.emplace_back("rigid-v");
+    std::vector<SweepMethod> methods;
+    for (const std::string& id : ids) methods.push_back(sweep_method(id));
+    const auto given = [&](auto&& matches) { return std::any_of(methods.begin(), methods.end(), matches); };
+    const bool penalty = given([](const SweepMethod& m) { return m.law == FeLaw::penalty; });
+    if (penalty && !a.penalty_stiffness && !scene.contact.tangential_stiffness)
+        usage("--method fe-penalty: neither scene nor command line give the stiffness of sticking.",
+              "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\", or --penalty-stiffness",
+              "add  --penalty-stiffness 1e11");
+    if (!penalty && a.penalty_stiffness)
+        usage("--penalty-stiffness is given, but fe-penalty is not among the methods.", "both or neither",
+              "add fe-penalty to --method, or delete --penalty-stiffness");
+    if (a.modes && !given([](const SweepMethod& m) { return m.reduced; }))
+        usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
+              "add fe-reduced to --method, or delete --modes");
+    return methods;
+}
+
+template <class Value>
+void refuse_repeats(const char* flag, const std::vector<Value>& values)
+{
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
+            values.begin() + static_cast<std::ptrdiff_t>(i))
+            usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once", "delete the second one");
+}
+
+void check_repeats(const Axes& axes)
+{
+    refuse_repeats("--friction", axes.friction);
+    refuse_repeats("--level", axes.level);
+    refuse_repeats("--uplift", axes.uplift);
+    refuse_repeats("--reservoir", axes.reservoir);
+    refuse_repeats("--size", axes.size);
+    refuse_repeats("--scale", axes.scale);
+    refuse_repeats("--polarity", axes.polarity);
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    refuse_repeats("--method", methods);
+}
+
+/// "0.65,0.7" with all digits.
+std::string joined(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double v : values) text += (text.empty() ? "" : ",") + shortest(v);
+    return text;
+}
+
+} // namespace
+
+bool Axes::finite_elements() const
+{
+    return std::any_of(method.begin(), method.end(),
+                       [](const SweepMethod& m) { return m.kind == SweepKind::finite_elements; });
+}
+
+Axes make_axes(const SweepArguments& a, const Scene& scene)
+{
+    Axes axes;
+    axes.friction = friction_axis(a, scene);
+    if (!scene.reservoir)
+        for (const auto& [flag, text] : {std::pair{"--level", a.level}, {"--reservoir", a.reservoir}})
+            if (!text.empty())
+                usage(fmt::format("{} is given, but the scene has no [reservoir].", flag), "a scene with [reservoir]",
+                      "add [reservoir] to the scene");
+    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
+                                 3 * crest_level(scene.section), "water level above the heel at size 1 [m]");
+    axes.size = checked_numbers(a.size, "--size", 1.0, 0.01, 100, "factor on all lengths of the scene, 0.01 ... 100");
+    axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
+    for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
+        if (p != 1 && p != -1)
+            usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
+        axes.polarity.push_back(static_cast<int>(p));
+    }
+    axes.uplift = uplift_axis(a, scene);
+    axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)}
+                                         : word_list(a.reservoir, "--reservoir", reservoir_axis_words());
+    axes.method = method_axis(a, scene);
+    check_repeats(axes);
+    return axes;
+}
+
+Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size)
+{
+    if (scene.reservoir) {
+        scene.reservoir->level = level;
+        if (reservoir == "auto")
+            scene.reservoir->model = ReservoirModel::automatic;
+        else if (reservoir == "hydrostatic")
+            scene.reservoir->model = ReservoirModel::hydrostatic;
+        else if (reservoir == "acoustic")
+            scene.reservoir->model = ReservoirModel::acoustic;
+        else {
+            scene.added_mass.formula = value_of(formula_words, reservoir);
+            scene.reservoir->model = ReservoirModel::added_mass;
+        }
+    }
+    if (uplift == "none")
+        scene.uplift.reset();
+    else {
+        if (!scene.uplift) scene.uplift.emplace();
+        scene.uplift->model = value_of(uplift_words, uplift);
+    }
+    return sized(std::move(scene), size);
+}
+
+std::string text_of(const Axes& axes)
+{
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    return fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
+                       joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),
+                       fmt::join(axes.reservoir, ","), joined(axes.size), joined(axes.scale),
+                       fmt::join(axes.polarity, ","), fmt::join(methods, ","));
+}
+
+} // namespace damslip::cli

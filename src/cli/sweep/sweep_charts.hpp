@@ -1,0 +1,26 @@
+#pragma once
+
+#include "cli/sweep/sweep_rows_view.hpp"
+#include "report/chart.hpp"
+
+/// Charts of a sweep. Slips are the largest on the way; of the polarities of a record the worse counts.
+namespace damslip::cli {
+
+/// Slip over friction of one variant, a curve for each method: the largest of up to three records, of more the median, with
+/// a band from the least to the largest of the main method. Where the dam does not stand without an earthquake there is no
+/// value, and a line marks the critical friction.
+report::Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable);
+
+/// The same of one method, a curve for each of the first eight variants.
+report::Chart slip_by_variant(const SweepView& view, const std::string& method, const std::optional<double>& allowable);
+
+/// Slip of every row over a_y/PGA.
+report::Chart slip_over_yield_ratio(const SweepView& view);
+
+/// FE slip over the rigid block's, with the vertical component where both have it; nothing without both methods.
+std::optional<report::Chart> fe_over_rigid(const SweepView& view);
+
+/// Yield acceleration over friction of the variants.
+report::Chart yield_over_friction(const SweepView& view);
+
+} // namespace damslip::cli

@@ -1,0 +1,43 @@
+#include "cli/sweep/sweep_identity.hpp"
+
+#include "cli/terminal/streams.hpp"
+#include "core/file.hpp"
+#include "core/number.hpp"
+#include "scene/write.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+SweepIdentity sweep_identity(const SweepArguments& arguments, const Scene& scene, const Axes& axes,
+                             const TaskList& tasks)
+{
+    SweepIdentity identity;
+    identity.version = program_version();
+    identity.scene = scene_hash(scene);
+    std::string contents;
+    for (const RecordFiles& files : scene.motion.records) {
+        contents += sha256(read_file(files.horizontal)) + "\n";
+        contents += (files.vertical ? sha256(read_file(*files.vertical)) : "none") + "\n";
+    }
+    identity.records = sha256(contents);
+    identity.grid = text_of(axes);
+    if (arguments.modes) identity.grid += fmt::format("; modes {}", *arguments.modes);
+    if (arguments.penalty_stiffness) identity.grid += "; penalty stiffness " + shortest(*arguments.penalty_stiffness);
+    identity.rows = tasks.rows();
+    return identity;
+}
+
+std::string hash_of(const SweepIdentity& identity)
+{
+    return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n", identity.version, identity.scene, identity.records, identity.grid,
+                              identity.rows));
+}
+
+std::vector<std::string> csv_comments(const SweepIdentity& identity)
+{
+    return {"damslip " + identity.version + " sweep", "scene " + identity.scene,
+            "sweep " + hash_of(identity) + fmt::format(", {} rows", identity.rows)};
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,256 @@
+#include "cli/sweep/sweep_report.hpp"
+
+#include "cli/show/report_provenance.hpp"
+#include "cli/sweep/sweep_charts.hpp"
+#include "cli/terminal/streams.hpp"
+#include "core/units.hpp"
+#include "report/page_html.hpp"
+#include "scene/write.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+using report::Fold;
+using report::Layout;
+using report::Outcome;
+using report::Section;
+using report::TablePart;
+
+constexpr double mm = units::mm;
+constexpr std::size_t drawn_variants = 12, open_variants = 3; ///< with a chart of their own; of these unfolded
+constexpr std::size_t listed_rows = 400;
+
+std::string join(const std::vector<std::string>& words)
+{
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+    return out;
+}
+
+/// Rows of one method that have a slip, failed statically, or have no answer.
+Table method_table(const SweepView& view, const std::optional<double>& allowable)
+{
+    Table t;
+    t.title = "Rows by method";
+    t.columns = {{"method", "method", "", 4},         {"rows", "rows", "", 4},
+                 {"with_slip", "with a slip", "", 4}, {"static_failures", "slide statically", "", 4},
+                 {"unanswered", "no answer", "", 4},  {"median_mm", "median", "mm", 4},
+                 {"largest_mm", "largest", "mm", 4}};
+    if (allowable) t.columns.push_back({"above_allowable", "above the allowable", "", 4});
+    for (const std::string& method : view.methods) {
+        std::int64_t rows = 0, with_slip = 0, failures = 0, unanswered = 0, above = 0;
+        std::vector<double> slips;
+        for (const SweepRow& r : view.rows) {
+            if (r.method != method) continue;
+            ++rows;
+            failures += r.fails_statically();
+            unanswered += r.unanswered();
+            if (!r.slip) continue;
+            ++with_slip;
+            above += allowable && std::abs(*r.slip) > *allowable;
+            slips.push_back(std::abs(*r.slip) / mm);
+        }
+        std::sort(slips.begin(), slips.end());
+        const auto n = slips.size();
+        t.rows.push_back({method, rows, with_slip, failures, unanswered,
+                          n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell(),
+                          n ? Cell(slips.back()) : Cell()});
+        if (allowable) t.rows.back().push_back(above);
+    }
+    t.notes.push_back(
+        "slips: largest on the way; slide statically: the friction lies below the critical one, so there is "
+        "no equilibrium without an earthquake.");
+    return t;
+}
+
+/// The variants with the friction from which they stand.
+Table variant_table(const SweepView& view)
+{
+    Table t;
+    t.title = "Variants";
+    t.columns = {{"level_m", "level", "m", 4},  {"uplift", "uplift", "", 4},
+                 {"reservoir", "water", "", 4}, {"size", "size", "–", 4},
+                 {"scale", "motion ×", "–", 4}, {"critical_friction", "stands from μ", "–", 5}};
+    for (std::size_t v = 0; v < view.variants.size(); ++v) {
+        const SweepVariant& variant = view.variants[v];
+        const auto row = std::find_if(view.rows.begin(), view.rows.end(),
+                                      [&](const SweepRow& r) { return r.variant == v && r.critical_friction; });
+        t.rows.push_back({variant.level, variant.uplift, variant.reservoir, variant.size, variant.scale,
+                          row == view.rows.end() ? Cell() : Cell(*row->critical_friction)});
+    }
+    return t;
+}
+
+const SweepRow* worst_of(const SweepView& view)
+{
+    const SweepRow* worst = nullptr;
+    const bool fe = std::any_of(view.rows.begin(), view.rows.end(),
+                                [](const SweepRow& r) { return r.finite_elements() && r.slip; });
+    for (const SweepRow& r : view.rows) {
+        if (!r.slip || !(fe ? r.finite_elements() : r.rigid())) continue;
+        if (!worst || std::abs(*r.slip) > std::abs(*worst->slip)) worst = &r;
+    }
+    return worst;
+}
+
+report::Headline headline(const SweepView& view, const std::optional<double>& allowable)
+{
+    const auto unanswered =
+        std::count_if(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.unanswered(); });
+    const SweepRow* worst = worst_of(view);
+    std::string sentence =
+        worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.rows.size(),
+                            std::abs(*worst->slip) / mm, worst->method, worst->friction, worst->record)
+              : fmt::format("{} rows: none has a slip", view.rows.size());
+    double critical = 0.0;
+    std::size_t failing = 0;
+    for (const SweepRow& r : view.rows) {
+        if (!r.fails_statically()) continue;
+        ++failing;
+        critical = std::max(critical, *r.critical_friction);
+    }
+    if (failing)
+        sentence += fmt::format("; {} rows slide without any earthquake, up to a critical friction of {:.4g}", failing,
+                                critical);
+    if (allowable && worst) {
+        std::size_t above = 0, judged = 0;
+        for (const SweepRow& r : view.rows) {
+            if (r.method != worst->method || !r.slip) continue;
+            ++judged;
+            above += std::abs(*r.slip) > *allowable;
+        }
+        sentence += fmt::format("; {} of {} slips by {} exceed the allowable {:.4g} mm", above, judged, worst->method,
+                                *allowable / mm);
+    }
+    sentence += ".";
+    if (unanswered) return {sentence, Outcome::unresolved, fmt::format("{} rows have no answer.", unanswered)};
+    return {sentence, Outcome::none, ""};
+}
+
+std::vector<std::string> warnings(const SweepView& view)
+{
+    std::vector<std::string> list;
+    for (const SweepRow& r : view.rows)
+        if (r.unanswered())
+            list.push_back(
+                fmt::format("{}, μ = {:.4g}, {}{}, polarity {:+d}: {}", r.method, r.friction, r.record,
+                            view.variant_names[r.variant].empty() ? "" : ", " + view.variant_names[r.variant],
+                            r.polarity, r.status));
+    return list;
+}
+
+Section friction_section(const SweepView& view, const std::optional<double>& allowable)
+{
+    Section section{"Slip over friction", {}, Fold::open};
+    const std::size_t n = std::min(view.variants.size(), drawn_variants);
+    for (std::size_t v = 0; v < std::min(n, open_variants); ++v) {
+        report::Chart chart = slip_over_friction(view, v, allowable);
+        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
+    }
+    if (section.parts.empty())
+        section.parts.push_back(
+            report::Paragraph{"No row of the first variants has a slip: see the critical frictions."});
+    return section;
+}
+
+/// The variants after those that are unfolded.
+std::optional<Section> further_variants(const SweepView& view, const std::optional<double>& allowable)
+{
+    if (view.variants.size() <= open_variants) return std::nullopt;
+    Section section{"Slip over friction, further variants", {}, Fold::folded};
+    for (std::size_t v = open_variants; v < std::min(view.variants.size(), drawn_variants); ++v) {
+        report::Chart chart = slip_over_friction(view, v, allowable);
+        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
+    }
+    if (view.variants.size() > drawn_variants)
+        section.parts.push_back(report::Paragraph{
+            fmt::format("{} further variants are in the table of rows only.", view.variants.size() - drawn_variants)});
+    return section;
+}
+
+Section variant_section(const SweepView& view, const std::optional<double>& allowable)
+{
+    Section section{"Variants", {TablePart{variant_table(view), Layout::rows, 1, Fold::open}}, Fold::open};
+    if (view.variants.size() > 1)
+        for (const std::string& method : view.methods) {
+            if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
+            report::Chart chart = slip_by_variant(view, method, allowable);
+            if (chart.curves.size() > 1) section.parts.emplace_back(std::move(chart));
+        }
+    section.parts.emplace_back(yield_over_friction(view));
+    return section;
+}
+
+Section rows_section(const SweepReportInput& in)
+{
+    Table table = in.rows;
+    table.title = "Rows";
+    if (table.rows.size() > listed_rows) {
+        table.notes.push_back(fmt::format("The first {} of {} rows{}.", listed_rows, table.rows.size(),
+                                          in.csv.empty() ? "" : "; all are in " + in.csv.filename().string()));
+        table.rows.resize(listed_rows);
+    }
+    return {"Rows", {TablePart{std::move(table), Layout::rows, 1, Fold::open}}, Fold::folded};
+}
+
+std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
+{
+    std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
+                                                          {"scene", in.scene.file.string()},
+                                                          {"scene hash", scene_hash(in.scene)},
+                                                          {"methods", join(view.methods)}};
+    if (!in.csv.empty()) list.emplace_back("rows", in.csv.filename().string());
+    add_record_provenance(in.records, list);
+    return list;
+}
+
+} // namespace
+
+report::Page sweep_page(const SweepReportInput& in)
+{
+    const SweepView view = sweep_view(in.rows);
+    const std::optional<double> allowable = in.scene.criteria.allowable_slip;
+    report::Page page;
+    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
+    page.subtitle = "Sliding in an earthquake: sweep over friction and more. " + in.scene.file.filename().string() +
+                    ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.headline = headline(view, allowable);
+    page.key_figures = {{"Rows", fmt::format("{}", view.rows.size())},
+                        {"Variants", fmt::format("{}", view.variants.size())},
+                        {"Frictions", fmt::format("{}", view.frictions.size())},
+                        {"Records", fmt::format("{}", view.records.size())},
+                        {"Methods", fmt::format("{}", view.methods.size())}};
+    if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
+    page.warnings = warnings(view);
+    for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
+    if (view.rows.empty()) return page;
+
+    page.sections.push_back(friction_section(view, allowable));
+    if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
+    page.sections.push_back(variant_section(view, allowable));
+    Section methods{"Methods", {TablePart{method_table(view, allowable), Layout::rows, 1, Fold::open}}, Fold::open};
+    if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
+    if (report::Chart chart = slip_over_yield_ratio(view); !chart.curves.empty())
+        methods.parts.emplace_back(std::move(chart));
+    for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
+    page.sections.push_back(std::move(methods));
+    page.sections.push_back(rows_section(in));
+    page.sections.push_back(
+        {"Scene",
+         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
+         Fold::open});
+    page.provenance = provenance(in, view);
+    return page;
+}
+
+std::string sweep_report(const SweepReportInput& in)
+{
+    return report::page_html(sweep_page(in));
+}
+
+} // namespace damslip::cli

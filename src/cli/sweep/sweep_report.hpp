@@ -1,0 +1,23 @@
+#pragma once
+
+#include "cli/run/run_inputs.hpp"
+#include "core/table.hpp"
+#include "report/page.hpp"
+
+/// A sweep as the report that is handed in.
+namespace damslip::cli {
+
+struct SweepReportInput {
+    const Scene& scene;               ///< as given
+    const Table& rows;                ///< the whole table of the sweep
+    const std::vector<Table>& tables; ///< further ones: comparison of the methods, counts
+    const std::vector<RecordPair>& records;
+    std::filesystem::path csv; ///< where the rows are; empty: nowhere
+};
+
+report::Page sweep_page(const SweepReportInput& input);
+
+/// The page as one HTML file.
+std::string sweep_report(const SweepReportInput& input);
+
+} // namespace damslip::cli

@@ -1,0 +1,160 @@
+#include "cli/sweep/sweep_rows.hpp"
+
+namespace damslip::cli {
+
+namespace {
+
+/// Results in the order of the columns; what a method does not give stays empty.
+struct Results {
+    Cell slip, max_slip, upstream_slip, slip_low, slip_high, slip_error, truncation_error, critical_friction, status;
+
+    std::vector<Cell> cells() const
+    {
+        return {slip,       max_slip,         upstream_slip,     slip_low, slip_high,
+                slip_error, truncation_error, critical_friction, status};
+    }
+};
+enum ResultColumn : std::size_t { slip_column = 0, slip_error_column = 5, critical_friction_column = 7 };
+
+Cell number(const std::optional<double>& value)
+{
+    return value ? Cell(*value) : Cell();
+}
+
+std::optional<double> number_of(const FinishedRow& row, ResultColumn column)
+{
+    const double* value = std::get_if<double>(&row.results[column]);
+    return value ? std::optional(*value) : std::nullopt;
+}
+
+/// Median and band of a regression.
+Results regression_results(const sliding::Regression& regression, const sliding::RegressionInputs& inputs)
+{
+    const sliding::RegressionResult r = sliding::evaluate(regression, inputs);
+    const auto metres = [](const std::optional<double>& value_cm) {
+        return value_cm ? Cell(*value_cm * units::cm) : Cell();
+    };
+    std::string status;
+    for (const std::string& warning : r.warnings) status += (status.empty() ? "" : "; ") + warning;
+    Results results;
+    results.slip = results.max_slip = metres(r.median_cm);
+    results.slip_low = metres(r.minus_sd_cm);
+    results.slip_high = metres(r.plus_sd_cm);
+    results.status = status;
+    return results;
+}
+
+Results block_results(const Scene& scene, const Grid& grid, const GridIndex& at, const sliding::SkippingMotion& motion)
+{
+    const sliding::SlideResult r = slide_model(scene, grid.model(at), motion, grid.axes.polarity[at.polarity]);
+    Results results;
+    results.slip = r.slip;
+    results.max_slip = r.max_slip;
+    results.upstream_slip = r.upstream_slip;
+    results.status = status_word(r.status);
+    return results;
+}
+
+} // namespace
+
+Table sweep_table()
+{
+    Table t;
+    t.columns = {{"id", "id", "", 4},
+                 {"friction", "μ", "–", 4},
+                 {"level_m", "level", "m", 4},
+                 {"uplift", "uplift", "", 4},
+                 {"reservoir", "reservoir", "", 4},
+                 {"size", "size", "–", 4},
+                 {"scale", "scale", "–", 4},
+                 {"polarity", "polarity", "", 4},
+                 {"record", "record", "", 4},
+                 {"method", "method", "", 4},
+                 {"yield_acceleration_m_s2", "a_y", "m/s²", 5},
+                 {"yield_coefficient_g", "a_y", "g", 5},
+                 {"pga_m_s2", "PGA", "m/s²", 4},
+                 {"slip_m", "slip", "m", 5},
+                 {"max_slip_m", "largest", "m", 5},
+                 {"upstream_slip_m", "upstream", "m", 4},
+                 {"slip_low_m", "−1σ", "m", 4},
+                 {"slip_high_m", "+1σ", "m", 4},
+                 {"slip_error_m", "± step", "m", 2},
+                 {"truncation_error_m", "± modes", "m", 2},
+                 {"critical_friction", "critical μ", "–", 6},
+                 {"status", "status", "", 4}};
+    return t;
+}
+
+std::vector<Cell> table_row(const Grid& grid, std::size_t id, const std::vector<Cell>& results)
+{
+    const GridIndex at = grid.tasks.index(id);
+    const double a_y = grid.model(at).downstream.law.constant;
+    std::vector<Cell> row{static_cast<std::int64_t>(id),
+                          grid.axes.friction[at.friction],
+                          grid.axes.level[at.level] * grid.axes.size[at.size],
+                          grid.axes.uplift[at.uplift],
+                          grid.axes.reservoir[at.reservoir],
+                          grid.axes.size[at.size],
+                          grid.axes.scale[at.scale],
+                          static_cast<std::int64_t>(grid.axes.polarity[at.polarity]),
+                          grid.records[at.record],
+                          grid.axes.method[at.method].id,
+                          a_y,
+                          a_y / units::standard_gravity,
+                          grid.inputs_of(at).pga_g * units::standard_gravity};
+    row.insert(row.end(), results.begin(), results.end());
+    return row;
+}
+
+FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
+{
+    const GridIndex at = grid.tasks.index(id);
+    const SweepMethod& method = grid.axes.method[at.method];
+    Results results;
+    if (method.kind == SweepKind::regression)
+        results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at));
+    else if (method.kind == SweepKind::rigid)
+        results = block_results(scene, grid, at, grid.horizontal(at));
+    else if (grid.motion(at).has_vertical())
+        results = block_results(scene, grid, at, grid.motion(at));
+    else
+        results.status = std::string("no vertical component");
+    results.critical_friction = grid.model(at).critical_friction;
+    return {id, true, results.cells()};
+}
+
+FinishedRow fe_row(std::size_t id, const FeSlip& slip)
+{
+    Results results;
+    results.slip = number(slip.slip);
+    results.max_slip = number(slip.max_slip);
+    results.slip_error = number(slip.slip_error);
+    results.truncation_error = number(slip.truncation_error);
+    results.critical_friction = number(slip.critical_friction);
+    results.status = slip.status;
+    return {id, slip.good, results.cells()};
+}
+
+std::vector<Cell> not_run()
+{
+    Results results;
+    results.status = std::string("not run");
+    return results.cells();
+}
+
+std::optional<double> slip_of(const FinishedRow& row)
+{
+    return number_of(row, slip_column);
+}
+
+std::optional<double> slip_error_of(const FinishedRow& row)
+{
+    return number_of(row, slip_error_column);
+}
+
+std::optional<double> critical_friction_of(const FinishedRow& row)
+{
+    return number_of(row, critical_friction_column);
+}
+
+} // namespace damslip::cli

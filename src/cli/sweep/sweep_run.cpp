@@ -1,0 +1,118 @@
+#include "cli/sweep/sweep_run.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+
+namespace damslip::cli {
+
+namespace {
+
+constexpr std::size_t block_rows = 256; ///< rigid rows that go into the journal at once
+
+/// Rows by their place among the wanted ids, written from several threads, each place once.
+class RowStore {
+public:
+    RowStore(const std::vector<std::size_t>& wanted, Journal* journal)
+        : wanted_(wanted), journal_(journal), rows_(wanted.size())
+    {
+    }
+
+    void put(FinishedRow row)
+    {
+        const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), row.id);
+        if (at == wanted_.end() || *at != row.id) return; // not of this part
+        rows_[static_cast<std::size_t>(at - wanted_.begin())] = std::move(row);
+    }
+    void finish(std::vector<FinishedRow> rows)
+    {
+        if (journal_) journal_->append(rows);
+        for (FinishedRow& row : rows) put(std::move(row));
+    }
+    std::vector<std::size_t> missing() const
+    {
+        std::vector<std::size_t> ids;
+        for (std::size_t i = 0; i < wanted_.size(); ++i)
+            if (!rows_[i]) ids.push_back(wanted_[i]);
+        return ids;
+    }
+    std::vector<FinishedRow> finished()
+    {
+        std::vector<FinishedRow> rows;
+        for (auto& row : rows_)
+            if (row) rows.push_back(std::move(*row));
+        return rows;
+    }
+
+private:
+    const std::vector<std::size_t>& wanted_;
+    Journal* journal_;
+    std::vector<std::optional<FinishedRow>> rows_;
+};
+
+FeSweepCounts run_fe_rows(const FeSweepInputs& inputs, const std::vector<std::size_t>& missing, int jobs,
+                          const Streams& streams, const InterruptGuard& interrupt, RowStore& store)
+{
+    const auto threads = static_cast<std::size_t>(thread_count(jobs));
+    const std::vector<FeGroup> groups = fe_groups(inputs.tasks, inputs.axes, missing, threads);
+    std::size_t runs = 0;
+    for (const FeGroup& group : groups) runs += group.rows.size();
+    Progress progress(streams, "sweep, finite elements", runs);
+    return run_fe_groups(inputs, groups, jobs, progress, interrupt,
+                         [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
+                             std::vector<FinishedRow> rows;
+                             for (std::size_t i = 0; i < ids.size(); ++i)
+                                 if (!slips[i].interrupted) rows.push_back(fe_row(ids[i], slips[i]));
+                             store.finish(std::move(rows));
+                         });
+}
+
+void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_t> missing, int jobs,
+                    const Streams& streams, const InterruptGuard& interrupt, RowStore& store)
+{
+    std::erase_if(missing, [&](std::size_t id) {
+        return grid.axes.method[grid.tasks.index(id).method].kind == SweepKind::finite_elements;
+    });
+    Progress progress(streams, "sweep", missing.size());
+    parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
+        if (interrupt.interrupted()) return;
+        const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
+        std::vector<FinishedRow> rows;
+        for (std::size_t i = first; i < last; ++i) rows.push_back(rigid_row(scene, grid, missing[i]));
+        store.finish(std::move(rows));
+        progress.advance(last - first);
+    });
+}
+
+} // namespace
+
+bool SweepOutcome::all_good() const
+{
+    return std::all_of(rows.begin(), rows.end(), [](const FinishedRow& row) { return row.good; });
+}
+
+const FinishedRow* SweepOutcome::find(std::size_t id) const
+{
+    const auto at = std::lower_bound(rows.begin(), rows.end(), id,
+                                     [](const FinishedRow& row, std::size_t i) { return row.id < i; });
+    return at != rows.end() && at->id == id ? &*at : nullptr;
+}
+
+SweepOutcome run_sweep(const FeSweepInputs& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
+                       Journal* journal, int jobs, const Streams& streams)
+{
+    const InterruptGuard interrupt;
+    RowStore store(wanted, journal);
+    SweepOutcome outcome;
+    outcome.wanted = wanted.size();
+    if (journal)
+        for (FinishedRow& row : journal->take_finished()) store.put(std::move(row));
+    const std::vector<std::size_t> missing = store.missing();
+    outcome.found = wanted.size() - missing.size();
+    if (inputs.axes.finite_elements()) outcome.fe = run_fe_rows(inputs, missing, jobs, streams, interrupt, store);
+    run_rigid_rows(inputs.scene, grid, missing, jobs, streams, interrupt, store);
+    outcome.rows = store.finished();
+    return outcome;
+}
+
+} // namespace damslip::cli
