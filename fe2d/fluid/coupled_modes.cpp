@@ -193,7 +193,8 @@ CoupledModes coupled_modes_up_to(const CoupledPencil& pencil, double frequency, 
 {
     const auto limit =
         static_cast<int>(std::min<Index>(pencil.stiffness.rows() + pencil.water_mass.rows(), most_modes));
-    for (int count = std::min(24, limit);; count = std::min(2 * count, limit)) {
+    // where only leading modes are asked for, half of the lowest are: twice as many are likely to hold them
+    for (int count = std::min(frequency > 0.0 ? 24 : 2 * leading + 2, limit);; count = std::min(2 * count, limit)) {
         CoupledModes modes = coupled_modes(pencil, count);
         const Index found = modes.frequency.size();
         const std::vector<Index> chosen = leading_modes(modes, leading);

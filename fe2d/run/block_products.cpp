@@ -62,4 +62,24 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out) const
     }
 }
 
+void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass) const
+{
+    const int nodes = static_cast<int>(begin_.size()) - 1;
+    stiffness.resize(2 * nodes);
+    mass.resize(2 * nodes);
+    using Pair = Eigen::Array2d;
+    using Values = Eigen::Map<const Pair>;
+    for (int j = 0; j < nodes; ++j) {
+        Pair k = Pair::Zero(), m = k;
+        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
+            const Block& b = block_[e];
+            const double x0 = x[2 * column_[e]], x1 = x[2 * column_[e] + 1];
+            k += Values(b.k) * x0 + Values(b.k + 2) * x1;
+            m += Values(b.m) * x0 + Values(b.m + 2) * x1;
+        }
+        stiffness.segment<2>(2 * j) = k.matrix();
+        mass.segment<2>(2 * j) = m.matrix();
+    }
+}
+
 } // namespace damslip::fe2d

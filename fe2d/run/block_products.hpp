@@ -28,6 +28,8 @@ public:
     BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass);
 
     void multiply(const ProductVectors& in, Products& out) const;
+    /// K x and M x of one vector.
+    void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass) const;
     std::size_t bytes() const { return block_.size() * sizeof(Block) + (column_.size() + begin_.size()) * sizeof(int); }
 
 private:

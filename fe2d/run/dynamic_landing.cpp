@@ -43,8 +43,10 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
         if (holds(states, m + i)) rate_t_[i] = 0.0;
 
     landed_.pending = true;
-    landed_.dam = damping_.constants.mass * (structure_.mass() * change) +
-                  damping_.constants.stiffness * (structure_.stiffness() * change);
+    VectorXd stiffness_change, mass_change;
+    operators_->products().multiply(change, stiffness_change, mass_change);
+    structure_.clear_water(stiffness_change); // damping is the dam's
+    landed_.dam = damping_.constants.mass * mass_change + damping_.constants.stiffness * stiffness_change;
     if (structure_.water()) {
         structure_.clear_water(landed_.dam);
         landed_.dam += structure_.gyration() * change;
@@ -57,7 +59,10 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
         landed_.mean_velocity = slip_damping_.momentum.transpose() * change;
     }
     const double before_landing = energy_.kinetic + energy_.strain;
-    multiply(op_->constants());
+    const StepConstants& c = op_->constants();
+    products_.mass_1 += mass_change;
+    products_.stiffness_2 +=
+        damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change;
     VectorXd velocity = state_.v;
     structure_.clear_water(velocity);
     energy_.kinetic = 0.5 * velocity.dot(products_.mass_1);
@@ -66,8 +71,9 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
         water_.jolt = now.force - water_.force;
         energy_.strain += water_ledger_->compression(now) - water_ledger_->compression(water_);
         energy_.kinetic += water_ledger_->flow(now);
-        water_.v = now.v;
-        water_.force = now.force;
+        const VectorXd jolt = std::move(water_.jolt);
+        water_ = now;
+        water_.jolt = jolt;
     }
     energy_.numerical += before_landing - energy_.kinetic - energy_.strain;
     gather_forces(forces_);

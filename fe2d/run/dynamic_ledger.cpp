@@ -10,7 +10,10 @@ using Eigen::VectorXd;
 WaterLedger::Instant DynamicContact::water_instant() const
 {
     const GroundAcceleration& g = state_.ground;
-    return water_ledger_->instant(state_.u, state_.v, state_.a, g.velocity_h, g.velocity_v, g.displacement_v);
+    // the water has no part in the translations that K u leaves out
+    return water_ledger_->instant(
+        {state_.u, state_.v, state_.a, products_.stiffness_1, products_.mass_1, products_.mass_2}, g.velocity_h,
+        g.velocity_v, g.displacement_v);
 }
 
 void DynamicContact::start_ledger()

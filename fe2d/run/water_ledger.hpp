@@ -14,31 +14,43 @@ class WaterLedger {
 public:
     WaterLedger(const WaterBody& body, const NodeOrder& order);
 
-    /// One instant: what the rows of the water say.
+    /// One instant. Vectors without a word of their own are of the mesh's pressures, with the signs of a pressure
+    /// equation: what the products of a step hold of the water, turned.
     struct Instant {
-        Eigen::VectorXd z, v, a; ///< of all unknowns
-        Eigen::VectorXd load;    ///< on the mesh's rows, turned
-        Eigen::VectorXd force;   ///< F of the mesh's rows, turned: all but the inertia s²Q φ̈
-        Eigen::VectorXd jolt;    ///< change of F by contact impulses at its end; empty: none
+        Eigen::VectorXd phi, rate, accel; ///< φ, φ̇, φ̈
+        Eigen::VectorXd flow;             ///< s² L_b φ
+        Eigen::VectorXd mass_rate;        ///< s² Q_b φ̇
+        Eigen::VectorXd mass_accel;       ///< s² Q_b φ̈
+        Eigen::VectorXd boundary; ///< of the boundaries: s² (Q - Q_b) φ̈ + s² A φ̇ + s² (L - L_b) φ, on their rows
+        Eigen::VectorXd face, face_velocity; ///< sHᵀu, sHᵀu̇ on the rows of the dam's face
+        Eigen::VectorXd load;
+        Eigen::VectorXd force; ///< F: all but the inertia s²Q φ̈
+        Eigen::VectorXd jolt;  ///< change of F by contact impulses at its end; empty: none
     };
-    double flow(const Instant& instant) const;        ///< ½ ψᵀL_b ψ [J/m]
-    double compression(const Instant& instant) const; ///< ½ pᵀQ_b p [J/m]
-    Instant instant(const Eigen::VectorXd& z, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double velocity_h,
-                    double velocity_v, double displacement_v) const;
+    static double flow(const Instant& instant) { return 0.5 * instant.phi.dot(instant.flow); }              ///< [J/m]
+    static double compression(const Instant& instant) { return 0.5 * instant.rate.dot(instant.mass_rate); } ///< [J/m]
+
+    /// Motion of all unknowns in the order of the steps, and K z, M ż, M z̈ of it.
+    struct Motion {
+        const Eigen::VectorXd &z, &v, &a, &stiffness_z, &mass_v, &mass_a;
+    };
+    Instant instant(const Motion& motion, double velocity_h, double velocity_v, double displacement_v) const;
 
     /// Adds the step `before` -> `now`; `before2` is the instant before these.
     void add(const StepConstants& constants, const Instant& before2, const Instant& before, const Instant& now,
              Energy& energy) const;
 
 private:
+    using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
     Eigen::VectorXd water_of(const Eigen::VectorXd& vector) const;
+    Eigen::VectorXd on(const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& mesh) const;
 
-    const WaterBody& body_;
     Eigen::Index mesh_;
-    std::vector<Eigen::Index> place_;                       ///< of the water's unknowns in the order of the steps
-    Eigen::SparseMatrix<double, Eigen::RowMajor> coupling_; ///< s Hᵀ, mesh's rows x all unknowns in that order
-    SparseMatrix mass_, stiffness_;                         ///< s² Q_b, s² L_b, mesh x mesh
-    SparseMatrix end_mass_, damping_, end_stiffness_;       ///< s² (Q - Q_b), s² A, s² (L - L_b), mesh's rows
+    std::vector<Eigen::Index> place_;         ///< of the water's unknowns in the order of the steps
+    std::vector<Eigen::Index> boundary_rows_; ///< of the mesh's, bottom, surface and far end
+    Rows end_mass_, damping_, end_stiffness_; ///< s² (Q - Q_b), s² A, s² (L - L_b) on these rows
+    std::vector<Eigen::Index> face_rows_;     ///< of the mesh's
+    Rows coupling_;                           ///< s Hᵀ, these rows x all unknowns in the order of the steps
     Eigen::VectorXd velocity_x_, velocity_y_, displacement_y_;
 };
 

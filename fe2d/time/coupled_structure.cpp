@@ -43,7 +43,7 @@ DampingChoice damping_of(const Scene& scene, const Model& model, const FluidMode
 {
     const int count = modes_needed(scene.damping);
     if (count == 0) return choose_damping(scene.damping, {}, model.total_mass.x(), {});
-    const CoupledModes modes = coupled_modes_up_to(coupled_pencil(model, water), 20.0, count);
+    const CoupledModes modes = coupled_modes_up_to(coupled_pencil(model, water), 0.0, count);
     const SpectralAcceleration spectrum = [&](double frequency, double ratio) {
         return records::peak_absolute_acceleration(motion.accel_h, motion.dt, frequency / (2.0 * std::numbers::pi),
                                                    ratio);
