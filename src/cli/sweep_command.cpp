@@ -88,6 +88,17 @@ Table table_of(const Grid& grid, const std::vector<std::size_t>& wanted, const S
     return table;
 }
 
+std::vector<SlipHistory> histories_of(const std::vector<std::size_t>& wanted, const SweepOutcome& outcome)
+{
+    std::vector<SlipHistory> histories;
+    if (wanted.size() > most_rows_with_history) return histories;
+    for (const std::size_t id : wanted) {
+        const FinishedRow* row = outcome.find(id);
+        histories.push_back(row ? row->history : SlipHistory{});
+    }
+    return histories;
+}
+
 std::string json_text(const Scene& scene, const Grid& grid, const Table& table, const SweepOutcome& outcome)
 {
     auto j = json_header("sweep");
@@ -136,7 +147,7 @@ struct Job {
 
 /// The report beside the table: results.csv -> results.html. A part has none, nor has a table too large to be looked at.
 void put_report(const Job& job, const std::vector<RecordPair>& records, const Grid& grid, const Table& table,
-                const SweepOutcome& outcome, const Streams& streams)
+                const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
     constexpr std::size_t largest_rows = 1'000'000;
     if (job.out.empty() || job.shard || table.rows.size() > largest_rows) return;
@@ -144,7 +155,7 @@ void put_report(const Job& job, const std::vector<RecordPair>& records, const Gr
     if (outcome.fe) tables = {comparison(job.scene, grid, outcome), count_table(*outcome.fe)};
     std::filesystem::path page = job.out;
     page.replace_extension(".html");
-    write_file(page, sweep_report({job.scene, table, tables, records, job.out}));
+    write_file(page, sweep_report({job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}));
     if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
 }
 
@@ -167,7 +178,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
-    put_report(job, records, grid, table, outcome, streams);
+    put_report(job, records, grid, table, wanted, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_convergence;
 }
 

@@ -1,4 +1,4 @@
-// Every examples/*.toml is read and held against the figures it states under [expect].
+// Every .toml of examples/ is read and held against the figures it states under [expect].
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/seepage_source.hpp"
 #include "core/units.hpp"
@@ -19,7 +19,7 @@ using namespace damslip;
 std::vector<std::filesystem::path> example_files()
 {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(DAMSLIP_SOURCE_DIR "/examples"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(DAMSLIP_SOURCE_DIR "/examples"))
         if (entry.path().extension() == ".toml") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;

@@ -45,6 +45,7 @@ TEST_F(SweepJournal, GivesBackEveryBit)
     std::vector<FinishedRow> rows{
         row(7, 0.1 + 0.2), row(2, -0.0), row(0, 5e-324), row(9, 1e300, "a \"quoted\", line\nwith μ"), {4, false, {}}};
     rows.back().results.resize(cli::result_columns);
+    rows[1].history = {0.06, {0.0, -0.0000001, 0.1 + 0.2}};
     write_rows(rows);
     Journal journal(file(), identity, {}, JournalStart::resume);
     const std::vector<FinishedRow> found = journal.take_finished();
@@ -53,6 +54,7 @@ TEST_F(SweepJournal, GivesBackEveryBit)
         EXPECT_EQ(found[i].id, rows[i].id);
         EXPECT_EQ(found[i].good, rows[i].good);
         EXPECT_EQ(found[i].results, rows[i].results);
+        EXPECT_EQ(found[i].history, rows[i].history);
     }
     EXPECT_TRUE(std::signbit(std::get<double>(found[1].results[0])));
     EXPECT_EQ(journal.damaged(), 0u);

@@ -32,15 +32,17 @@ TEST_F(SweepScene, AnyNumberOfThreadsGivesTheSameBytes)
 
 TEST_F(SweepScene, EveryFeMethodGivesItsOwnRow)
 {
-    const Answer a = sweep({"--friction", "0.1", "--method",
-                            "rigid,fe,fe-exact,fe-penalty,fe-slip-tolerance,fe-goldgruber-2015,fe-reduced",
-                            "--penalty-stiffness", "1e9", "--json"});
+    const Answer a =
+        sweep({"--friction", "0.1", "--method",
+               "rigid,fe,fe-exact,fe-penalty,fe-slip-tolerance,fe-goldgruber-2015,fe-reduced,fe-whole-steps",
+               "--penalty-stiffness", "1e9", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto rows = nlohmann::json::parse(a.out)["rows"];
-    ASSERT_EQ(rows.size(), 14u);
+    ASSERT_EQ(rows.size(), 16u);
     std::map<std::string, double> slip;
-    for (std::size_t i = 0; i < 7; ++i) slip[rows[i]["method"]] = rows[i]["slip_m"].get<double>();
-    EXPECT_EQ(slip["fe"], slip["fe-exact"]); // the scene's law is the exact one
+    for (std::size_t i = 0; i < 8; ++i) slip[rows[i]["method"]] = rows[i]["slip_m"].get<double>();
+    EXPECT_EQ(slip["fe"], slip["fe-exact"]);       // the scene's law is the exact one
+    EXPECT_EQ(slip["fe"], slip["fe-whole-steps"]); // the scene has no sub-steps
     EXPECT_NE(slip["fe"], slip["fe-penalty"]);
     EXPECT_NE(slip["fe-penalty"], slip["fe-slip-tolerance"]);
     EXPECT_NE(slip["fe-slip-tolerance"], slip["fe-goldgruber-2015"]);

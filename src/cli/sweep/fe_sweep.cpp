@@ -155,6 +155,7 @@ private:
         std::vector<FeSlip> slips;
         for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
             slips.push_back(slip_of(r, r.slip_error));
+            if (keep_histories()) slips.back().history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
         }
         take_(group.rows, slips);
@@ -168,11 +169,14 @@ private:
             const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id));
             FeSlip slip = slip_of(r, r.step_error);
             if (slip.slip) slip.truncation_error = r.truncation_error;
+            if (keep_histories()) slip.history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
             take_({&id, 1}, {&slip, 1});
             meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));
         }
     }
+
+    bool keep_histories() const { return in_.tasks.rows() <= most_rows_with_history; }
 
     const FeSweepInputs& in_;
     FeMeter meter_;

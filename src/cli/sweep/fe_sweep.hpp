@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/run/run_inputs.hpp"
+#include "cli/sweep/slip_history.hpp"
 #include "cli/sweep/sweep_tasks.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
@@ -20,6 +21,7 @@ struct FeSlip {
     bool interrupted = false; ///< stopped on the way: not a result
     std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
     std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
+    SlipHistory history;                                                ///< of sweeps of few rows
 };
 
 /// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.

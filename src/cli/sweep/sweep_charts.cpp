@@ -112,14 +112,6 @@ void fit_scale(report::Chart& chart)
     if (least > 0.1) chart.y.scale = Scale::log;
 }
 
-/// The method a reader looks at first.
-std::string main_method(const SweepView& view)
-{
-    for (const char* method : {"fe", "rigid-v", "rigid"})
-        if (std::find(view.methods.begin(), view.methods.end(), method) != view.methods.end()) return method;
-    return view.methods.front();
-}
-
 std::string with_name(const std::string& title, const std::string& name)
 {
     return name.empty() ? title : title + ": " + name;
@@ -144,6 +136,28 @@ Curve points(const std::string& name, std::vector<std::pair<double, double>> val
 
 } // namespace
 
+report::Curve history_curve(const std::string& name, const SlipHistory& history)
+{
+    Curve curve{name, {}, {}, {}, {}, Mark::line, Weight::normal, -1};
+    for (std::size_t k = 0; k < history.slip.size(); ++k) {
+        curve.x.push_back(static_cast<double>(k) * history.interval);
+        curve.y.push_back(history.slip[k] / mm);
+    }
+    return curve;
+}
+
+std::string main_method(const SweepView& view)
+{
+    const auto given = [&](const std::string& method) {
+        return std::find(view.methods.begin(), view.methods.end(), method) != view.methods.end();
+    };
+    if (given("fe")) return "fe";
+    const auto fe = std::find_if(view.methods.begin(), view.methods.end(),
+                                 [](const std::string& method) { return method.rfind("fe", 0) == 0; });
+    if (fe != view.methods.end()) return *fe;
+    return given("rigid-v") ? "rigid-v" : view.methods.front();
+}
+
 report::Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable)
 {
     report::Chart chart = empty_chart(view, with_name("Slip over friction", view.variant_names[variant]), allowable);
@@ -157,6 +171,31 @@ report::Chart slip_over_friction(const SweepView& view, std::size_t variant, con
     if (!banded.empty()) chart.note += " Band of " + banded + ": from the least to the largest.";
     if (const auto critical = critical_of(view, variant)) mark_critical(chart, view, *critical);
     fit_scale(chart);
+    return chart;
+}
+
+std::optional<report::Chart> slip_histories(const SweepView& view, std::size_t variant, const std::string& method,
+                                            const std::vector<SlipHistory>& histories)
+{
+    std::vector<std::size_t> rows; // one for each friction that has a history
+    for (const double friction : view.frictions) {
+        const auto group = view.groups.find({variant, method, friction});
+        if (group == view.groups.end()) continue;
+        const std::size_t first = group->second.front();
+        if (view.rows[first].slip && histories[first].interval > 0.0) rows.push_back(first);
+    }
+    if (rows.empty()) return std::nullopt;
+    report::Chart chart;
+    const SweepRow& any = view.rows[rows.front()];
+    chart.title = with_name("Slip over time by " + method, view.variant_names[variant]);
+    chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.note = fmt::format("Record {}{}.", any.record, any.polarity < 0 ? ", polarity -1" : "");
+    const std::size_t every = (rows.size() + named_variants - 1) / named_variants;
+    for (std::size_t i = 0; i < rows.size(); i += every) {
+        Curve curve = history_curve(fmt::format("μ = {:.4g}", view.rows[rows[i]].friction), histories[rows[i]]);
+        chart.curves.push_back(std::move(curve));
+    }
     return chart;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/sweep/slip_history.hpp"
 #include "cli/sweep/sweep_rows_view.hpp"
 #include "report/chart.hpp"
 
@@ -10,6 +11,18 @@ namespace damslip::cli {
 /// a band from the least to the largest of the main method. Where the dam does not stand without an earthquake there is no
 /// value, and a line marks the critical friction.
 report::Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable);
+
+/// Slip over time of one variant and method under the first record and polarity, a curve for each friction (of more than
+/// eight every n-th); nothing where there is no history.
+/// @param histories  of the view's rows, in their order
+std::optional<report::Chart> slip_histories(const SweepView& view, std::size_t variant, const std::string& method,
+                                            const std::vector<SlipHistory>& histories);
+
+/// A history as a curve [s, mm].
+report::Curve history_curve(const std::string& name, const SlipHistory& history);
+
+/// The method a reader looks at first: FE, else the rigid block with the vertical component.
+std::string main_method(const SweepView& view);
 
 /// The same of one method, a curve for each of the first eight variants.
 report::Chart slip_by_variant(const SweepView& view, const std::string& method, const std::optional<double>& allowable);

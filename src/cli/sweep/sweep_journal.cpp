@@ -18,7 +18,7 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr std::string_view first_line = "damslip sweep journal 1";
+constexpr std::string_view first_line = "damslip sweep journal 2";
 constexpr std::string_view done_line = "done\n";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
 
@@ -40,7 +40,12 @@ std::string line_of(const FinishedRow& row)
                     cells.push_back(v);
             },
             cell);
-    const std::string text = nlohmann::json{row.id, row.good, cells}.dump();
+    nlohmann::json line{row.id, row.good, cells};
+    if (row.history.interval > 0.0) {
+        line.push_back(row.history.interval);
+        line.push_back(row.history.slip);
+    }
+    const std::string text = line.dump();
     return sha256(text).substr(0, checksum_digits) + " " + text + "\n";
 }
 
@@ -60,11 +65,16 @@ std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
     const std::string_view text = line.substr(checksum_digits + 1);
     if (sha256(text).substr(0, checksum_digits) != line.substr(0, checksum_digits)) return std::nullopt;
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_array() || json.size() != 3 || !json[0].is_number_unsigned() || !json[1].is_boolean() ||
-        !json[2].is_array() || json[2].size() != result_columns || json[0].get<std::size_t>() >= rows)
+    if (!json.is_array() || (json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() ||
+        !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_columns ||
+        json[0].get<std::size_t>() >= rows)
         return std::nullopt;
-    FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), {}};
+    FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), {}, {}};
     for (const auto& value : json[2]) row.results.push_back(cell_of(value));
+    if (json.size() == 5) {
+        if (!json[3].is_number() || !json[4].is_array()) return std::nullopt;
+        row.history = {json[3].get<double>(), json[4].get<std::vector<double>>()};
+    }
     return row;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/sweep/slip_history.hpp"
 #include "cli/sweep/sweep_identity.hpp"
 #include "core/table.hpp"
 
@@ -13,6 +14,7 @@ struct FinishedRow {
     std::size_t id = 0;
     bool good = true;          ///< false: the method did not end properly
     std::vector<Cell> results; ///< of the columns after the axes and the yield acceleration, result_columns of them
+    SlipHistory history = {};  ///< of slides and FE runs of sweeps of few rows
 };
 constexpr std::size_t result_columns = 9;
 

@@ -18,6 +18,7 @@ std::vector<SweepMethod> make_list()
                                   fe("fe-exact", FeLaw::exact),
                                   fe("fe-penalty", FeLaw::penalty),
                                   fe("fe-slip-tolerance", FeLaw::slip_tolerance),
+                                  fe("fe-whole-steps", FeLaw::whole_steps),
                                   fe("fe-goldgruber-2015", FeLaw::goldgruber_2015),
                                   {"fe-reduced", SweepKind::finite_elements, FeLaw::scene, true}};
     for (const sliding::Regression& r : sliding::regressions())
@@ -49,6 +50,10 @@ const SweepMethod& sweep_method(const std::string& id)
 Scene with_law(Scene scene, FeLaw law, std::optional<double> penalty_stiffness)
 {
     if (law == FeLaw::scene) return scene;
+    if (law == FeLaw::whole_steps) {
+        scene.time.substeps = 0;
+        return scene;
+    }
     scene.contact.normal = NormalContact::hard;
     if (law == FeLaw::penalty) {
         scene.contact.enforcement = ContactEnforcement::penalty;

@@ -12,7 +12,14 @@ namespace damslip::cli {
 enum class SweepKind { rigid, rigid_vertical, regression, finite_elements };
 
 /// Contact law of FE rows, in place of the scene's.
-enum class FeLaw { scene, exact, penalty, slip_tolerance, goldgruber_2015 };
+enum class FeLaw {
+    scene,
+    exact,
+    penalty,
+    slip_tolerance,
+    goldgruber_2015,
+    whole_steps ///< the scene's law, but steps of time.dt without sub-steps
+};
 
 struct SweepMethod {
     std::string id; ///< as typed and printed: "rigid-v", "fe-exact", "jibson-1998"

@@ -173,6 +173,23 @@ std::optional<Section> further_variants(const SweepView& view, const std::option
     return section;
 }
 
+/// Of the unfolded variants, by the main method and by the rigid block with the same motion.
+std::optional<Section> history_section(const SweepView& view, const std::vector<SlipHistory>& histories)
+{
+    if (histories.size() != view.rows.size()) return std::nullopt;
+    Section section{"Slip over time", {}, Fold::open};
+    std::vector<std::string> methods{main_method(view)};
+    if (methods.front().rfind("rigid", 0) != 0)
+        for (const char* rigid : {"rigid-v", "rigid"})
+            if (methods.size() == 1 && std::find(view.methods.begin(), view.methods.end(), rigid) != view.methods.end())
+                methods.emplace_back(rigid);
+    for (std::size_t v = 0; v < std::min(view.variants.size(), open_variants); ++v)
+        for (const std::string& method : methods)
+            if (auto chart = slip_histories(view, v, method, histories)) section.parts.emplace_back(std::move(*chart));
+    if (section.parts.empty()) return std::nullopt;
+    return section;
+}
+
 Section variant_section(const SweepView& view, const std::optional<double>& allowable)
 {
     Section section{"Variants", {TablePart{variant_table(view), Layout::rows, 1, Fold::open}}, Fold::open};
@@ -232,6 +249,7 @@ report::Page sweep_page(const SweepReportInput& in)
 
     page.sections.push_back(friction_section(view, allowable));
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
+    if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
     page.sections.push_back(variant_section(view, allowable));
     Section methods{"Methods", {TablePart{method_table(view, allowable), Layout::rows, 1, Fold::open}}, Fold::open};
     if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));

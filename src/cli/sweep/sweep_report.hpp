@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/run/run_inputs.hpp"
+#include "cli/sweep/slip_history.hpp"
 #include "core/table.hpp"
 #include "report/page.hpp"
 
@@ -12,7 +13,8 @@ struct SweepReportInput {
     const Table& rows;                ///< the whole table of the sweep
     const std::vector<Table>& tables; ///< further ones: comparison of the methods, counts
     const std::vector<RecordPair>& records;
-    std::filesystem::path csv; ///< where the rows are; empty: nowhere
+    std::filesystem::path csv;               ///< where the rows are; empty: nowhere
+    std::vector<SlipHistory> histories = {}; ///< of the rows, in their order; empty: none kept
 };
 
 report::Page sweep_page(const SweepReportInput& input);

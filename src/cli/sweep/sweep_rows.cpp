@@ -44,9 +44,13 @@ Results regression_results(const sliding::Regression& regression, const sliding:
     return results;
 }
 
-Results block_results(const Scene& scene, const Grid& grid, const GridIndex& at, const sliding::SkippingMotion& motion)
+Results block_results(const Scene& scene, const Grid& grid, const GridIndex& at, const sliding::SkippingMotion& motion,
+                      SlipHistory& history)
 {
-    const sliding::SlideResult r = slide_model(scene, grid.model(at), motion, grid.axes.polarity[at.polarity]);
+    const bool keep = grid.tasks.rows() <= most_rows_with_history;
+    const sliding::SlideResult r = slide_model(scene, grid.model(at), motion, grid.axes.polarity[at.polarity],
+                                               keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
+    if (keep) history = slip_history(r.history.time, r.history.slip);
     Results results;
     results.slip = r.slip;
     results.max_slip = r.max_slip;
@@ -111,16 +115,17 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
     const GridIndex at = grid.tasks.index(id);
     const SweepMethod& method = grid.axes.method[at.method];
     Results results;
+    SlipHistory history;
     if (method.kind == SweepKind::regression)
         results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at));
     else if (method.kind == SweepKind::rigid)
-        results = block_results(scene, grid, at, grid.horizontal(at));
+        results = block_results(scene, grid, at, grid.horizontal(at), history);
     else if (grid.motion(at).has_vertical())
-        results = block_results(scene, grid, at, grid.motion(at));
+        results = block_results(scene, grid, at, grid.motion(at), history);
     else
         results.status = std::string("no vertical component");
     results.critical_friction = grid.model(at).critical_friction;
-    return {id, true, results.cells()};
+    return {id, true, results.cells(), std::move(history)};
 }
 
 FinishedRow fe_row(std::size_t id, const FeSlip& slip)
@@ -132,7 +137,7 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip)
     results.truncation_error = number(slip.truncation_error);
     results.critical_friction = number(slip.critical_friction);
     results.status = slip.status;
-    return {id, slip.good, results.cells()};
+    return {id, slip.good, results.cells(), slip.history};
 }
 
 std::vector<Cell> not_run()
