@@ -95,6 +95,18 @@ void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
         loads.impounding.push_back(water("tailwater on the ground", model, model.mesh.ground, level, unit_weight));
 }
 
+/// What stands on the crest when the dam is overtopped, by the higher of both sides.
+void add_crest_water(const Scene& scene, const Model& model, StaticLoads& loads)
+{
+    const Mesh& mesh = model.mesh;
+    const double dry = mesh.nodes[mesh.crest.front()].y,
+                 level = std::max(scene.reservoir ? scene.reservoir->level : dry,
+                                  scene.tailwater ? scene.tailwater->level : dry),
+                 density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
+    if (level > dry)
+        loads.impounding.push_back(water("water on the crest", model, mesh.crest, level, density * scene.gravity));
+}
+
 } // namespace
 
 StaticLoads static_loads(const Scene& scene, const Model& model)
@@ -105,6 +117,7 @@ StaticLoads static_loads(const Scene& scene, const Model& model)
         loads.gravity.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::curtain}));
     if (scene.reservoir) add_upstream_water(scene, model, loads);
     if (scene.tailwater) add_tailwater(scene, model, loads);
+    add_crest_water(scene, model, loads);
     if (scene.silt) loads.impounding.push_back(silt(scene, model));
     if (scene.ice)
         loads.impounding.push_back(

@@ -53,6 +53,19 @@ TEST(FeStatic, resultants_are_exact)
     EXPECT_NEAR(named(loads.impounding, "gate").resultant[1], -20e3, 1e-8);
 }
 
+// 2.5 m of water on 12 m of crest, beside the trapezoid of pressure on the face.
+TEST(FeStatic, overtopped_crest_carries_its_water)
+{
+    Scene scene = full_reservoir();
+    scene.reservoir->level = 65.0;
+    const StaticLoads loads = static_loads(scene, build_model(scene));
+    const StaticLoad crest = named(loads.impounding, "water on the crest");
+    EXPECT_NEAR(crest.resultant.x(), 0.0, 1e-6);
+    EXPECT_NEAR(crest.resultant.y(), -gamma_w * 2.5 * 12.0, 1e-9 * gamma_w * 30.0);
+    const double thrust = gamma_w * 0.5 * (65.0 * 65.0 - 2.5 * 2.5);
+    EXPECT_NEAR(named(loads.impounding, "water on the upstream face").resultant.x(), thrust, 1e-9 * thrust);
+}
+
 TEST(FeStatic, floor_pressure_only_where_asked_for)
 {
     Scene scene = full_reservoir();
