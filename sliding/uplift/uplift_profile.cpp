@@ -60,10 +60,11 @@ double linear_pressure(const Base& base, double tip, double at)
     return p0 + (p1 - p0) * (at - tip) / (base.length - tip);
 }
 
+/// A crack that has come to the curtain is past it; without a crack a curtain at the very end of the base still works.
 /// @param at  distance of the curtain from the first end
 std::vector<ProfilePoint> with_curtain(const Base& base, double tip, double at, double ratio)
 {
-    if (tip >= at) return linear(base, tip);
+    if (tip > 0.0 && tip >= at) return linear(base, tip);
     const auto [low, high] = std::minmax({base.first_pressure(), base.second_pressure()});
     return through(base, tip, at, low + ratio * (high - low));
 }

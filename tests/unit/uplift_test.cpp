@@ -64,6 +64,19 @@ TEST(Uplift, ReferenceDam)
     EXPECT_NEAR(resultant(uplift_profile(points, damaged)).force, 22.5 * p0, 1e-8);
 }
 
+// A curtain at the very heel is the limit of one just behind it, not a curtain that a crack has passed.
+TEST(Uplift, CurtainAtTheHeelHoldsWaterBack)
+{
+    Scene scene = exact::reference_scene(ReferenceUplift::printed_curtain, 1.0);
+    const auto force = [&](double distance) {
+        scene.curtain->distance = distance;
+        return resultant(profile_of(scene)).force;
+    };
+    const double p0 = 9810.0 * 62.5;
+    EXPECT_NEAR(force(0.0), 15.0 * p0, 1e-8); // 2/3 p0 falling to zero over 45 m
+    EXPECT_NEAR(force(1e-9), 15.0 * p0, 1e-9 * p0);
+}
+
 // H1 = 45, H2 = 5, X = 8, L = 40, E = 0.5:  H3 = 5 + 0.5 x 40 x 32/40 = 21 m.
 TEST(Uplift, DrainsByHand)
 {
