@@ -49,7 +49,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
 {
     const Stopwatch start;
     if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;
-    const int wanted = std::max(modes, 2);
+    const int wanted = std::max(modes, 1);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
     if (!reference.regular) return;
     const Index kept = std::min<Index>(3 + wanted, reference.count());
@@ -134,6 +134,7 @@ double ReducedRun::truncation_error(const Motion& motion, const Contact& contact
     const std::vector<double> kept = slips(*coarse_system_);
     const double to_more = largest_difference(kept, slips(*coarse_reference_));
     if (coarse_reference_->modes.complete) return to_more;
+    if (fewer < 1.0) return to_more / (1.0 - modes / more); // one mode: none to compare with, n^-1 as if the slower
     const double from_fewer = largest_difference(slips(*coarse_fewer_), kept);
     // The error as n^-p: both differences tell it, and their ratio tells p.
     const auto gone = [&](double p) { return 1.0 - std::pow(modes / more, p); };

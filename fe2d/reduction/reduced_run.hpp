@@ -58,7 +58,7 @@ constexpr int default_modes = 12; ///< elastic modes kept when nothing is said: 
 class ReducedRun {
 public:
     /// @param full  made from the same scene and options; kept by reference
-    /// @param modes  elastic modes to keep, >= 2; all when there are no more
+    /// @param modes  elastic modes to keep, >= 1; all when there are no more
     ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes = default_modes);
 
     /// As EarthquakeRun::run.
