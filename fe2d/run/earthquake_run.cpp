@@ -132,6 +132,13 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
         results.push_back(solve_stage(statics, *structure_, stages_.names[k], split(k), strength, memory));
         if (results.back().status != StageStatus::ok) break;
     }
+    // Pairs almost without friction may defeat the solver before the load comes that no friction of theirs can hold.
+    for (std::size_t k = results.size(); results.back().status == StageStatus::not_resolved && k < stages_.loads.size();
+         ++k) {
+        StageResult later = solve_stage(statics, *structure_, stages_.names[k], split(k), strength, memory);
+        if (later.status != StageStatus::ok && later.status != StageStatus::not_resolved)
+            results.push_back(std::move(later));
+    }
     return results;
 }
 

@@ -1,11 +1,33 @@
 #include "fe2d/run/ground_input.hpp"
 
+#include "core/input_error.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 namespace damslip::fe2d {
 
+namespace {
+
+/// @returns the motion. @throws InputError for what cannot be integrated
+const GroundMotion& checked(const GroundMotion& motion)
+{
+    const auto finite = [](const std::vector<double>& a) {
+        return std::all_of(a.begin(), a.end(), [](double value) { return std::isfinite(value); });
+    };
+    if (motion.dt > 0.0 && motion.accel_h.size() >= 2 && finite(motion.accel_h) && finite(motion.accel_v) &&
+        (motion.accel_v.empty() || motion.accel_v.size() == motion.accel_h.size()))
+        return motion;
+    throw InputError(Diagnostic{motion.name, 0, 0, "the ground motion cannot be integrated.",
+                                "a time step > 0 s and at least 2 finite samples, the vertical component as long as "
+                                "the horizontal one",
+                                "check the samples; records that are read from files are checked there"});
+}
+
+} // namespace
+
 GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient)
-    : motion_(motion), history_(motion)
+    : motion_(checked(motion)), history_(motion_)
 {
     if (damping != MassDamping::total || mass_coefficient == 0.0) return;
     // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
