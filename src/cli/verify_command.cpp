@@ -2,6 +2,7 @@
 
 #include "cli/terminal/progress.hpp"
 #include "cli/terminal/usage_error.hpp"
+#include "cli/verify_hard.hpp"
 #include "core/stopwatch.hpp"
 #include "report/table_text.hpp"
 #include "verification/registry.hpp"
@@ -73,6 +74,7 @@ std::string markdown_of(const std::vector<Outcome>& outcomes)
 
 int verify(const VerifyArguments& arguments, const Streams& streams)
 {
+    if (arguments.hard && !arguments.markdown) return verify_hard(arguments.filter, streams);
     const verification::Registry cases = verification::all_cases();
     std::vector<const Case*> selected;
     for (const Case& c : cases)
@@ -98,7 +100,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
         }
     }
     if (arguments.markdown) {
-        streams.out << markdown_of(outcomes);
+        streams.out << markdown_of(outcomes) << hard_markdown();
     } else if (streams.form == Form::json) {
         auto j = json_header("verify");
         j["cases"] = outcomes.size();

@@ -7,9 +7,10 @@ namespace damslip::cli {
 struct VerifyArguments {
     std::string filter;    ///< part of the ids to run; empty: all
     bool markdown = false; ///< print docs/verification.md
+    bool hard = false;     ///< the hard cases instead
 };
 
-/// Runs the verification cases. @returns exit_ok when every check passes, else exit_no_convergence.
+/// Runs the verification cases, or the hard ones. @returns exit_ok when every check passes, else exit_no_convergence.
 int verify(const VerifyArguments& arguments, const Streams& streams);
 
 } // namespace damslip::cli

@@ -1,0 +1,117 @@
+#include "cli/verify_hard.hpp"
+
+#include "cli/terminal/progress.hpp"
+#include "cli/terminal/usage_error.hpp"
+#include "core/stopwatch.hpp"
+#include "hard/hard_case.hpp"
+#include "report/table_text.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+using hard::HardCase;
+using hard::HardResult;
+
+struct Outcome {
+    const HardCase* subject;
+    HardResult result;
+    double seconds = 0.0;
+    bool passed() const { return hard::passed(*subject, result); }
+};
+
+Table table_of(const std::vector<Outcome>& outcomes)
+{
+    Table table;
+    table.columns = {{"case", "case", "", 4},
+                     {"quantity", "quantity", "", 4},
+                     {"unit", "unit", "", 4},
+                     {"method_a", "method a", "", 4},
+                     {"value_a", "a", "", 7},
+                     {"method_b", "method b", "", 4},
+                     {"value_b", "b", "", 7},
+                     {"difference", "difference", "", 2},
+                     {"tolerance", "tolerance", "", 2},
+                     {"complementarity", "complementarity", "", 2},
+                     {"energy_closure", "energy", "", 2},
+                     {"status", "status", "", 4},
+                     {"seconds", "s", "", 2},
+                     {"passed", "", "", 4}};
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const Outcome& o : outcomes) {
+        const HardResult& r = o.result;
+        table.rows.push_back({o.subject->id, o.subject->quantity, o.subject->unit, o.subject->method_a, r.value_a,
+                              o.subject->method_b, r.value_b, std::abs(r.value_a - r.value_b), r.tolerance,
+                              r.complementarity.value_or(none), r.energy_closure.value_or(none), r.status, o.seconds,
+                              std::string(o.passed() ? "pass" : "FAIL")});
+    }
+    table.notes = {fmt::format("complementarity: largest residual of contact and Coulomb's law over N', at most {:g}; "
+                               "energy: largest imbalance over the largest energy, at most {:g}.",
+                               hard::largest_complementarity, hard::largest_energy_closure)};
+    return table;
+}
+
+} // namespace
+
+int verify_hard(const std::string& filter, const Streams& streams)
+{
+    const hard::HardCases cases = hard::all_hard_cases();
+    std::vector<const HardCase*> selected;
+    for (const HardCase& c : cases)
+        if (c.id.find(filter) != std::string::npos) selected.push_back(&c);
+    if (selected.empty())
+        throw UsageError(Diagnostic{"", 0, 0, fmt::format("verify --hard: no case has \"{}\" in its name.", filter),
+                                    "part of a case id, such as hard.friction",
+                                    "run  damslip verify --hard  without a filter to see them all"});
+    std::vector<Outcome> outcomes;
+    double seconds = 0.0;
+    std::size_t failed = 0;
+    {
+        Progress progress(streams, "verify --hard", selected.size());
+        for (const HardCase* c : selected) {
+            const Stopwatch start;
+            outcomes.push_back({c, c->run(), 0.0});
+            outcomes.back().seconds = start.seconds();
+            seconds += outcomes.back().seconds;
+            failed += outcomes.back().passed() ? 0 : 1;
+            progress.advance();
+        }
+    }
+    if (streams.form == Form::json) {
+        auto j = json_header("verify-hard");
+        j["cases"] = outcomes.size();
+        j["failed"] = failed;
+        j["seconds"] = seconds;
+        j["results"] = json_of(table_of(outcomes));
+        streams.out << j.dump(2) << "\n";
+    } else {
+        streams.out << report::text(table_of(outcomes))
+                    << fmt::format("{} hard cases, {} failed, {:.2f} s\n", outcomes.size(), failed, seconds);
+    }
+    return failed == 0 ? exit_ok : exit_no_convergence;
+}
+
+std::string hard_markdown()
+{
+    std::string out = fmt::format(
+        "\n# Hard cases\n\nScenes chosen to break the numerics, run by `damslip verify --hard` and as tests. Each "
+        "gives "
+        "one figure by two methods, or by one and its limit. Contact is solved to {:g} of N' in every step, and energy "
+        "closes to {:g} of its largest term in every row of the history.\n\n| case | why it is hard | figure | method "
+        "a "
+        "| method b | tolerance | ends |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+        hard::largest_complementarity, hard::largest_energy_closure);
+    for (const HardCase& c : hard::all_hard_cases())
+        out += fmt::format("| {} | {} | {} [{}] | {} | {} | {} | {} |\n", c.id, c.why, c.quantity, c.unit, c.method_a,
+                           c.method_b, c.tolerance, c.expected_status);
+    return out;
+}
+
+} // namespace damslip::cli
