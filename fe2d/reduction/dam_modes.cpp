@@ -71,6 +71,9 @@ DamModes DamModes::first(Index count) const
     result.crest = crest.head(count);
     result.ground_x = ground_x.head(count);
     result.ground_y = ground_y.head(count);
+    result.dam_mass = dam_mass.topLeftCorner(count, count);
+    result.dam_x = dam_x.head(count);
+    result.dam_y = dam_y.head(count);
     result.momentum = momentum.head(count);
     if (rest == 0) return result;
     result.complete = false;
@@ -132,7 +135,11 @@ DamModes dam_modes(const ContactStructure& structure, int elastic)
     modes.ground_y = shape.transpose() * structure.inertia_y();
     VectorXd translation(n);
     for (Index k = 0; k < n; k += 2) translation.segment<2>(k) = plane.tangent;
-    modes.momentum = shape.transpose() * (structure.mass() * translation).eval();
+    const SparseMatrix dam_mass = structure.dam_mass();
+    modes.dam_mass = shape.transpose() * (dam_mass * shape).eval();
+    modes.dam_x = shape.transpose() * structure.dam_inertia_x();
+    modes.dam_y = shape.transpose() * structure.dam_inertia_y();
+    modes.momentum = shape.transpose() * (dam_mass * translation).eval();
 
     modes.complete = count == possible;
     if (modes.complete) {

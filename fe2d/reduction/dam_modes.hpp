@@ -16,7 +16,9 @@ struct DamModes {
     Eigen::VectorXd crest;          ///< horizontal motion of the crest
     Eigen::VectorXd ground_x;       ///< φᵀ M r of the ground's horizontal ...
     Eigen::VectorXd ground_y;       ///< ... and vertical motion
-    Eigen::VectorXd momentum;       ///< φᵀ M r along the plane
+    Eigen::MatrixXd dam_mass;       ///< φᵀ M_dam φ: what mass damping acts on, the identity without added mass [-]
+    Eigen::VectorXd dam_x, dam_y;   ///< φᵀ M_dam r of the ground's horizontal and vertical motion
+    Eigen::VectorXd momentum;       ///< φᵀ M_dam r along the plane
     Eigen::MatrixXd residual;       ///< static flexibility on the plane of all modes left out, 2m x 2m [m²/N]
     Eigen::VectorXd residual_crest; ///< the same from forces on the plane to the crest, 2m
     bool complete = false;          ///< nothing is left out

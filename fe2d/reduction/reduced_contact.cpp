@@ -36,8 +36,11 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
     const double a_m = system_.damping.constants.mass, b_k = system_.damping.constants.stiffness;
     const double h = w * ground.h - alpha * state_.ground.h, v = w * ground.v - alpha * state_.ground.v;
     const ReducedState& s = state_;
-    load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + (c.a2 + a_m * cv) * s.q_v +
-            (c.a3 + a_m * ca) * s.q_a +
+    const double drag_h = w * ground.drag_h - alpha * state_.ground.drag_h,
+                 drag_v = w * ground.drag_v - alpha * state_.ground.drag_v;
+    load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + drag_h * system_.modes.dam_x -
+            drag_v * system_.modes.dam_y + c.a2 * s.q_v + c.a3 * s.q_a +
+            a_m * (system_.modes.dam_mass * VectorXd(cv * s.q_v + ca * s.q_a)) +
             system_.modes.omega2.cwiseProduct((b_k * cv) * s.q_v + (b_k * ca) * s.q_a - s.q);
     massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
     known_ = alpha * s.contact.force + rest_force_;

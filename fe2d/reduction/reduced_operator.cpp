@@ -28,15 +28,18 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     const Index m = plane.pairs();
     const MatrixXd& on_plane = system.modes.on_plane;
     massless_factor_ = 1.0 / stretch;
-    inverse_ = (constants.a0 + w * constants.a1 * a_m + stretch * system.modes.omega2.array()).inverse().matrix();
+    MatrixXd d = (w * constants.a1 * a_m) * system.modes.dam_mass;
+    d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
+    inverse_ = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
+    inverse_ = (0.5 * (inverse_ + inverse_.transpose())).eval();
     MatrixXd flexibility = massless_factor_ * system.flexibility;
-    flexibility.noalias() += (on_plane * inverse_.asDiagonal()) * on_plane.transpose();
+    flexibility.noalias() += (on_plane * inverse_) * on_plane.transpose();
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     stiff_modes_ = stiffness * on_plane;
     if (system.slips_damped()) {
         k_ = w * constants.a1 * system.slip_damping;
-        const VectorXd q = inverse_.cwiseProduct(system.mean_motion);
+        const VectorXd q = inverse_ * system.mean_motion;
         z_ = on_plane * q;
         zeta_ = q.dot(system.mean_motion);
         // EᵀW⁻¹E, E = I - k z ωᵀ: three rank-one terms
@@ -56,11 +59,11 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless
                                   VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    const VectorXd free = inverse_.cwiseProduct(load - system_.modes.on_plane.transpose() * massless);
+    const VectorXd free = inverse_ * VectorXd(load - system_.modes.on_plane.transpose() * massless);
     stuck = massless;
     stuck.noalias() += stiff_modes_ * free;
     if (system_.slips_damped()) {
-        const double mean = system_.mean_motion.dot(inverse_.cwiseProduct(load));
+        const double mean = system_.mean_motion.dot(inverse_ * load);
         stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
     }
     stuck = (known - stuck) / w;
@@ -73,7 +76,7 @@ void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, con
     if (system_.slips_damped()) { // as in DynamicOperator::finish
         const VectorXd& weights = system_.weights;
         const Index m = weights.size();
-        const double mean = system_.mean_motion.dot(inverse_.cwiseProduct(load));
+        const double mean = system_.mean_motion.dot(inverse_ * load);
         tilde.tail(m) -= (k_ * (slip - mean - k_ * zeta_ * slip)) * weights;
         const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
         tilde.tail(m) += (k_ * z_tilde) * weights;
@@ -81,7 +84,7 @@ void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, con
     modal_step = load;
     modal_step.noalias() += system_.modes.on_plane.transpose() * tilde;
     if (system_.slips_damped()) modal_step += (k_ * slip) * system_.mean_motion;
-    modal_step = inverse_.cwiseProduct(modal_step).eval();
+    modal_step = (inverse_ * modal_step).eval();
     massless_step = massless_factor_ * (tilde + massless);
 }
 

@@ -20,9 +20,9 @@ struct ReducedSystem {
     bool slips_damped() const { return slip_damping != 0.0; }
 };
 
-/// One step size of the reduced run: DynamicOperator with A_d = diag(d) and the massless body
+/// One step size of the reduced run: DynamicOperator with A_d = d, n x n, and the massless body
 ///
-///     d_i = a0 + w a1 a_M + w (1 + a1 b_K) ω_i²,   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
+///     d = a0 + w a1 a_M φᵀM_damφ + w (1 + a1 b_K) diag(ω²),   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
 ///     w (1 + a1 b_K) Δp = λ̃ + π,   Δg = Φ Δq + F_s Δp,   p: elastic force of the massless body
 ///
 /// so W = Φ d⁻¹ Φᵀ + F, F = F_s/(w (1 + a1 b_K)), and with the free step q* = d⁻¹ b
@@ -51,7 +51,7 @@ public:
 private:
     const ReducedSystem& system_;
     StepConstants constants_;
-    Eigen::VectorXd inverse_;     ///< 1/d
+    Eigen::MatrixXd inverse_;     ///< d⁻¹
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd z_; ///< Φ d⁻¹ μ

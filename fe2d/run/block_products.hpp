@@ -18,7 +18,8 @@ struct ProductVectors {
 
 struct Products {
     Eigen::VectorXd stiffness_1, stiffness_2, mass_1, mass_2; ///< K x₁, K x₂, M x₃, M x₄
-    std::vector<double> gathered; ///< work space: the eight entries of each node side by side
+    Eigen::VectorXd dam_mass_1, dam_mass_2; ///< M_dam x₃, M_dam x₄: set by who knows the dam's share
+    std::vector<double> gathered;           ///< work space: the eight entries of each node side by side
 };
 
 /// K and M of one body with two unknowns per node in common 2 x 2 blocks, so that the four products of a step read

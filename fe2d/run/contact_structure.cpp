@@ -63,8 +63,15 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range, const
             if (planes_.above(k)[node])
                 anchor_[static_cast<std::size_t>(order_.new_node[node])] =
                     2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
+    if (model.added_mass.nonZeros() > 0)
+        added_mass_ = order_.to_new(SparseMatrix(model.added_mass.topLeftCorner(dam, dam)));
     inertia_x_ = order_.to_new(extended(model.inertia_x.head(dam)));
     inertia_y_ = order_.to_new(extended(model.inertia_y.head(dam)));
+    VectorXd unit_x = VectorXd::Zero(mass_.rows()), unit_y = unit_x;
+    for (Index k = 0; k < unit_x.size(); k += 2) unit_x[k] = unit_y[k + 1] = 1.0;
+    const SparseMatrix own_mass = dam_mass();
+    dam_inertia_x_ = own_mass * unit_x;
+    dam_inertia_y_ = own_mass * unit_y;
     static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner);
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
@@ -168,6 +175,12 @@ SparseMatrix ContactStructure::of_dam(const SparseMatrix& matrix) const
     VectorXd keep = VectorXd::Ones(matrix.rows());
     clear_water(keep);
     return SparseMatrix(keep.asDiagonal() * matrix * keep.asDiagonal()).pruned();
+}
+
+void ContactStructure::leave_dam_mass(VectorXd& product, const VectorXd& x) const
+{
+    if (added_mass_.nonZeros() > 0) product -= added_mass_ * x;
+    clear_water(product);
 }
 
 void ContactStructure::take_off_translations(const VectorXd& u, VectorXd& deformation) const

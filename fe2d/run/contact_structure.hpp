@@ -57,8 +57,14 @@ public:
     const Eigen::VectorXd& displacement_y() const { return displacement_y_; }
     void clear_water(Eigen::VectorXd& vector) const;       ///< zeros on the water's unknowns; nothing without water
     SparseMatrix of_dam(const SparseMatrix& matrix) const; ///< without rows and columns of the water
+    /// M_dam: the mass of the dam alone, without added mass and water. Rayleigh's damping a_M M_dam is the dam's.
+    SparseMatrix dam_mass() const { return of_dam(added_mass_.nonZeros() > 0 ? mass_ - added_mass_ : mass_); }
+    /// Makes M x, a product of mass(), M_dam x.
+    void leave_dam_mass(Eigen::VectorXd& product, const Eigen::VectorXd& x) const;
     const Eigen::VectorXd& inertia_x() const { return inertia_x_; }
     const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
+    const Eigen::VectorXd& dam_inertia_x() const { return dam_inertia_x_; } ///< M_dam r, horizontal ...
+    const Eigen::VectorXd& dam_inertia_y() const { return dam_inertia_y_; } ///< ... and vertical
     bool has_rock() const { return rock_factor_.has_value(); }
     /// With finite sliding over rock: the rock's contact nodes are the whole line of the plane, past heel and toe.
     bool slides_far() const { return slides_far_; }
@@ -94,8 +100,8 @@ private:
     NodeOrder order_, rock_order_;
     std::vector<Eigen::Index>
         anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block
-    SparseMatrix stiffness_, mass_, gyration_;
-    Eigen::VectorXd inertia_x_, inertia_y_, velocity_x_, velocity_y_, displacement_y_;
+    SparseMatrix stiffness_, mass_, added_mass_, gyration_;
+    Eigen::VectorXd inertia_x_, inertia_y_, dam_inertia_x_, dam_inertia_y_, velocity_x_, velocity_y_, displacement_y_;
     std::vector<Eigen::Index> water_nodes_;                     ///< in the dam's order
     Eigen::VectorXd extended(const Eigen::VectorXd& dam) const; ///< zeros for the water behind
     std::optional<InterfaceFactor> static_factor_, rock_factor_;

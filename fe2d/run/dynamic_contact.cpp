@@ -140,6 +140,20 @@ void DynamicContact::multiply(const StepConstants& c)
     structure_.clear_water(combined_);
     structure_.take_off_translations(state_.u, deformation_);
     operators_->products().multiply({deformation_, combined_, state_.v, state_.a}, products_);
+    products_.dam_mass_1 = products_.mass_1;
+    products_.dam_mass_2 = products_.mass_2;
+    structure_.leave_dam_mass(products_.dam_mass_1, state_.v);
+    structure_.leave_dam_mass(products_.dam_mass_2, state_.a);
+}
+
+/// What the moving ground does to the dam and its added mass. Relative to the ground, which accelerates by (-a_h, +a_v),
+/// the load is -M r_x (-a_h) - M r_y a_v; the velocity that damping feels is (-v_h, +v_v), too.
+VectorXd DynamicContact::ground_force(const GroundAcceleration& ground) const
+{
+    VectorXd force = ground.h * structure_.inertia_x() - ground.v * structure_.inertia_y();
+    if (ground.drag_h != 0.0 || ground.drag_v != 0.0)
+        force += ground.drag_h * structure_.dam_inertia_x() - ground.drag_v * structure_.dam_inertia_y();
+    return force;
 }
 
 /// b_d on free_.dam, the rock's free gap and the known contact-like forces.
@@ -147,13 +161,10 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
 {
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
     const double a_m = damping_.constants.mass, b_k = damping_.constants.stiffness;
-    const double h = w * ground.h - alpha * state_.ground.h, v = w * ground.v - alpha * state_.ground.v;
-    // Relative to the ground, which accelerates by (-a_h, +a_v), the load is -M r_x (-a_h) - M r_y a_v.
+    free_.dam = load_.dam + w * ground_force(ground) - alpha * ground_force(state_.ground) - products_.stiffness_1 +
+                products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 +
+                (a_m * cv) * products_.dam_mass_1 + (a_m * ca) * products_.dam_mass_2;
     if (structure_.water()) {
-        free_.dam = (a_m * cv) * products_.mass_1 + (a_m * ca) * products_.mass_2;
-        structure_.clear_water(free_.dam); // Rayleigh damping is the dam's
-        free_.dam += load_.dam + h * structure_.inertia_x() - v * structure_.inertia_y() - products_.stiffness_1 +
-                     products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2;
         free_.dam += structure_.gyration() * VectorXd(cv * state_.v + ca * state_.a);
         const auto weighted = [&](double GroundAcceleration::*part) {
             return w * ground.*part - alpha * state_.ground.*part;
@@ -161,9 +172,6 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
         free_.dam += weighted(&GroundAcceleration::displacement_v) * structure_.displacement_y() -
                      weighted(&GroundAcceleration::velocity_h) * structure_.velocity_x() +
                      weighted(&GroundAcceleration::velocity_v) * structure_.velocity_y();
-    } else {
-        free_.dam = load_.dam + h * structure_.inertia_x() - v * structure_.inertia_y() - products_.stiffness_1 +
-                    products_.stiffness_2 + (c.a2 + a_m * cv) * products_.mass_1 + (c.a3 + a_m * ca) * products_.mass_2;
     }
     known_ = alpha * state_.contact.force;
     if (slip_damping_.active()) {
@@ -261,7 +269,6 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
     memory.slip += solution_.displacement.tail(m);
     memory.elastic = elastic_;
     state_.time += c.dt;
-    ground_before_ = state_.ground;
     state_.ground = ground;
 
     std::swap(before_, products_);
@@ -279,7 +286,8 @@ ContactReport DynamicContact::in_halves(double dt, const GroundAcceleration& gro
     const auto mean = [&](double GroundAcceleration::*part) { return 0.5 * (state_.ground.*part + ground.*part); };
     GroundAcceleration middle; // velocities by the trapezoid, displacements by velocities: acceleration is linear
     for (const auto part : {&GroundAcceleration::h, &GroundAcceleration::v, &GroundAcceleration::velocity_h,
-                            &GroundAcceleration::velocity_v, &GroundAcceleration::displacement_v})
+                            &GroundAcceleration::velocity_v, &GroundAcceleration::displacement_v,
+                            &GroundAcceleration::drag_h, &GroundAcceleration::drag_v})
         middle.*part = mean(part);
     const double eighth = dt / 8.0;
     middle.velocity_h -= eighth * (ground.h - state_.ground.h);

@@ -16,7 +16,8 @@ struct GroundAcceleration {
     double h = 0.0; ///< positive upstream: drives the dam downstream [m/s²]
     double v = 0.0; ///< positive up [m/s²]
     double velocity_h = 0.0, velocity_v = 0.0,
-           displacement_v = 0.0; ///< integrals, felt by acoustic water [m/s, m/s, m]
+           displacement_v = 0.0;       ///< integrals, felt by acoustic water [m/s, m/s, m]
+    double drag_h = 0.0, drag_v = 0.0; ///< a_M times the velocities, where mass damping resists the total one [m/s²]
 };
 
 /// Motion relative to the ground and contact at one instant.
@@ -93,7 +94,8 @@ public:
 private:
     /// What the equation of motion's forces at one instant need for their work, see add_energy().
     struct Forces {
-        Eigen::VectorXd dam;           ///< a_M M v + K u - R
+        Eigen::VectorXd dam;           ///< a_M M_dam v + K u - R
+        Eigen::VectorXd ground;        ///< the moving ground's part of R
         Eigen::VectorXd v, a;          ///< of the dam
         Eigen::VectorXd rock;          ///< K_c r - f_r
         Eigen::VectorXd rock_v;        ///< of the rock
@@ -132,6 +134,7 @@ private:
     void gather_forces(Forces& forces) const;
     void add_energy(const StepConstants& constants, const Eigen::VectorXd& gap_step,
                     const Eigen::VectorXd& force_before);
+    Eigen::VectorXd ground_force(const GroundAcceleration& ground) const;
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
     void follow_slip();
     double base_slip() const { return structure_.planes().mean(0, state_.contact.slip); }
@@ -165,7 +168,6 @@ private:
     Eigen::VectorXd rock_force_before_;
     Forces forces_, forces_before_, forces_before2_;
     Landing landed_;
-    GroundAcceleration ground_before_;
     Energy energy_, energy_start_;
     double energy_scale_ = 0.0;
     std::shared_ptr<const WaterLedger> water_ledger_; ///< null: no acoustic water

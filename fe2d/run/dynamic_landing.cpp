@@ -46,9 +46,10 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
     VectorXd stiffness_change, mass_change;
     operators_->products().multiply(change, stiffness_change, mass_change);
     structure_.clear_water(stiffness_change); // damping is the dam's
-    landed_.dam = damping_.constants.mass * mass_change + damping_.constants.stiffness * stiffness_change;
+    VectorXd dam_mass_change = mass_change;
+    structure_.leave_dam_mass(dam_mass_change, change);
+    landed_.dam = damping_.constants.mass * dam_mass_change + damping_.constants.stiffness * stiffness_change;
     if (structure_.water()) {
-        structure_.clear_water(landed_.dam);
         landed_.dam += structure_.gyration() * change;
         structure_.clear_water(landed_.dam);
     }
@@ -61,6 +62,7 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
     const double before_landing = energy_.kinetic + energy_.strain;
     const StepConstants& c = op_->constants();
     products_.mass_1 += mass_change;
+    products_.dam_mass_1 += dam_mass_change;
     products_.stiffness_2 +=
         damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change;
     VectorXd velocity = state_.v;

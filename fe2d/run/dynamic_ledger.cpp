@@ -32,9 +32,8 @@ void DynamicContact::start_ledger()
 
 void DynamicContact::gather_forces(Forces& f) const
 {
-    const double h = state_.ground.h, v = state_.ground.v;
-    f.dam = damping_.constants.mass * products_.mass_1 + products_.stiffness_1 - load_.dam -
-            h * structure_.inertia_x() + v * structure_.inertia_y();
+    f.ground = ground_force(state_.ground);
+    f.dam = damping_.constants.mass * products_.dam_mass_1 + products_.stiffness_1 - load_.dam - f.ground;
     f.v = state_.v;
     f.a = state_.a;
     if (structure_.water()) { // of the dam; the water keeps its own ledger
@@ -88,14 +87,12 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
     Energy& e = energy_;
     e.kinetic = 0.5 * v1.dot(products_.mass_1);
     e.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_)) + stored_;
-    e.damping += 0.5 * a_m * du.dot(products_.mass_1 + before_.mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
+    e.damping += 0.5 * a_m * du.dot(products_.dam_mass_1 + before_.dam_mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
                  0.5 * b_k * k_dr.dot(forces_.rock_v + forces_before_.rock_v);
     if (slip_damping_.active())
         e.damping += 0.5 * slip_work(forces_.slip_rate + forces_before_.slip_rate,
                                      forces_.mean_velocity + forces_before_.mean_velocity);
-    e.external += du.dot(load_.dam) + dr_.dot(rock_load_) +
-                  0.5 * (state_.ground.h + ground_before_.h) * du.dot(structure_.inertia_x()) -
-                  0.5 * (state_.ground.v + ground_before_.v) * du.dot(structure_.inertia_y());
+    e.external += du.dot(load_.dam) + dr_.dot(rock_load_) + 0.5 * du.dot(forces_.ground + forces_before_.ground);
     const VectorXd force = 0.5 * (force_before + state_.contact.force);
     e.contact_normal += force.head(m).dot(gap_step.head(m)) + stored; // of soft contact, what is not in `strain`
     if (structure_.slides_far()) {

@@ -20,13 +20,12 @@ MatrixXd symmetric_inverse(const MatrixXd& matrix)
 SparseMatrix dam_matrix(const ContactStructure& structure, const RunDamping& damping, const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha;
+    const SparseMatrix damped = (w * c.a1 * damping.constants.mass) * structure.dam_mass();
     if (!structure.water())
-        return (c.a0 + w * c.a1 * damping.constants.mass) * structure.mass() +
+        return c.a0 * structure.mass() + damped +
                w * (1.0 + c.a1 * damping.constants.stiffness) * structure.stiffness();
-    return c.a0 * structure.mass() + w * structure.stiffness() +
-           w * c.a1 *
-               (damping.constants.mass * structure.of_dam(structure.mass()) +
-                damping.constants.stiffness * structure.of_dam(structure.stiffness()) + structure.gyration());
+    return c.a0 * structure.mass() + damped + w * structure.stiffness() +
+           w * c.a1 * (damping.constants.stiffness * structure.of_dam(structure.stiffness()) + structure.gyration());
 }
 
 } // namespace
@@ -38,7 +37,7 @@ SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& da
     const MatrixXd motions = sliding_motions(structure.planes());
     MatrixXd ordered(structure.dam_unknowns(), motions.cols());
     for (Index k = 0; k < motions.cols(); ++k) ordered.col(k) = structure.to_order(motions.col(k));
-    momentum = damping.constants.mass * (structure.mass() * ordered);
+    momentum = damping.constants.mass * (structure.dam_mass() * ordered);
     drag = ordered.transpose() * momentum;
 }
 

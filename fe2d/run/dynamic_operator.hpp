@@ -8,13 +8,13 @@
 
 namespace damslip::fe2d {
 
-/// Damping of the run: C = a_M M + b_K K of dam and rock, never of the contact.
+/// Damping of the run: C = a_M M_dam + b_K K of dam and rock, never of the contact or the water.
 struct RunDamping {
     RayleighConstants constants;
     MassDamping mass = MassDamping::deformation_only;
 };
 
-/// What damping of the deformation only adds to a_M M: with r_k the rigid translation of all that stands above plane k
+/// What damping of the deformation only adds to a_M M, M = M_dam: with r_k the rigid translation of all that stands above plane k
 /// along it, w_k the area-weighted mean slip of that plane, r = [r_k], w = [w_k]
 ///
 ///     C_M = a_M (I - r wᵀ)ᵀ M (I - r wᵀ) = a_M M - P wᵀ - w Pᵀ + w κ wᵀ,   P = a_M M r,   κ = rᵀP
@@ -41,8 +41,8 @@ struct StepContact {
 /// Unknown increments Δu (dam), Δr (rock's contact nodes), w = 1 + α, with λ̃ = w λ₁ - α λ₀ + (slip damping) and D, P of
 /// ContactPlanes and ContactStructure::trace():
 ///
-///     A_d Δu = b_d + k s_Δ + Dᵀ λ̃,   A_r Δr = b_r - Pᵀ λ̃,   A_d = (a0 + w a1 a_M) M + w (1 + a1 b_K) K,
-///     A_r = w (1 + a1 b_K) K_c,   k = w a1 (a_M M r),   κ' = w a1 κ,   s_Δ = ωᵀΔg_t
+///     A_d Δu = b_d + k s_Δ + Dᵀ λ̃,   A_r Δr = b_r - Pᵀ λ̃,   A_d = a0 M + w a1 a_M M_dam + w (1 + a1 b_K) K,
+///     A_r = w (1 + a1 b_K) K_c,   k = w a1 (a_M M_dam r),   κ' = w a1 κ,   s_Δ = ωᵀΔg_t
 ///
 /// Eliminating the bodies, W = D A_d⁻¹ Dᵀ + P A_r⁻¹ Pᵀ, E = I - z ωᵀ, z = D A_d⁻¹ k, ζ = kᵀA_d⁻¹k, gives
 /// λ₁ = λ⁰ + V Δg with

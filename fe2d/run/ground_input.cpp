@@ -27,13 +27,8 @@ const GroundMotion& checked(const GroundMotion& motion)
 } // namespace
 
 GroundInput::GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient)
-    : motion_(checked(motion)), history_(motion_)
+    : motion_(checked(motion)), history_(motion_), drag_(damping == MassDamping::total ? mass_coefficient : 0.0)
 {
-    if (damping != MassDamping::total || mass_coefficient == 0.0) return;
-    // Damping that resists the total velocity, a_M M (v + r v_g), is one of the relative velocity and the
-    // acceleration a_g + a_M v_g.
-    add_velocity(motion_.accel_h, mass_coefficient);
-    add_velocity(motion_.accel_v, mass_coefficient);
 }
 
 GroundAcceleration GroundInput::at(double time) const
@@ -45,18 +40,8 @@ GroundAcceleration GroundInput::at(double time) const
     const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
     const double share = clamped - static_cast<double>(k);
     const auto value = [&](const std::vector<double>& a) { return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]); };
-    return {value(motion_.accel_h), value(motion_.accel_v), ground.velocity_h, ground.velocity_v,
-            ground.displacement_v};
-}
-
-void GroundInput::add_velocity(std::vector<double>& acceleration, double coefficient) const
-{
-    double velocity = 0.0, before = acceleration.empty() ? 0.0 : acceleration.front();
-    for (double& a : acceleration) {
-        velocity += 0.5 * motion_.dt * (a + before);
-        before = a;
-        a += coefficient * velocity;
-    }
+    return {value(motion_.accel_h), value(motion_.accel_v),    ground.velocity_h,        ground.velocity_v,
+            ground.displacement_v,  drag_ * ground.velocity_h, drag_ * ground.velocity_v};
 }
 
 } // namespace damslip::fe2d

@@ -10,17 +10,17 @@ namespace damslip::fe2d {
 /// The ground's acceleration of a run. Between the samples it is linear; beyond the record it is zero.
 class GroundInput {
 public:
-    /// @param mass_coefficient  a_M of the damping [1/s]: damping of the total velocity adds to the acceleration
+    /// @param mass_coefficient  a_M of the damping [1/s]: what resists the total velocity resists the ground's, too,
+    /// as long as the record lasts
     GroundInput(const GroundMotion& motion, MassDamping damping, double mass_coefficient);
 
     double duration() const { return motion_.dt * static_cast<double>(motion_.accel_h.size() - 1); } ///< [s]
     GroundAcceleration at(double time) const; ///< @param time  since the first sample [s]
 
 private:
-    void add_velocity(std::vector<double>& acceleration, double coefficient) const;
-
     GroundMotion motion_;
-    GroundHistory history_; ///< of the motion itself
+    GroundHistory history_;
+    double drag_ = 0.0; ///< a_M, where it resists the total velocity [1/s]
 };
 
 } // namespace damslip::fe2d

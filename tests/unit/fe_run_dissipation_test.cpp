@@ -141,7 +141,7 @@ State ledger_state(const DynamicContact& run, const RunDamping& damping, const S
     state.momentum = s.mass() * now.v;
     state.inertia_force = s.mass() * now.a;
     state.damping_force =
-        damping.constants.mass * state.momentum + damping.constants.stiffness * (s.stiffness() * now.v);
+        damping.constants.mass * (s.dam_mass() * now.v) + damping.constants.stiffness * (s.stiffness() * now.v);
     state.unbalanced = state.damping_force + state.stiffness_force - state.load - state.interface_force;
     state.unbalanced_before = before ? before->unbalanced : state.unbalanced;
     return state;

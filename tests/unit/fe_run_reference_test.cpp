@@ -43,14 +43,13 @@ struct Whole {
         interface.setFromTriplets(entries.begin(), entries.end());
         system.mass = m.moving_mass();
         system.stiffness = m.stiffness;
-        system.damping = damping.constants.mass * system.mass + damping.constants.stiffness * system.stiffness;
+        system.damping = damping.constants.mass * m.mass + damping.constants.stiffness * system.stiffness;
         if (damping.mass != MassDamping::deformation_only) return;
         VectorXd translation = VectorXd::Zero(m.dofs.count);
         for (int node = 0; node < m.mesh.dam_node_count; ++node)
             for (const int c : {0, 1}) translation[m.dofs(node, c)] = plane.tangent[c];
         const VectorXd weights = interface.bottomRows(pairs).transpose() * plane.weights();
-        system.damping_low_rank =
-            deformation_only_correction(damping.constants.mass, system.mass, translation, weights);
+        system.damping_low_rank = deformation_only_correction(damping.constants.mass, m.mass, translation, weights);
     }
 };
 

@@ -40,7 +40,7 @@ public:
         free.dam = load_.dam + (w * ground.h - alpha * before.ground.h) * structure_.inertia_x() -
                    (w * ground.v - alpha * before.ground.v) * structure_.inertia_y() -
                    structure_.stiffness() * VectorXd(before.u - b_k * y) +
-                   structure_.mass() * VectorXd(c.a2 * before.v + c.a3 * before.a + a_m * y);
+                   structure_.mass() * VectorXd(c.a2 * before.v + c.a3 * before.a) + a_m * (structure_.dam_mass() * y);
         VectorXd known = alpha * before.contact.force;
         if (slip_damping_.active()) {
             const VectorXd on_base = structure_.plane().to_plane(VectorXd(y.tail(2 * m)));
