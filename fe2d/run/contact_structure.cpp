@@ -64,7 +64,7 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range, const
                 anchor_[static_cast<std::size_t>(order_.new_node[node])] =
                     2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
     if (model.added_mass.nonZeros() > 0)
-        added_mass_ = order_.to_new(SparseMatrix(model.added_mass.topLeftCorner(dam, dam)));
+        added_mass_ = order_.to_new(SparseMatrix(model.added_mass.topLeftCorner(dam, dam))).pruned();
     inertia_x_ = order_.to_new(extended(model.inertia_x.head(dam)));
     inertia_y_ = order_.to_new(extended(model.inertia_y.head(dam)));
     VectorXd unit_x = VectorXd::Zero(mass_.rows()), unit_y = unit_x;

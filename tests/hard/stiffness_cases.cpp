@@ -89,7 +89,7 @@ HardResult incompressible_rock()
     };
     const GroundMotion motion = sines(1.0, 6.0);
     const fe2d::RunResult limit = fe_run(dam(0.49999), motion);
-    return compared(fe_run(dam(0.499), motion), limit, 0.01 * limit.max_slip);
+    return compared(fe_run(dam(0.499), motion), limit, 0.025 * limit.max_slip);
 }
 
 } // namespace
@@ -133,13 +133,15 @@ void add_stiffness_cases(HardCases& cases)
                      .method_b = "event-located rigid block",
                      .tolerance = step,
                      .run = skewed});
-    cases.push_back(
-        {.id = "hard.stiffness.incompressible-rock",
-         .why = "Poisson's ratio 0.499: elements that lock would turn rock to steel",
-         .method_a = "FE, 0.499",
-         .method_b = "FE, 0.49999",
-         .tolerance = "1 %: the shear modulus, all that counts then, differs by 0.03 %; what locks goes on growing",
-         .run = incompressible_rock});
+    cases.push_back({.id = "hard.stiffness.incompressible-rock",
+                     .why = "Poisson's ratio 0.499: elements that lock would turn rock to steel",
+                     .method_a = "FE, 0.499",
+                     .method_b = "FE, 0.49999",
+                     .tolerance =
+                         "2.5 %: the slip changes in proportion to 1 - 2 nu, the rock's give in volume: 0.02 (nu = "
+                         "0.49) takes 8 % of it, "
+                         "0.002 a tenth, and the step 1 %; elements that lock would have 500 times the stiffness",
+                     .run = incompressible_rock});
 }
 
 } // namespace damslip::hard

@@ -32,7 +32,8 @@ HardResult empty()
     empty.uplift->model = UpliftModel::linear;
     empty.uplift->points.clear();
     const GroundMotion motion = sines(3.0, 6.0);
-    return compared(fe_run(empty, motion), fe_run(none, motion), 0.0);
+    const fe2d::RunResult limit = fe_run(none, motion);
+    return compared(fe_run(empty, motion), limit, 1e-12 * limit.max_slip);
 }
 
 HardResult curtain(double distance, double ratio)
@@ -91,7 +92,7 @@ void add_water_cases(HardCases& cases)
                      .why = "a reservoir with nothing in it: loads, added mass and uplift of zero length",
                      .method_a = "FE, level 0",
                      .method_b = "FE, no reservoir",
-                     .tolerance = "none: the same bits",
+                     .tolerance = "1e-12: round-off, static stages of water and uplift without any load come first",
                      .run = empty});
     cases.push_back({.id = "hard.water.overtopped",
                      .why = "water 2.5 m above the crest: pressure does not start at zero on the face",
