@@ -59,20 +59,14 @@ std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
 }
 
 /// How the water takes part, by the computed first frequency where the scene leaves it open, and what its length and end are good for.
-std::vector<std::string> water_notes(const Scene& scene, const EffectPlan& plan)
+std::vector<std::string> water_notes(const Scene& scene, const EffectPlan& plan,
+                                     const std::optional<ReservoirChoice>& choice)
 {
     std::vector<std::string> notes;
     if (plan.method != Method::finite_elements || !scene.reservoir || scene.reservoir->level <= 0) return notes;
-    Scene resolved = called_for(plan, scene);
-    if (const auto choice = resolve_reservoir_model(resolved)) {
-        notes.push_back(choice->reason);
-        if (resolved.reservoir->model == ReservoirModel::acoustic)
-            notes.push_back(
-                "modes and fe --base tied take acoustic water; contact runs keep added mass unless the scene says "
-                "model = \"acoustic\"");
-    }
-    if (resolved.reservoir->model == ReservoirModel::acoustic)
-        for (std::string& warning : reservoir_warnings(resolved, 20.0)) notes.push_back(std::move(warning));
+    if (choice) notes.push_back(choice->reason + "; --reduced takes added mass");
+    if (scene.reservoir->model == ReservoirModel::acoustic)
+        for (std::string& warning : reservoir_warnings(scene, 20.0)) notes.push_back(std::move(warning));
     return notes;
 }
 
@@ -104,16 +98,24 @@ std::string cost_text(const ContactCost& cost)
 
 int explain(const ExplainArguments& arguments, const Streams& streams)
 {
-    const Scene scene = read_scene(arguments.scene);
-    const EffectPlan plan =
-        make_effect_plan(scene, arguments.method == "fe" ? Method::finite_elements : Method::rigid_block);
+    Scene scene = read_scene(arguments.scene);
+    const std::string hash = scene_hash(scene);
+    const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
+    EffectPlan plan = make_effect_plan(scene, method);
+    std::optional<ReservoirChoice> choice;
+    if (method == Method::finite_elements) {
+        Scene resolved = called_for(plan, scene);
+        choice = resolve_reservoir_model(resolved);
+        if (choice) scene.reservoir->model = resolved.reservoir->model; // the plan names what was chosen
+        plan = make_effect_plan(scene, method);
+    }
     const Table table = effect_table(plan);
     const std::optional<ModelTables> model = model_tables(scene, plan);
     const std::optional<ContactCost> cost = cost_of(scene, plan);
-    const std::vector<std::string> notes = water_notes(scene, plan);
+    const std::vector<std::string> notes = water_notes(scene, plan, choice);
     if (streams.form == Form::json) {
         auto j = json_header("explain");
-        j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
+        j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", hash}};
         j["method"] = arguments.method;
         j["effects"] = json_of(table);
         if (model) j["model"] = json_of(model->counts);

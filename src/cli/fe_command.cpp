@@ -15,9 +15,8 @@ int fe(const FeArguments& arguments, const Streams& streams)
 {
     Scene given = read_run_scene(arguments.inputs);
     EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    const bool tied = arguments.base == "tied" && !arguments.reduced;
     Scene scene = fe_scene(given, plan);
-    if (tied)
+    if (!arguments.reduced) // reduced runs have the modes of the dam alone
         if (const auto choice = resolve_reservoir_model(scene)) {
             if (!streams.quiet) streams.talk << choice->reason << "\n";
             given.reservoir->model = scene.reservoir->model; // the plan names what was chosen

@@ -121,6 +121,7 @@ void talk_of(const FeSweepCounts& c, const Table& compared, const Streams& strea
     else
         streams.talk << fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
     streams.talk << report::text(count_table(c));
+    for (const std::string& choice : c.choices) streams.talk << "  " << choice << "\n";
     streams.talk << fmt::format(
         "  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
         1e3 * c.static_seconds / static_cast<double>(std::max<std::int64_t>(1, c.runs)), c.dynamic_seconds);

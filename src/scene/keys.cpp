@@ -422,9 +422,10 @@ std::vector<KeyGroup> water_groups()
               choice(&Reservoir::bottom_motion,
                      std::vector<std::pair<std::string, BottomMotion>>{{"ground", BottomMotion::ground},
                                                                        {"still", BottomMotion::still}})),
-         number("bottom_reflection", none, Range::between(-1, 1), "1",
-                "wave reflection coefficient of the bottom under acoustic water: 1 rigid, 0 absorbs all, -1 p = 0",
-                "0.75", at(&Reservoir::bottom_reflection)),
+         number("bottom_reflection", none, Range::between(-1, 1), "0.75",
+                "wave reflection coefficient of the bottom under acoustic water: 1 rigid, 0 absorbs all, -1 p = 0; "
+                "measured at dams: up to 0.77, rock 0.5 and more, sediments 0.1 ... 0.5 (Ghanaat & Redpath 1995)",
+                "1", at(&Reservoir::bottom_reflection)),
          number("bottom_density", density, Range::above(0), "none",
                 "of the bottom's material; gives the reflection coefficient together with bottom_modulus", "2600",
                 at(&Reservoir::bottom_density)),

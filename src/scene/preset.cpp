@@ -10,6 +10,8 @@ void apply_preset(Scene& scene, const std::function<bool(const char* key)>& open
     if (open("contact.separation")) scene.contact.separation = JointOpening::none;
     if (scene.reservoir && open("reservoir.far_end")) scene.reservoir->far_end = FarEnd::damper;
     if (scene.reservoir && open("reservoir.bottom_motion")) scene.reservoir->bottom_motion = BottomMotion::still;
+    if (scene.reservoir && open("reservoir.bottom_reflection") && !scene.reservoir->bottom_density)
+        scene.reservoir->bottom_reflection = 1.0;
     if (open("damping.mass")) scene.damping.mass = MassDamping::relative;
     if (open("time.scheme")) scene.time.scheme = TimeScheme::hht;
     if (open("time.alpha")) scene.time.alpha = -1.0 / 3.0;

@@ -64,7 +64,7 @@ struct Reservoir {
     WaterSurface surface = WaterSurface::free;
     FarEnd far_end = FarEnd::absorbing;
     BottomMotion bottom_motion = BottomMotion::ground;
-    double bottom_reflection = 1.0; ///< alpha of pressure waves on the bottom, -1 (p = 0) ... 1 (rigid) [-]
+    double bottom_reflection = 0.75; ///< alpha of pressure waves on the bottom, -1 (p = 0) ... 1 (rigid) [-]
     std::optional<double> bottom_density = {},
                           bottom_modulus = {}; ///< of what lies there [kg/m^3], [Pa]: give alpha instead
     std::optional<double> mesh_size = {};      ///< element height in the water [m]; default level / 20

@@ -2,6 +2,7 @@
 #include "exact/reservoir.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/harmonic_solver.hpp"
+#include "sliding/loads/added_mass.hpp"
 #include "verification/fe_water_cases.hpp"
 #include "verification/modules.hpp"
 
@@ -24,6 +25,7 @@ Scene basin(double depth, double length_over_depth, double face_slope = 0.0)
     scene.reservoir->level = depth;
     scene.reservoir->length = length_over_depth * depth;
     scene.reservoir->bottom_motion = BottomMotion::still;
+    scene.reservoir->bottom_reflection = 1.0;
     return scene;
 }
 
@@ -98,6 +100,46 @@ std::vector<Check> incompressible()
     return checks;
 }
 
+/// Stiffer and stiffer water at one frequency of shaking, and its pressure on the face beside Westergaard's series of
+/// the sliding module.
+std::vector<Check> incompressible_limit()
+{
+    Scene scene = basin(100.0, 4.0);
+    scene.reservoir->far_end = FarEnd::closed;
+    const double w = 0.5 * 0.5 * std::numbers::pi * std::sqrt(2.2e6) / 100.0;
+    double last = 0.0;
+    std::vector<Check> checks;
+    const double limit = [&] { // K = infinity: no Q at all
+        FluidModel water = build_fluid(scene);
+        water.mass.setZero();
+        HarmonicSolver solver(water.mass, water.damping, water.stiffness);
+        return force_at(water, solver, w).real();
+    }();
+    FluidModel stiff;
+    Eigen::VectorXcd pressure;
+    for (const double factor : {1e1, 1e2, 1e3, 1e4}) {
+        scene.reservoir->bulk_modulus = 2200e6 * factor;
+        stiff = build_fluid(scene);
+        HarmonicSolver solver(stiff.mass, stiff.damping, stiff.stiffness);
+        const double error = force_at(stiff, solver, w).real() - limit;
+        pressure = solver.solve((-stiff.flux_x).cast<std::complex<double>>());
+        if (last != 0.0)
+            checks.push_back({fmt::format("K x {:g}: order in 1/K", factor), "–", 1.0, std::log10(last / error), 0.03,
+                              Measure::absolute});
+        last = error;
+    }
+    checks.push_back({"K x 10000: force over that of incompressible water", "–", 1.0, 1.0 + last / limit, 1e-4});
+    const sliding::WaterColumn column{100.0, 1000.0, 2200e6};
+    for (const int node : stiff.reservoir.face) {
+        const double depth = 100.0 - stiff.reservoir.mesh.nodes[static_cast<std::size_t>(node)].y;
+        if (depth < 19.0 || std::abs(std::remainder(depth, 20.0)) > 1e-6) continue;
+        checks.push_back({fmt::format("pressure at depth {:.2f} h over Westergaard's series", depth / 100.0), "–", 1.0,
+                          -pressure[stiff.dofs(node)].real() / sliding::added_mass_per_area({}, column, depth, 0.0),
+                          5e-3});
+    }
+    return checks;
+}
+
 /// A bottom that moves up and down everywhere: the water answers as one column, whatever the end.
 std::vector<Check> moving_bottom()
 {
@@ -166,6 +208,14 @@ void add_fe_fluid_cases(Registry& registry)
          "is the frequency, "
          "1/1000 of the reservoir's first",
          incompressible});
+    registry.push_back(
+        {"fe2d.fluid.incompressible-limit",
+         "Stiffer and stiffer water tends to incompressible water, whose pressure on the face is Westergaard's.",
+         "the same matrices without Q; Westergaard (1933), rigorous series (3-1) with T = infinity (sliding/loads)",
+         "the error is (omega/omega_1)^2 of the stiffened water to first order: order 1 in 1/K, 0.03 for the next term "
+         "at K x 10; "
+         "pressures 0.5 %: 20 bilinear elements over the depth",
+         incompressible_limit});
     registry.push_back(
         {"fe2d.fluid.frequency-response",
          "Hydrodynamic force on a rigid wall over frequency and bottom absorption, with the absorbing end at one "

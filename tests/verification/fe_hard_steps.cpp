@@ -45,7 +45,8 @@ public:
         if (slip_damping_.active()) {
             const VectorXd on_base = structure_.plane().to_plane(VectorXd(y.tail(2 * m)));
             const VectorXd rate = on_base.tail(m) - (cv * before.rock_v + ca * before.rock_a).tail(m);
-            const VectorXd slip = slip_damping_.weights.transpose() * rate, mean = slip_damping_.momentum.transpose() * y;
+            const VectorXd slip = slip_damping_.weights.transpose() * rate,
+                           mean = slip_damping_.momentum.transpose() * y;
             free.dam -= slip_damping_.momentum * slip;
             known.tail(m) -= slip_damping_.weights * (slip_damping_.drag * slip - mean);
         }

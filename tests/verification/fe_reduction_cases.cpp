@@ -45,7 +45,8 @@ void add_fe_reduction_cases(Registry& registry)
                         "On 12 and 48 elastic modes of the dam the slip is that of the full model, and the printed "
                         "error is its error.",
                         "the full model with the same steps and exact contact",
-                        "1 % and 0.1 % are the claims of the reduced run; the estimate of the largest error over time within a factor of 3",
+                        "1 % and 0.1 % are the claims of the reduced run; the estimate of the largest error over time "
+                        "within a factor of 3",
                         slip_of_few_modes});
 }
 

@@ -97,6 +97,38 @@ std::vector<Check> cavity()
     return checks;
 }
 
+/// Surface waves between a wall and an end with p = 0: ω² = g γ tanh γh, γ² = k² - ω²/c², k = (n - ½)π/L.
+double sloshing_frequency(int n, double length, double depth, double c)
+{
+    const double k = (n - 0.5) * pi / length;
+    double w2 = 0.0;
+    for (int i = 0; i < 20; ++i) { // ω/ck is below 0.1: every round adds two digits and more
+        const double gamma = std::sqrt(k * k - w2 / (c * c));
+        w2 = 9.81 * gamma * std::tanh(gamma * depth);
+    }
+    return std::sqrt(w2) / (2.0 * pi);
+}
+
+std::vector<Check> sloshing()
+{
+    const double length = 50.0, depth = 20.0, c = std::sqrt(2.2e6);
+    const auto run = [&](int n) {
+        const FluidModel water =
+            build_fluid(box(length, depth, 2 * n, n), {.surface = WaterSurface::sloshing, .far_end = FarEnd::open});
+        return coupled_modes(pencil_of(water, 1.0, 1e8, Eigen::VectorXd::Zero(water.unknowns())), 4).frequency;
+    };
+    const Eigen::VectorXd coarse = run(10), fine = run(20);
+    std::vector<Check> checks;
+    for (int n = 1; n <= 4; ++n) {
+        const double exact = sloshing_frequency(n, length, depth, c);
+        checks.push_back(
+            {fmt::format("wave {}: frequency, 20 elements over the depth", n), "Hz", exact, fine[n - 1], 1e-2});
+        checks.push_back({fmt::format("wave {}: order", n), "–", 2.0,
+                          std::log2((coarse[n - 1] - exact) / (fine[n - 1] - exact)), 0.05, Measure::absolute});
+    }
+    return checks;
+}
+
 std::vector<Check> piston()
 {
     const double length = 100.0, mass = 2e5, stiffness = 8e7, c = std::sqrt(2.2e6);
@@ -158,6 +190,7 @@ Scene wall_and_reservoir()
     scene.reservoir = Reservoir{};
     scene.reservoir->level = 100.0;
     scene.reservoir->length = 100.0;
+    scene.reservoir->bottom_reflection = 1.0;
     return scene;
 }
 
@@ -377,6 +410,12 @@ void add_fe_water_cases(Registry& registry)
          "c/2 sqrt((m/L)^2 + ((n - 1/2)/h)^2)",
          "bilinear elements: order 2, error (kh)^2/24 of a mode, 1 % for the fifth with 20 elements over the depth",
          cavity});
+    registry.push_back(
+        {"fe2d.fluid.sloshing",
+         "Surface waves of a tank: frequencies of a sloshing surface between a wall and an end with p = 0.",
+         "omega^2 = g gamma tanh(gamma h), gamma^2 = k^2 - omega^2/c^2, k = (n - 1/2) pi/L (Lamb, "
+         "Hydrodynamics, art. 228, with compressible water)",
+         "order 2; the fourth wave with 11 elements a quarter of its length errs by (kh)^2/24, 0.3 %", sloshing});
     registry.push_back({"fe2d.fluid.piston-and-column",
                         "A sprung mass in front of a water column with p = 0 at its end.",
                         "k = omega^2 (m + rho tan(omega L/c) c/omega), from the wave equation; all effective masses "

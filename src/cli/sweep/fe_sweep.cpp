@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 
 namespace damslip::cli {
 
@@ -28,7 +29,8 @@ struct PreparedModel {
     std::unique_ptr<const fe2d::EarthquakeRun> full;
     std::unique_ptr<const fe2d::ReducedRun> reduced; ///< on `full`; none: not asked for yet
 };
-using ModelKey = std::pair<std::size_t, FeLaw>; ///< variant, law
+/// Variant, law, and whether reservoir.model = "auto" stays added mass, as on few modes of the dam.
+using ModelKey = std::tuple<std::size_t, FeLaw, bool>;
 
 /// Members that full and reduced runs have in common.
 template <class Result>
@@ -68,6 +70,12 @@ void add(const FeSweepCounts& c, FeSweepCounts& sum)
     sum.set_up_seconds += c.set_up_seconds;
     sum.static_seconds += c.static_seconds;
     sum.dynamic_seconds += c.dynamic_seconds;
+    sum.choices.insert(c.choices.begin(), c.choices.end());
+}
+
+bool acoustic(const Scene& scene)
+{
+    return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
 }
 
 Scene scene_of(const FeSweepInputs& in, const GridIndex& at)
@@ -117,7 +125,8 @@ private:
     ModelKey key(const FeGroup& group) const
     {
         const FeLaw law = in_.axes.method[group.method].law;
-        return {group.variant, law == FeLaw::exact && !with_exact_contact(in_.scene) ? FeLaw::scene : law};
+        return {group.variant, law == FeLaw::exact && !with_exact_contact(in_.scene) ? FeLaw::scene : law,
+                in_.axes.method[group.method].reduced};
     }
 
     void prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
@@ -125,7 +134,9 @@ private:
         const std::lock_guard lock(model.mutex); // others who need the same model wait for it
         if (!model.full) {
             model.scene = scene_of(in_, at);
-            if (model.scene.added_mass.period_of_dam) resolve_dam_period(model.scene);
+            if (!in_.axes.method[at.method].reduced)
+                if (const auto choice = resolve_reservoir_model(model.scene)) counts.choices.insert(choice->reason);
+            if (model.scene.added_mass.period_of_dam && !acoustic(model.scene)) resolve_dam_period(model.scene);
             SeepageSource seepage;
             model.options = contact_options(model.scene, in_.records, seepage);
             model.options.progress = [this](const fe2d::RunProgress& p) {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct FeSweepCounts {
     std::int64_t set_ups = 0; ///< meshes and matrices made
     std::int64_t runs = 0, static_failures = 0, steps = 0, factorisations = 0, unresolved = 0;
     double set_up_seconds = 0.0, static_seconds = 0.0, dynamic_seconds = 0.0;
+    std::set<std::string> choices; ///< what reservoir.model = "auto" became, a sentence each
 };
 
 /// What FE runs need of a sweep.
