@@ -10,7 +10,7 @@ struct FeArguments {
     std::string base =
         "contact";               ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
     bool reduced = false;        ///< on few modes of the dam, with an error estimate; contact base only
-    std::optional<int> modes;    ///< elastic modes kept by a reduced run, 2 ... 1000; none: its own choice
+    std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component
 };

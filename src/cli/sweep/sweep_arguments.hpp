@@ -14,7 +14,7 @@ struct SweepArguments {
     RunInputs inputs;
     std::string friction, friction_deg, level, uplift, reservoir, size, scale, polarity;
     std::string method;                      ///< empty: rigid, and rigid-v where a record has a vertical component
-    std::optional<int> modes;                ///< elastic modes of fe-reduced, 2 ... 1000; none: its own choice
+    std::optional<int> modes;                ///< elastic modes of fe-reduced, 1 ... 1000; none: its own choice
     std::optional<double> penalty_stiffness; ///< of fe-penalty [N/m^3], > 0; none: the scene's
 
     std::filesystem::path out;                ///< CSV file, its journal beside it; empty: standard output, no journal
