@@ -7,6 +7,7 @@
 #include "cli/parser.hpp"
 #include "cli/schema_command.hpp"
 #include "cli/screen_command.hpp"
+#include "cli/study_command.hpp"
 #include "cli/sweep_command.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "cli/verify_command.hpp"
@@ -26,6 +27,7 @@ struct Parser : ParserBase {
 
     ScreenArguments screen;
     SweepArguments sweep;
+    StudyArguments study;
     ExplainArguments explain;
     VerifyArguments verify;
     ModesArguments modes;
@@ -102,7 +104,8 @@ void add_sweep(Parser& p)
     list(
         "--method", p.sweep.method,
         "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
-        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-reduced, and regressions by id such as "
+        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-reduced, and regressions by "
+        "id such as "
         "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub->add_option("--modes", p.sweep.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
     sub->add_option("--penalty-stiffness", p.sweep.penalty_stiffness, "of fe-penalty [N/m3]")
@@ -115,6 +118,21 @@ void add_sweep(Parser& p)
     sub->add_option("-j,--jobs", p.sweep.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     add_sweep_parts(sub, p.sweep);
     sub->callback([&p] { p.chosen = [a = p.sweep](const Streams& s) { return sweep(a, s); }; });
+}
+
+void add_study(Parser& p)
+{
+    CLI::App* sub = command(
+        p, "study",
+        "the study of Goldgruber (2015), chapter 4: 6 frictions, 3 uplifts, 3 waters, 2 sizes; figures and findings",
+        "damslip study examples/thesis-study/dam.toml --out study");
+    add_run_inputs(sub, p.study.inputs);
+    sub->add_option("--method", p.study.method, "as of sweep; with fe the finite elements run to the default accuracy")
+        ->capture_default_str();
+    sub->add_option("-o,--out", p.study.out, "folder for rows.csv, findings.csv and report.html")->required();
+    sub->add_option("-j,--jobs", p.study.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    sub->add_flag("--resume", p.study.resume, "go on where a study with the same --out stopped");
+    sub->callback([&p] { p.chosen = [a = p.study](const Streams& s) { return study(a, s); }; });
 }
 
 void add_explain(Parser& p)
@@ -194,6 +212,7 @@ void build(Parser& p)
                  exit_codes);
     add_screen(p);
     add_sweep(p);
+    add_study(p);
     add_fe(p);
     add_modes(p);
     add_explain(p);

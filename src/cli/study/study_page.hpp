@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cli/study/study_findings.hpp"
+#include "report/page.hpp"
+
+namespace damslip::cli {
+
+struct StudyPageInput {
+    const Scene& scene; ///< as given
+    const StudyRows& rows;
+    const Table& table; ///< all rows
+    const std::vector<RecordPair>& records;
+    const std::vector<StudyUplift>& uplifts;
+    const std::vector<ModelModes>& modes;
+    const RegressionsBeside& regressions;
+    const std::vector<Finding>& findings;
+};
+
+/// Chapter 4 of Goldgruber (2015) with our numbers: findings, figures 4-2, 4-6, 4-7, 4-11 ... 4-19, tables 4-3 and 4-4.
+report::Page study_page(const StudyPageInput& input);
+
+} // namespace damslip::cli

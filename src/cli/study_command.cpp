@@ -1,0 +1,134 @@
+#include "cli/study_command.hpp"
+
+#include "cli/study/study_page.hpp"
+#include "cli/sweep/sweep_arguments.hpp"
+#include "cli/sweep/sweep_identity.hpp"
+#include "cli/terminal/usage_error.hpp"
+#include "core/file.hpp"
+#include "records/measure/peaks.hpp"
+#include "report/page_html.hpp"
+#include "report/table_text.hpp"
+#include "scene/write.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+SweepArguments grid_arguments(const StudyArguments& a)
+{
+    SweepArguments grid;
+    grid.inputs = a.inputs;
+    grid.friction = fmt::format("{}", fmt::join(chapter_4::frictions, ","));
+    grid.uplift = fmt::format("{}", fmt::join(chapter_4::uplifts, ","));
+    grid.reservoir = fmt::format("{}", fmt::join(chapter_4::waters, ","));
+    grid.size = fmt::format("{}", fmt::join(chapter_4::sizes, ","));
+    grid.method = a.method;
+    grid.out = a.out / "rows.csv";
+    return grid;
+}
+
+void check_scene(const Scene& scene)
+{
+    const auto usage = [](const char* problem, const char* expected, const char* fix) {
+        throw UsageError(Diagnostic{"", 0, 0, problem, expected, fix});
+    };
+    if (!scene.reservoir || !scene.curtain || !scene.foundation)
+        usage("the scene has no reservoir, no curtain or no foundation.",
+              "the study varies uplift and water of a dam with a curtain",
+              "add [reservoir], [curtain] and [foundation]");
+    if (scene.motion.records.empty())
+        usage("there is no record.", "a [[motion.record]] in the scene or --record", "add  --record FILE");
+}
+
+Table rows_table(const Grid& grid, const SweepOutcome& outcome)
+{
+    Table table = sweep_table();
+    for (const FinishedRow& row : outcome.rows) table.rows.push_back(table_row(grid, row.id, row.results));
+    return table;
+}
+
+std::string json_text(const Scene& scene, const Table& rows, const std::vector<Finding>& findings,
+                      const std::vector<ModelModes>& modes)
+{
+    auto j = json_header("study");
+    j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
+    j["findings"] = json_of(findings_table(findings));
+    j["modes"] = {{"table_4_3", json_of(modes_table(modes, 1.0))}, {"table_4_4", json_of(modes_table(modes, 2.0))}};
+    j["rows"] = json_of(rows);
+    return j.dump(2) + "\n";
+}
+
+void talk_of(const std::vector<Finding>& findings, const Streams& streams)
+{
+    for (const Finding& f : findings) {
+        if (!f.here) continue;
+        streams.out << fmt::format("{}: {}\n  {}: {}\n", f.where, f.printed, word(f.here->holds), f.here->numbers);
+        if (f.as_source)
+            streams.out << fmt::format("  with the source's settings {}: {}\n", word(f.as_source->holds),
+                                       f.as_source->numbers);
+    }
+}
+
+} // namespace
+
+int study(const StudyArguments& arguments, const Streams& streams)
+{
+    // 1. the scene and the grid of the chapter
+    Scene scene = read_run_scene(arguments.inputs);
+    check_scene(scene);
+    scene.motion.records.resize(1);
+    const SweepArguments sweep = grid_arguments(arguments);
+    const Axes axes = make_axes(sweep, scene);
+    const TaskList tasks = make_tasks(axes, 1);
+    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
+    const std::vector<RecordPair> records = read_records(called_for(plan, scene), plan);
+
+    // 2. its rows
+    const FeSweepInputs inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
+    check_fe_scenes(inputs);
+    const SweepIdentity identity = sweep_identity(sweep, scene, axes, tasks);
+    std::filesystem::create_directories(arguments.out);
+    Journal journal(journal_of(sweep.out), identity, {}, arguments.resume ? JournalStart::resume : JournalStart::fresh);
+    const Grid grid = make_grid(scene, axes, tasks, records, arguments.jobs);
+    std::vector<std::size_t> wanted(tasks.rows());
+    std::iota(wanted.begin(), wanted.end(), 0u);
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, &journal, arguments.jobs, streams);
+    if (!outcome.complete()) {
+        streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
+                                    outcome.rows.size(), outcome.wanted);
+        return exit_no_convergence;
+    }
+
+    // 3. what they say of the chapter's findings
+    const StudyRows rows(grid, outcome);
+    const Table table = rows_table(grid, outcome);
+    const std::vector<StudyUplift> uplifts = study_uplifts(scene);
+    const std::vector<ModelModes> modes = study_modes(scene);
+    const RegressionsBeside regressions = regressions_beside_block(scene, records.front());
+    const double pga = grid.measured.front().pga_g * units::standard_gravity;
+    const std::vector<Finding> findings = study_findings({scene, rows, uplifts, modes, regressions, pga});
+
+    // 4. files
+    write_file(sweep.out, report::csv(table, csv_comments(identity)));
+    write_file(arguments.out / "findings.csv", report::csv(findings_table(findings)));
+    const std::filesystem::path page = arguments.out / "report.html";
+    write_file(page,
+               report::page_html(study_page({scene, rows, table, records, uplifts, modes, regressions, findings})));
+    journal.mark_done();
+    if (streams.form == Form::json)
+        streams.out << json_text(scene, table, findings, modes);
+    else
+        talk_of(findings, streams);
+    if (!streams.quiet)
+        streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
+                                    page.string());
+    return outcome.all_good() ? exit_ok : exit_no_convergence;
+}
+
+} // namespace damslip::cli
