@@ -54,12 +54,13 @@ Table rows_table(const Grid& grid, const SweepOutcome& outcome)
 }
 
 std::string json_text(const Scene& scene, const Table& rows, const std::vector<Finding>& findings,
-                      const std::vector<ModelModes>& modes)
+                      const std::vector<ModelModes>& modes, const std::vector<SettingsStep>& settings)
 {
     auto j = json_header("study");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["findings"] = json_of(findings_table(findings));
     j["modes"] = {{"table_4_3", json_of(modes_table(modes, 1.0))}, {"table_4_4", json_of(modes_table(modes, 2.0))}};
+    j["settings"] = json_of(settings_table(settings));
     j["rows"] = json_of(rows);
     return j.dump(2) + "\n";
 }
@@ -114,15 +115,18 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const double pga = grid.measured.front().pga_g * units::standard_gravity;
     const std::vector<Finding> findings = study_findings({scene, rows, uplifts, modes, regressions, pga});
 
+    std::vector<SettingsStep> settings;
+    if (axes.finite_elements()) settings = settings_ladder(scene, records, arguments.jobs, streams);
+
     // 4. files
     write_file(sweep.out, report::csv(table, csv_comments(identity)));
     write_file(arguments.out / "findings.csv", report::csv(findings_table(findings)));
     const std::filesystem::path page = arguments.out / "report.html";
-    write_file(page,
-               report::page_html(study_page({scene, rows, table, records, uplifts, modes, regressions, findings})));
+    write_file(page, report::page_html(
+                         study_page({scene, rows, table, records, uplifts, modes, regressions, findings, settings})));
     journal.mark_done();
     if (streams.form == Form::json)
-        streams.out << json_text(scene, table, findings, modes);
+        streams.out << json_text(scene, table, findings, modes, settings);
     else
         talk_of(findings, streams);
     if (!streams.quiet)

@@ -115,10 +115,16 @@ Section rigid_against_fe(const StudyRows& rows)
     return section;
 }
 
-/// What step and contact law change.
-Section settings_section(const StudyRows& rows)
+/// What step, water, joint, damping and contact law change.
+Section settings_section(const StudyPageInput& in)
 {
-    Section section{"What the step and the source's settings change", {}, Fold::open};
+    const StudyRows& rows = in.rows;
+    Section section{"What each setting changes", {}, Fold::open};
+    if (!in.settings.empty()) {
+        section.parts.push_back(rows_of(settings_table(in.settings)));
+        for (const char* water : {"acoustic", "westergaard"})
+            section.parts.emplace_back(settings_chart(in.settings, water));
+    }
     for (const double size : chapter_4::sizes) {
         std::vector<FrictionCurve> curves;
         int colour = 0;
@@ -216,7 +222,7 @@ report::Page study_page(const StudyPageInput& in)
             histories(in.rows, "Figure 4-17: finite elements, 125 m, without curtain", "linear", 2.0));
         page.sections.push_back(curtain_section(in.rows));
         page.sections.push_back(rigid_against_fe(in.rows));
-        page.sections.push_back(settings_section(in.rows));
+        page.sections.push_back(settings_section(in));
         page.sections.push_back(printed_uplift_section(in.rows));
     }
     const std::vector<GroundMotion> motions{ground_motion(in.scene, in.records.front())};

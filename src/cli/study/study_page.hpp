@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/study/study_findings.hpp"
+#include "cli/study/study_settings.hpp"
 #include "report/page.hpp"
 
 namespace damslip::cli {
@@ -14,6 +15,7 @@ struct StudyPageInput {
     const std::vector<ModelModes>& modes;
     const RegressionsBeside& regressions;
     const std::vector<Finding>& findings;
+    const std::vector<SettingsStep>& settings; ///< empty: no FE
 };
 
 /// Chapter 4 of Goldgruber (2015) with our numbers: findings, figures 4-2, 4-6, 4-7, 4-11 ... 4-19, tables 4-3 and 4-4.

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "cli/study/study_rows.hpp"
+#include "report/chart.hpp"
+
+namespace damslip::cli {
+
+/// The study's slips with some of the source's settings in place of the accurate ones, with curtain, size 1, whole steps.
+struct SettingsStep {
+    std::string change;                        ///< on top of the steps before
+    std::vector<double> acoustic, westergaard; ///< of chapter_4::frictions [mm]
+};
+
+/// From the accurate settings to the source's, one change after the other: what each of them does to the slip. The last step is the
+/// preset. @returns fewer steps when interrupted
+std::vector<SettingsStep> settings_ladder(const Scene& scene, const std::vector<RecordPair>& records, int jobs,
+                                          const Streams& streams);
+
+Table settings_table(const std::vector<SettingsStep>& steps);
+
+/// Slips of one water over friction, a curve for each step.
+report::Chart settings_chart(const std::vector<SettingsStep>& steps, const std::string& water);
+
+} // namespace damslip::cli
