@@ -7,7 +7,9 @@ namespace damslip::report {
 
 namespace {
 
-/// Words of verdict and state columns that have to be seen at once.
+constexpr std::size_t long_text = 40; ///< a sentence, which may be broken into lines [bytes]
+
+/// Words of verdict and state columns that have to be seen at once; sentences.
 std::string cell_class(const Cell& cell)
 {
     if (is_number(cell)) return " class=\"number\"";
@@ -17,7 +19,7 @@ std::string cell_class(const Cell& cell)
     if (*word == "FAIL" || *word == "UNRESOLVED" || *word == "SLIDES STATICALLY" || *word == "SLIDES UPSTREAM" ||
         *word == "FLOATS")
         return " class=\"fail\"";
-    return "";
+    return word->size() > long_text ? " class=\"sentence\"" : "";
 }
 
 std::string cell_html(const Cell& cell, int digits)

@@ -227,7 +227,7 @@ Finding step_suffices(const StudyRows& rows)
     double worst = 0.0, farthest = 0.0;
     std::size_t good = 0, all = 0;
     for (const std::string& uplift : chapter_4::uplifts)
-        for (const std::string water : {"acoustic", "westergaard"})
+        for (const std::string& water : chapter_4::waters)
             for (const double size : chapter_4::sizes)
                 for (const double friction : chapter_4::frictions) {
                     const auto fine = rows.slip({uplift, water, size, friction, "fe"}),

@@ -197,8 +197,8 @@ Table findings_table(const std::vector<Finding>& findings)
     for (const Finding& f : findings) {
         std::vector<Cell> row{f.where, f.printed};
         const auto add = [&row](const std::optional<Judged>& judged) {
-            row.push_back(judged ? Cell(judged->numbers) : Cell());
-            row.push_back(judged ? Cell(std::string(word(judged->holds))) : Cell());
+            row.push_back(judged ? judged->numbers : std::string());
+            row.push_back(std::string(judged ? word(judged->holds) : ""));
         };
         add(f.here);
         if (source) add(f.as_source);
