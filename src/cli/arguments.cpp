@@ -1,5 +1,6 @@
 #include "cli/arguments.hpp"
 
+#include "cli/accuracy_command.hpp"
 #include "cli/completion_command.hpp"
 #include "cli/explain_command.hpp"
 #include "cli/fe_command.hpp"
@@ -29,6 +30,7 @@ struct Parser : ParserBase {
     SweepArguments sweep;
     StudyArguments study;
     ExplainArguments explain;
+    AccuracyArguments accuracy;
     VerifyArguments verify;
     ModesArguments modes;
     FeArguments fe;
@@ -184,6 +186,31 @@ void add_modes(Parser& p)
     sub->callback([&p] { p.chosen = [a = p.modes](const Streams& s) { return modes(a, s); }; });
 }
 
+void add_accuracy(Parser& p)
+{
+    CLI::App* sub = command(p, "accuracy", "what accuracy costs: every method on this scene, its error and its seconds",
+                            "damslip accuracy examples/reference_dam.toml --tolerance 0.02 --out results/accuracy");
+    AccuracyArguments& a = p.accuracy;
+    add_run_inputs(sub, a.inputs);
+    sub->add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    sub->add_flag("--all-records", a.all_records, "all records of the scene, the worst counts; else its first")
+        ->group("Ground motion");
+    sub->add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    sub->add_option("--tolerance", a.tolerance, "names the cheapest rung within this share of the finest's slip")
+        ->capture_default_str();
+    sub->add_option("--repeats", a.repeats, "runs of a rung for its median time; fewer of rungs above a second")
+        ->capture_default_str();
+    sub->add_option("--budget", a.budget, "seconds for all rungs together; what would exceed them is listed as skipped")
+        ->capture_default_str();
+    sub->add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
+    sub->add_option("--rung", a.rung, "run this rung alone, named as in the table: fe-acoustic:dt/4,2h");
+    sub->add_option("--out", a.out,
+                    "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes");
+    sub->add_option("--report", a.report, "the report alone (.html)");
+    sub->add_option("--svg", a.svg, "the chart alone (.svg)");
+    sub->callback([&p] { p.chosen = [a = p.accuracy](const Streams& s) { return accuracy(a, s); }; });
+}
+
 void add_small_commands(Parser& p)
 {
     CLI::App* check = command(p, "verify", "closed-form and published cases: expected, computed, error, pass",
@@ -216,6 +243,7 @@ void build(Parser& p)
     add_fe(p);
     add_modes(p);
     add_explain(p);
+    add_accuracy(p);
     add_record_commands(p.app, p, p.record);
     add_small_commands(p);
 }

@@ -1,0 +1,68 @@
+#include "cli/accuracy/variant.hpp"
+
+#include "cli/run/contact_law.hpp"
+#include "fe2d/mesh/build_mesh.hpp"
+
+namespace damslip::cli {
+
+namespace {
+
+/// Elements of `factor` times the scene's size everywhere but in the far rock; they grow as fast with the distance.
+void scale_mesh(double factor, Scene& scene)
+{
+    const fe2d::MeshSizes sizes = fe2d::mesh_sizes(scene);
+    scene.mesh.size = factor * sizes.dam;
+    scene.mesh.contact_size = factor * sizes.contact;
+    if (scene.mesh.rock_contact_size) *scene.mesh.rock_contact_size *= factor;
+    scene.mesh.growth = 1.0 + factor * (scene.mesh.growth - 1.0);
+    if (scene.reservoir && scene.reservoir->level > 0.0)
+        scene.reservoir->mesh_size = factor * scene.reservoir->mesh_size.value_or(scene.reservoir->level / 20.0);
+}
+
+void set_water(RungWater water, Scene& scene)
+{
+    if (!scene.reservoir) return;
+    switch (water) {
+    case RungWater::dry:
+        break;
+    case RungWater::hydrostatic:
+        scene.reservoir->model = ReservoirModel::hydrostatic;
+        break;
+    case RungWater::added_mass:
+        scene.reservoir->model = ReservoirModel::added_mass;
+        break;
+    case RungWater::acoustic:
+        scene.reservoir->model = ReservoirModel::acoustic;
+        break;
+    }
+}
+
+} // namespace
+
+Scene scene_of(const Scene& given, const Rung& rung)
+{
+    Scene scene = given;
+    if (rung.family == RungFamily::regression) return scene;
+    if (rung.family == RungFamily::rigid) {
+        scene.sliding.scheme = rung.scheme == RigidScheme::slammer ? SlidingScheme::slammer : SlidingScheme::exact;
+        if (rung.components == Components::horizontal) scene.motion.vertical = false;
+        return scene;
+    }
+    set_water(rung.water, scene);
+    if (rung.step == StepChoice::as_the_scene) return scene;
+    scene = with_exact_contact(scene).value_or(scene);
+    scene.time.substeps.reset();
+    if (rung.step == StepChoice::fixed) scene.time.substeps = rung.halvings;
+    if (rung.mesh != 1.0) scale_mesh(rung.mesh, scene);
+    if (rung.tangential_stiffness) {
+        scene.contact.enforcement = ContactEnforcement::penalty;
+        scene.contact.tangential_stiffness = rung.tangential_stiffness;
+    }
+    if (rung.alpha) {
+        scene.time.scheme = TimeScheme::hht;
+        scene.time.alpha = *rung.alpha;
+    }
+    return scene;
+}
+
+} // namespace damslip::cli

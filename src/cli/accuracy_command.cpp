@@ -1,0 +1,260 @@
+#include "cli/accuracy_command.hpp"
+
+#include "cli/accuracy/accuracy_report.hpp"
+#include "cli/accuracy/accuracy_tables.hpp"
+#include "cli/accuracy/climb.hpp"
+#include "cli/accuracy/cost_figure.hpp"
+#include "cli/accuracy/processor_time.hpp"
+#include "cli/accuracy/rung_runner.hpp"
+#include "cli/accuracy/variant.hpp"
+#include "cli/show/fe_output.hpp"
+#include "cli/terminal/interrupt.hpp"
+#include "cli/terminal/usage_error.hpp"
+#include "core/file.hpp"
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "report/page_html.hpp"
+#include "report/table_text.hpp"
+#include "scene/write.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
+void check(const AccuracyArguments& a)
+{
+    if (!(a.tolerance > 0.0 && std::isfinite(a.tolerance)))
+        usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
+              "for 2 % write  --tolerance 0.02");
+    if (a.repeats < 1) usage(fmt::format("--repeats {} is not allowed.", a.repeats), "1 or more", "write  --repeats 3");
+    if (!(a.budget > 0.0))
+        usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
+    if (!a.rung.empty() && !parse_rung(a.rung))
+        usage("--rung " + a.rung + " is not known.", "a rung as the table names it",
+              "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
+}
+
+std::string quoted(const std::string& word)
+{
+    const bool plain =
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:,") ==
+        std::string::npos;
+    if (plain && !word.empty()) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+/// The command that runs one rung with the same scene and records.
+std::string command_of(const AccuracyArguments& a, const Rung& rung)
+{
+    std::string command = "damslip accuracy " + quoted(a.inputs.scene.string());
+    for (const auto& record : a.inputs.records) command += " --record " + quoted(record.string());
+    for (const auto& vertical : a.inputs.verticals) command += " --vertical " + quoted(vertical.string());
+    if (!a.inputs.unit.empty()) command += " --units " + quoted(a.inputs.unit);
+    if (a.inputs.dt) command += " --dt " + shortest(*a.inputs.dt);
+    if (a.inputs.scale) command += " --scale " + shortest(*a.inputs.scale);
+    if (a.inputs.friction) command += " --friction " + shortest(*a.inputs.friction);
+    if (a.all_records) command += " --all-records";
+    return command + " --rung " + quoted(rung_id(rung));
+}
+
+struct Loaded {
+    Scene scene;
+    std::vector<RecordPair> records;
+    double seconds = 0.0;
+    std::size_t in_scene = 0; ///< records of the scene, whether used or not
+};
+
+Loaded load(const AccuracyArguments& a)
+{
+    const ProcessorTime clock;
+    Loaded loaded{read_run_scene(a.inputs), {}, 0.0, 0};
+    loaded.in_scene = loaded.scene.motion.records.size();
+    if (loaded.in_scene == 0)
+        throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",
+                                    "a [[motion.record]], or --record", "add  --record FILE"});
+    if (!a.all_records && a.inputs.records.empty()) loaded.scene.motion.records.resize(1);
+    loaded.records = read_records(loaded.scene, make_effect_plan(loaded.scene, Method::finite_elements));
+    loaded.seconds = clock.seconds();
+    return loaded;
+}
+
+std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loaded,
+                                     const std::vector<RungResult>& results, bool interrupted)
+{
+    std::vector<std::string> messages = facts.left_out;
+    if (loaded.records.size() < loaded.in_scene)
+        messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
+                                       "worst counts.",
+                                       loaded.in_scene, loaded.records.front().files.name));
+    for (const RungResult& r : results)
+        if (!r.done())
+            messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
+                                           r.outcome == RungOutcome::skipped   ? "skipped"
+                                           : r.outcome == RungOutcome::refused ? "refused"
+                                                                               : "FAILED",
+                                           r.remark));
+    if (interrupted) messages.push_back("Interrupted: the rungs that were finished count.");
+    return messages;
+}
+
+/// Scenes of the finite-element rungs, for `fe`.
+void write_rung_scenes(const std::filesystem::path& out, const Scene& scene, const std::vector<RungResult>& results)
+{
+    for (const RungResult& r : results)
+        if (r.done() && r.rung.family == RungFamily::finite_elements)
+            write_file(out / "rungs" / (file_word(rung_id(r.rung)) + ".toml"), resolved_toml(scene_of(scene, r.rung)));
+}
+
+nlohmann::ordered_json json_of(const AccuracyArguments& a, const Loaded& loaded, const std::vector<RungResult>& results,
+                               const Judgement& j, const std::vector<std::string>& messages)
+{
+    auto out = json_header("accuracy");
+    out["scene"] = {
+        {"title", loaded.scene.title}, {"file", loaded.scene.file.string()}, {"hash", scene_hash(loaded.scene)}};
+    out["records"] = nlohmann::ordered_json::array();
+    for (const RecordPair& pair : loaded.records) out["records"].push_back(pair.files.name);
+    out["tolerance"] = a.tolerance;
+    out["top"] = nullptr;
+    out["top_open"] = nullptr;
+    out["choice"] = nullptr;
+    if (j.top) out["top"] = rung_id(results[*j.top].rung);
+    if (j.top_error) out["top_open"] = *j.top_error;
+    if (j.choice)
+        out["choice"] = {{"rung", rung_id(results[*j.choice].rung)},
+                         {"command", command_of(a, results[*j.choice].rung)}};
+    out["rungs"] = cli::json_of(rung_table(results, j));
+    out["models"] = cli::json_of(model_table(results, j));
+    std::vector<std::string> names;
+    for (const RecordPair& pair : loaded.records) names.push_back(pair.files.name);
+    out["slips"] = cli::json_of(slip_table(results, names));
+    out["messages"] = messages;
+    return out;
+}
+
+void write_csv(const std::filesystem::path& out, const Loaded& loaded, const std::vector<RungResult>& results,
+               double tolerance)
+{
+    write_file(out / "accuracy.csv",
+               report::csv(rung_table(results, judge(results, tolerance)),
+                           {"damslip " + program_version() + " accuracy", "scene " + scene_hash(loaded.scene)}));
+}
+
+/// One rung alone: its slip, by record.
+int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner, const Streams& streams)
+{
+    const Rung rung = *parse_rung(a.rung);
+    ClimbCalls calls;
+    calls.run = [&](const Rung& r) { return runner.run(r); };
+    const RungResult result = run_repeatedly(rung, 1, calls);
+    Table t;
+    t.title = "Rung " + rung_id(rung);
+    t.columns = {{"record", "record", "", 4}, {"slip_mm", "slip", "mm", 6}, {"seconds", "time, all records", "s", 3}};
+    for (std::size_t i = 0; i < result.slip.size(); ++i)
+        t.rows.push_back({loaded.records[i].files.name, result.slip[i] / units::mm, result.seconds});
+    if (streams.form == Form::json) {
+        auto j = json_header("accuracy");
+        j["rung"] = rung_id(rung);
+        j["runs"] = cli::json_of(t);
+        j["remark"] = result.remark;
+        streams.out << j.dump(2) << "\n";
+    } else {
+        streams.out << report::text(t);
+        if (!result.remark.empty()) streams.out << "note: " << result.remark << "\n";
+    }
+    if (!a.out.empty()) {
+        write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
+        if (!streams.quiet && rung.family == RungFamily::finite_elements)
+            streams.talk << "histories and fields:  damslip fe " << quoted((a.out / "scene.toml").string())
+                         << (rung.modes ? fmt::format(" --reduced --modes {}", *rung.modes) : "") << " --out "
+                         << quoted(a.out.string()) << "\n";
+    }
+    return result.done() ? exit_ok : exit_no_convergence;
+}
+
+std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner,
+                                    const LadderFacts& facts, const InterruptGuard& interrupt, const Streams& streams)
+{
+    ClimbOptions options;
+    options.ladder = {a.quick ? Effort::quick : Effort::full, a.tolerance};
+    options.repeats = a.repeats;
+    options.budget = a.budget;
+    ClimbCalls calls;
+    calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    calls.interrupted = [&] { return interrupt.interrupted(); };
+    calls.begins = [&](const Rung& rung) {
+        if (streams.terminal) streams.talk << "  " << rung_id(rung) << " ..." << std::flush;
+    };
+    calls.ends = [&](const std::vector<RungResult>& results) {
+        const RungResult& r = results.back();
+        if (streams.terminal && r.done())
+            streams.talk << fmt::format("\r  {:<32} {:>10.5g} mm {:>9.3g} s\n", rung_id(r.rung),
+                                        r.slip.front() / units::mm, r.seconds);
+        else if (streams.terminal)
+            streams.talk << fmt::format("\r  {:<32} {}\n", rung_id(r.rung), r.remark);
+        if (!a.out.empty()) write_csv(a.out, loaded, results, a.tolerance); // what is finished is not lost
+    };
+    return climb(facts, options, calls);
+}
+
+} // namespace
+
+int accuracy(const AccuracyArguments& a, const Streams& streams)
+{
+    check(a);
+    const Loaded loaded = load(a);
+    const InterruptGuard interrupt;
+    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, [&] { return interrupt.interrupted(); });
+    if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
+
+    const LadderFacts facts = runner.facts();
+    const std::vector<RungResult> results = climb_aloud(a, loaded, runner, facts, interrupt, streams);
+    const Judgement judgement = judge(results, a.tolerance);
+    const std::vector<std::string> messages = messages_of(facts, loaded, results, interrupt.interrupted());
+    const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
+    const auto j = json_of(a, loaded, results, judgement, messages);
+    if (streams.form == Form::json)
+        streams.out << j.dump(2) << "\n";
+    else {
+        streams.out << loaded.scene.title << "\n\n"
+                    << report::text(rung_table(results, judgement)) << "\n"
+                    << report::text(model_table(results, judgement)) << "\n"
+                    << choice_sentence(results, judgement, a.tolerance) << "\n";
+        if (!command.empty()) streams.out << "  " << command << "\n";
+        for (const std::string& message : messages) streams.out << "note: " << message << "\n";
+    }
+    const auto page = [&] {
+        return report::page_html(
+            accuracy_page({loaded.scene, loaded.records, results, judgement, a.tolerance, command, messages}));
+    };
+    const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, loaded.records),
+                                           FigureStyle::standalone);
+    if (!a.svg.empty() && !figure.empty()) write_file(a.svg, figure);
+    if (!a.out.empty()) {
+        write_csv(a.out, loaded, results, a.tolerance);
+        write_file(a.out / "summary.json", j.dump(2) + "\n");
+        write_file(a.out / "scene_resolved.toml", resolved_toml(loaded.scene));
+        if (!figure.empty()) write_file(a.out / "accuracy.svg", figure);
+        write_rung_scenes(a.out, loaded.scene, results);
+        write_file(a.out / "report.html", page());
+        if (!streams.quiet) streams.talk << "report: " << (a.out / "report.html").string() << "\n";
+    }
+    if (!a.report.empty()) {
+        write_file(a.report, page());
+        if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
+    }
+    return judgement.choice && !interrupt.interrupted() ? exit_ok : exit_no_convergence;
+}
+
+} // namespace damslip::cli

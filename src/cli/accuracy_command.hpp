@@ -1,0 +1,26 @@
+#pragma once
+
+#include "cli/run/run_inputs.hpp"
+#include "cli/terminal/streams.hpp"
+
+namespace damslip::cli {
+
+struct AccuracyArguments {
+    RunInputs inputs;
+    double tolerance = 0.02;      ///< of the deviation from the finest rung [-]
+    int repeats = 3;              ///< of short rungs
+    double budget = 300.0;        ///< wall clock, all rungs together [s]
+    bool quick = false;           ///< fewer rungs
+    bool all_records = false;     ///< else the first
+    std::string rung;             ///< run this one alone; empty: the ladder
+    std::filesystem::path out;    ///< folder for report, tables, figure and the rungs' scenes; empty: none
+    std::filesystem::path report; ///< the report alone; empty: none
+    std::filesystem::path svg;    ///< the figure alone; empty: none
+};
+
+/// Climbs the ladder of methods on a scene: slip, its error, its cost; names the cheapest rung within the tolerance.
+/// @returns exit_no_convergence where no rung is within it, or after an interrupt; what was computed is written all the
+/// same.
+int accuracy(const AccuracyArguments& arguments, const Streams& streams);
+
+} // namespace damslip::cli
