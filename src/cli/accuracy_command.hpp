@@ -9,7 +9,7 @@ struct AccuracyArguments {
     RunInputs inputs;
     double tolerance = 0.02;      ///< of the deviation from the finest rung [-]
     int repeats = 3;              ///< of short rungs
-    double budget = 300.0;        ///< wall clock, all rungs together [s]
+    double budget = 300.0;        ///< processor time of all rungs together [s]
     bool quick = false;           ///< fewer rungs
     bool all_records = false;     ///< else the first
     std::string rung;             ///< run this one alone; empty: the ladder

@@ -200,7 +200,8 @@ void add_accuracy(Parser& p)
         ->capture_default_str();
     sub->add_option("--repeats", a.repeats, "runs of a rung for its median time; fewer of rungs above a second")
         ->capture_default_str();
-    sub->add_option("--budget", a.budget, "seconds for all rungs together; what would exceed them is listed as skipped")
+    sub->add_option("--budget", a.budget,
+                    "processor seconds for all rungs together; what would exceed them is listed as skipped")
         ->capture_default_str();
     sub->add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
     sub->add_option("--rung", a.rung, "run this rung alone, named as in the table: fe-acoustic:dt/4,2h");

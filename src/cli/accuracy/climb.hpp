@@ -9,7 +9,7 @@ namespace damslip::cli {
 struct ClimbOptions {
     LadderOptions ladder;
     int repeats = 3;              ///< of a rung at most, >= 1; see repeated_enough
-    std::optional<double> budget; ///< seconds for all rungs and repeats together [s]; none: no end
+    std::optional<double> budget; ///< processor time for all rungs and repeats together [s]; none: no end
 };
 
 /// What the climb asks for and tells.
