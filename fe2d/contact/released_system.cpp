@@ -1,5 +1,7 @@
 #include "fe2d/contact/released_system.hpp"
 
+#include "core/defect.hpp"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ void ReleasedSystem::wanted_rows(const ContactStates& states, const ContactLaw& 
             wanted_[normal] = wanted_[shear] = {true, 0.0};
             break;
         case ContactState::pulled:
-            wanted_[shear] = {true, 0.0};
+            wanted_[shear] = {true, defect(Defect::friction_on_pulled_pairs) ? law.friction[i] : 0.0};
             break;
         }
     }

@@ -1,5 +1,6 @@
 #include "fe2d/run/dynamic_contact.hpp"
 
+#include "core/defect.hpp"
 #include "core/stopwatch.hpp"
 
 #include <cmath>
@@ -173,7 +174,8 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
                      weighted(&GroundAcceleration::velocity_h) * structure_.velocity_x() +
                      weighted(&GroundAcceleration::velocity_v) * structure_.velocity_y();
     }
-    known_ = alpha * state_.contact.force;
+    known_ = (defect(Defect::lambda_unweighted) ? 0.0 : alpha) * state_.contact.force;
+    if (defect(Defect::stiffness_damping_in_contact)) known_ -= b_k / c.dt * (forces_.contact - forces_before_.contact);
     if (slip_damping_.active()) {
         const VectorXd slip = slip_damping_.weights.transpose() * (cv * rate_t_ + ca * accel_t_);
         const VectorXd mean = slip_damping_.momentum.transpose() * (cv * state_.v + ca * state_.a);

@@ -1,5 +1,6 @@
 #include "fe2d/run/stages.hpp"
 
+#include "core/defect.hpp"
 #include "fe2d/model/lift_water.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +63,8 @@ VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline&
     if (uplift.empty()) return stages.last();
     VectorXd sum = stages.before_uplift;
     for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
-        sum += uplift_load(model.mesh, model.dofs, uplift, side);
+        if (side == ContactSide::dam || !defect(Defect::uplift_on_one_face))
+            sum += uplift_load(model.mesh, model.dofs, uplift, side);
     return sum;
 }
 

@@ -1,5 +1,6 @@
 #include "sliding/block/slide.hpp"
 
+#include "core/defect.hpp"
 #include "core/number.hpp"
 #include "sliding/block/slammer.hpp"
 #include "sliding/block/slip_motion.hpp"
@@ -79,7 +80,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (history) block.add_sample(static_cast<double>(k + 1) * motion.dt, a_h(k + 1), a_v(k + 1), *history);
     }
     const StaticState state = static_state(stages.front().block);
-    if (state == StaticState::at_rest)
+    if (state == StaticState::at_rest && !defect(Defect::run_out_off))
         run_out(block, static_cast<double>(last) * motion.dt, motion.dt, options.sliding.run_out_max, history);
 
     block.write(result);

@@ -1,5 +1,7 @@
 #include "sliding/empirical/regression_rows.hpp"
 
+#include "core/defect.hpp"
+
 #include <cmath>
 
 // One row per regression. A new one is a new row; nothing else knows their number.
@@ -77,7 +79,9 @@ std::vector<Regression> rigid_block_rows()
          "log10 D = 1.521 log10 Ia - 1.993 log10 ac - 1.546",
          Logarithm::decimal,
          [](const Inputs& x) {
-             return 1.521 * std::log10(*x.arias_m_s) - 1.993 * std::log10(x.yield_coefficient) - 1.546;
+             const double a_c = x.yield_coefficient;
+             return 1.521 * std::log10(*x.arias_m_s) -
+                    1.993 * (defect(Defect::log_missing_in_jibson) ? a_c : std::log10(a_c)) - 1.546;
          },
          constant_sigma<375>,
          {Input::yield_coefficient, Input::arias_intensity},

@@ -22,5 +22,6 @@ void add_fe_moreau_cases(Registry& registry);
 void add_fe_reduction_cases(Registry& registry);
 void add_fe_seepage_cases(Registry& registry);
 void add_fe_sliding_cases(Registry& registry);
+void add_fe_joint_cases(Registry& registry);
 
 } // namespace damslip::verification
