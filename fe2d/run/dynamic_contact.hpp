@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace damslip::fe2d {
@@ -35,6 +36,7 @@ struct DynamicCounts {
     int by_path[5] = {0, 0, 0, 0, 0}; ///< steps by ContactPath
     int landings = 0;                 ///< steps in which some gap came to be held: shut or stuck
     int halved = 0;                   ///< steps cut in two because their contact was not resolved otherwise
+    int refined = 0;                  ///< steps cut in two because of their local error (StepControl)
     double largest_residual = 0.0;    ///< complementarity residual over the static normal force N' [-]
     int factorisations = 0;           ///< step sizes used
     double contact_seconds = 0.0;     ///< in the contact solver
@@ -46,6 +48,13 @@ struct DynamicCounts {
 /// When a step's contact is not resolved, nothing of it is kept and it is made in two halves, these in halves again,
 /// down to this share of it.
 inline constexpr int largest_cuts = 4; ///< dt / 2^4
+
+/// Error control of the steps: a step is made in halves, these in halves again, while its local error is larger than
+/// wanted.
+struct StepControl {
+    double local_error = 0.0; ///< of slip and dam of one step [m]; 0: steps stay whole, their errors are only noted
+    int largest_cuts = 0;     ///< smallest step dt / 2^k
+};
 
 /// HHT-α steps of dam, rock and contact (2-25), with the contact problem solved exactly in each. Equations:
 /// DynamicOperator. Contact forces are weighted like internal forces, (1+α)λ₁ - αλ₀, slip damping and ground motion
@@ -71,6 +80,10 @@ public:
     /// One step to the given ground acceleration. @returns how the contact was solved; when unresolved the step has
     /// been made with the best state found.
     ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law);
+
+    /// From the next step on. @param control  of the steps that advance() is asked for
+    void control(const StepControl& control) { control_ = control; }
+    const std::vector<double>& local_errors() const { return local_errors_; } ///< of the steps made under control [m]
 
     /// One of several runs that share their operators and ground and go on in step.
     struct Lane {
@@ -126,6 +139,10 @@ private:
              const ContactLaw& law); ///< the step itself, once Δu is known
     ContactReport step(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
     ContactReport in_halves(double dt, const GroundAcceleration& ground, const ContactLaw& law, int cuts);
+    bool wants_halves(const ContactReport& report, int cuts);
+    bool wants_halves(int cuts);
+    double slip_error() const;
+    double dam_error() const;
 
     void land(const ContactStates& before, const ContactLaw& law);
     void multiply(const StepConstants& constants);
@@ -148,6 +165,9 @@ private:
     const SlipDamping& slip_damping_;
     SplitLoad load_;
     ContactOptions options_;
+    std::optional<StepControl> control_;
+    std::vector<double> local_errors_;
+    int expected_cuts_ = 0;          ///< that the next step is likely to need: larger steps are not tried
     Pairing::Matrix trace_;          ///< P
     double trace_slip_ = 0.0;        ///< slip it was made for [m]
     int place_ = 0;                  ///< counts the places it was made for

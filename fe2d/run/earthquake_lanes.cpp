@@ -31,6 +31,14 @@ double largest(const std::vector<double>& values)
                            [](double sum, double value) { return std::max(sum, std::abs(value)); });
 }
 
+double worst(std::vector<double> errors)
+{
+    if (errors.empty()) return 0.0;
+    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 99 / 100);
+    std::nth_element(errors.begin(), at, errors.end());
+    return *at;
+}
+
 } // namespace
 
 /// One strength of several that are run together: its static state, and the result so far.
@@ -41,6 +49,7 @@ struct EarthquakeRun::Lane {
     RunResult result;
     int next = 0;                               ///< halvings of the next pass; 0: none
     std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
+    double local_error = 0.0;                   ///< of the worst steps of the first pass, for adaptive steps [m]
 
     void note_slips()
     {
@@ -94,18 +103,27 @@ struct Pass {
 
 } // namespace
 
+/// Wanted of the steps of pass `level`: half a step has an eighth of its local error, so the worst steps of the first pass
+/// are halved `level` times, the others as often as it takes to be no worse.
+StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
+{
+    return {lane.local_error / std::pow(8.0, level), level};
+}
+
 std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const
 {
     const Stopwatch clock;
     const double dt = scene_.time.dt.value_or(motion.dt),
                  duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
-    const int parts = 1 << halvings;
+    const bool adaptive = options_.stepping == Stepping::adaptive && !options_.halvings;
+    const int parts = adaptive ? 1 : 1 << halvings;
     const double step = dt / parts;
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
     for (const Lane* lane : lanes) {
         DynamicContact start(operators_, split(stages_.loads.size() - 1), lane->start, lane->memory, options_.contact);
+        if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series));
         RunResult& result = passes.back()->result;
         result.dt = step;
@@ -151,6 +169,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
     std::vector<RunResult> results;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         Pass& pass = *passes[i];
+        if (adaptive && halvings == 0) lanes[i]->local_error = worst(pass.dynamics.local_errors());
+        if (adaptive) pass.result.dt = pass.dynamics.state().time / std::max(1, pass.dynamics.counts().steps);
         end_lane(pass.dynamics, pass.strength, *lanes[i], pass.result);
         pass.result.seconds.dynamics += seconds;
         results.push_back(std::move(pass.result));

@@ -56,6 +56,7 @@ RunOptions completed(RunOptions options, const Scene& scene)
     if (!options.max_slip) options.max_slip = scene.contact.max_slip;
     if (!options.slip_tolerance) options.slip_tolerance = scene.time.slip_tolerance;
     if (!options.halvings) options.halvings = scene.time.substeps;
+    if (!options.stepping) options.stepping = scene.time.stepping;
     if (scene.contact.enforcement == ContactEnforcement::penalty && options.contact.tangential_stiffness == 0.0)
         options.contact.tangential_stiffness = scene.contact.tangential_stiffness.value();
     if (scene.contact.enforcement == ContactEnforcement::slip_tolerance && options.contact.slip_tolerance == 0.0)

@@ -25,12 +25,13 @@ struct RunOptions {
                                               ///< > 0 [m]; default: the scene's
     std::optional<double> slip_tolerance;     ///< of the time step: wanted error of the slip over its size, > 0 [-];
                                               ///< default: the scene's
-    std::optional<int> halvings; ///< sub-steps Δt/2^k with this k, 0 ... 10; default: the scene's, else chosen by
-                                 ///< slip_tolerance
-    int largest_halvings = 5;    ///< when chosen
-    double smallest_slip = 1e-6; ///< errors below this share of slip_tolerance do not matter [m]
-    double rest_time = 0.5;      ///< the run-out ends when the dam has not slid for this long [s]
-    ContactOptions contact;      ///< tangential stiffness and slip tolerance, where zero: the scene's
+    std::optional<int> halvings;      ///< sub-steps Δt/2^k with this k, 0 ... 10; default: the scene's, else chosen by
+                                      ///< slip_tolerance
+    int largest_halvings = 5;         ///< when chosen
+    std::optional<Stepping> stepping; ///< of chosen sub-steps; default: the scene's
+    double smallest_slip = 1e-6;      ///< errors below this share of slip_tolerance do not matter [m]
+    double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
+    ContactOptions contact;           ///< tangential stiffness and slip tolerance, where zero: the scene's
     PairSeries pair_series = PairSeries::none;
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
@@ -127,6 +128,7 @@ private:
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     Strength strength_of(const Contact& base) const;
     void stand(const Contact& contact, Lane& lane) const;
+    StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     void end_lane(const DynamicContact& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;

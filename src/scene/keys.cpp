@@ -364,6 +364,14 @@ std::vector<KeyGroup> fe_groups()
          word("substeps", "chosen by slip_tolerance",
               "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
               at(&TimeOptions::substeps)),
+         without_substeps(
+             word("stepping", "uniform",
+                  "how chosen sub-steps are spread: all alike, or small ones only where the local error of "
+                  "the slip asks for them, around its beginnings, ends and turns",
+                  "\"adaptive\"",
+                  choice(&TimeOptions::stepping,
+                         std::vector<std::pair<std::string, Stepping>>{{"uniform", Stepping::uniform},
+                                                                       {"adaptive", Stepping::adaptive}}))),
          without_substeps(number("slip_tolerance", none, Range::half_open(0, 1), "0.01",
                                  "error of the FE slip over its size, to which the sub-steps are chosen", "0.01",
                                  at(&TimeOptions::slip_tolerance)))}));

@@ -276,14 +276,17 @@ struct Damping {
 };
 
 enum class TimeScheme { hht, newmark };
+/// How chosen sub-steps are spread: all alike, or small ones where the slip changes its course (StepControl).
+enum class Stepping { uniform, adaptive };
 
 struct TimeOptions {
     TimeScheme scheme = TimeScheme::hht;
     double alpha = -0.05;            ///< HHT, -1/3 ... 0 [-]
     double gamma = 0.5, beta = 0.25; ///< Newmark [-]
     std::optional<double> dt;        ///< [s]; default: the record's
-    std::optional<int> substeps;     ///< k of FE steps dt / 2^k, 0 ... 10; none: chosen by slip_tolerance
-    double slip_tolerance = 0.01;    ///< error of the slip over its size wanted of the time step [-]
+    Stepping stepping = Stepping::uniform;
+    std::optional<int> substeps;  ///< k of FE steps dt / 2^k, 0 ... 10; none: chosen by slip_tolerance
+    double slip_tolerance = 0.01; ///< error of the slip over its size wanted of the time step [-]
 };
 
 enum class AnalysisPreset { none, goldgruber_2015 };

@@ -158,6 +158,45 @@ void water_case(double friction, double rows)
                 1e3 * mass.result.slip, 1e3 * water.result.slip);
 }
 
+/// Strong shaking for a quarter of the time, a tenth of it after that.
+GroundMotion with_coda()
+{
+    GroundMotion motion = fe2d::test::sines(1.0, 40.0);
+    const std::size_t quiet = motion.accel_h.size() / 4;
+    for (std::vector<double>* a : {&motion.accel_h, &motion.accel_v})
+        for (std::size_t i = quiet; i < a->size(); ++i) (*a)[i] *= 0.1;
+    motion.name = "sines and coda";
+    return motion;
+}
+
+/// Sub-steps all alike beside adaptive ones: steps of the last pass, time of all passes, and what both err by.
+void stepping_case(const GroundMotion& motion, double friction)
+{
+    Scene scene = fe2d::test::sliding_dam(friction, 1.0, 0.5);
+    scene.mesh.size = 2.0;
+    scene.mesh.growth = 1.3;
+    fe2d::RunOptions options = fe2d::test::options_of(scene);
+    options.halvings = 6;
+    const double exact = fe2d::EarthquakeRun(scene, options).run(motion).slip;
+    options.halvings.reset();
+    for (int level = 1; level <= 4; ++level) {
+        options.largest_halvings = level;
+        options.slip_tolerance = 1e-12; // never satisfied: all passes up to the level
+        for (const Stepping stepping : {Stepping::uniform, Stepping::adaptive}) {
+            options.stepping = stepping;
+            const fe2d::EarthquakeRun run(scene, options);
+            const double start = processor_seconds();
+            const fe2d::RunResult r = run.run(motion);
+            const double seconds = processor_seconds() - start;
+            if (stepping == Stepping::uniform)
+                std::printf("%-22s %5.2f   dt/%-3d", motion.name.c_str(), friction, 1 << level);
+            std::printf(" | %7d %8.3f %9.2f mm %8.4f %%", r.counts.steps, seconds, 1e3 * r.slip,
+                        100.0 * std::abs(r.slip / exact - 1.0));
+        }
+        std::printf("\n");
+    }
+}
+
 } // namespace
 
 int main()
@@ -173,6 +212,10 @@ int main()
     std::printf("\ndefault accuracy, everything included\n%-22s %5s | %8s | %6s %12s %10s | %10s %10s\n", "case", "mu",
                 "all", "step", "slip", "estimate", "off dt/8", "off dt/32");
     for (const double friction : {1.0, 0.77, 0.70, 0.66}) default_case(friction);
+    std::printf("\nsub-steps: all alike | adaptive; errors against dt/64\n%-22s %5s %8s | %7s %8s %12s %10s | %7s %8s "
+                "%12s %10s\n",
+                "motion", "mu", "smallest", "steps", "all", "slip", "error", "steps", "all", "slip", "error");
+    for (const GroundMotion& motion : {fe2d::test::sines(1.0), with_coda()}) stepping_case(motion, 0.77);
     std::printf("\nfrictions in lockstep\n%-22s %6s | %8s %8s %5s | %s\n", "case", "lanes", "singly", "in step",
                 "ratio", "factorisations");
     for (const int lanes : {2, 4, 6}) lockstep_case(lanes);

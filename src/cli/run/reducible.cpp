@@ -20,6 +20,10 @@ void check_reducible(const Scene& scene)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with reservoir.model = \"acoustic\".",
                                     "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
                                     "run without --reduced, or write  model = \"added-mass\"  in [reservoir]"});
+    if (scene.time.stepping == Stepping::adaptive)
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with time.stepping = \"adaptive\".",
+                                    "stepping = \"uniform\", sub-steps of a reduced run are all alike",
+                                    "run without --reduced, or delete stepping in [time]"});
     if (!scene.lift_joints.empty())
         throw UsageError(Diagnostic{scene.file.string(), 0, 0,
                                     fmt::format("--reduced with {} [[lift_joint]].", scene.lift_joints.size()),
