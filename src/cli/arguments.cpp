@@ -140,11 +140,23 @@ void add_study(Parser& p)
 void add_explain(Parser& p)
 {
     CLI::App* sub = command(p, "explain", "the effect plan: what is taken into account, why, and what it costs",
-                            "damslip explain examples/reference_dam.toml");
-    sub->add_option("SCENE", p.explain.scene, "scene file (TOML)")->required();
+                            "damslip explain examples/reference_dam.toml --ablate --report ablation.html");
+    add_run_inputs(sub, p.explain.inputs);
+    sub->add_option("--scale", p.explain.inputs.scale, "factor on all records")->group("Ground motion");
+    sub->add_option("--friction", p.explain.inputs.friction, "Coulomb mu instead of the scene's");
     sub->add_option("--method", p.explain.method, "rigid or fe")
         ->check(CLI::IsMember({"rigid", "fe"}))
         ->capture_default_str();
+    const char* const group = "Ablation";
+    CLI::Option* ablate =
+        sub->add_flag("--ablate", p.explain.ablate,
+                      "runs the scene without each of its effects in turn: change of slip and crest motion, seconds")
+            ->group(group);
+    sub->add_option("--report", p.explain.report, "HTML file with the changes as charts")->needs(ablate)->group(group);
+    sub->add_option("-j,--jobs", p.explain.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")
+        ->check(CLI::Range(0, 1024))
+        ->needs(ablate)
+        ->group(group);
     sub->callback([&p] { p.chosen = [a = p.explain](const Streams& s) { return explain(a, s); }; });
 }
 

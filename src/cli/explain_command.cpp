@@ -1,5 +1,6 @@
 #include "cli/explain_command.hpp"
 
+#include "cli/ablate_command.hpp"
 #include "cli/run/contact_cost.hpp"
 #include "cli/run/fe_inputs.hpp"
 #include "cli/show/acoustic_modes.hpp"
@@ -8,7 +9,6 @@
 #include "cli/terminal/usage_error.hpp"
 #include "report/table_text.hpp"
 #include "scene/effect_plan.hpp"
-#include "scene/read.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -98,7 +98,8 @@ std::string cost_text(const ContactCost& cost)
 
 int explain(const ExplainArguments& arguments, const Streams& streams)
 {
-    Scene scene = read_scene(arguments.scene);
+    if (arguments.ablate) return ablate(arguments, streams);
+    Scene scene = read_run_scene(arguments.inputs);
     const std::string hash = scene_hash(scene);
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
     EffectPlan plan = make_effect_plan(scene, method);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/run/run_inputs.hpp"
 #include "cli/terminal/streams.hpp"
 
 #include <filesystem>
@@ -8,8 +9,11 @@
 namespace damslip::cli {
 
 struct ExplainArguments {
-    std::filesystem::path scene;
+    RunInputs inputs;
     std::string method = "rigid"; ///< "rigid" or "fe"
+    bool ablate = false;          ///< runs the scene without each of its effects
+    std::filesystem::path report; ///< of the ablation, HTML; empty: none
+    int jobs = 1;                 ///< threads of the ablation, 0: all cores
 };
 
 /// The effect plan: which effects are on, why, and what each costs.

@@ -20,6 +20,12 @@ enum class Effect {
     drains,
     hydrodynamic_mass,
     acoustic_water,
+    water_compressibility,
+    bottom_absorption,
+    moving_bottom,
+    wave_radiation,
+    surface_waves,
+    floor_pressure,
     cohesion,
     strength_loss,
     inclined_base,
@@ -31,7 +37,11 @@ enum class Effect {
     curtain_stiffness,
     curtain_sealing,
     structural_damping,
-    lift_joints
+    separation,
+    finite_sliding,
+    yielding_contact,
+    lift_joints,
+    lift_joint_water
 };
 
 enum class Method { rigid_block, finite_elements };

@@ -1,0 +1,97 @@
+#include "cli/ablate_command.hpp"
+
+#include "cli/ablation/ablation_report.hpp"
+#include "cli/ablation/ablation_tables.hpp"
+#include "cli/show/effect_table.hpp"
+#include "cli/terminal/usage_error.hpp"
+#include "core/file.hpp"
+#include "report/page_html.hpp"
+#include "report/table_text.hpp"
+#include "scene/write.hpp"
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+/// The scene whose effects are removed: with the water that a contact run takes, so that no removal changes it.
+Scene full_scene(const Scene& given, Method method)
+{
+    Scene scene = given;
+    if (method == Method::finite_elements && scene.reservoir && scene.reservoir->model == ReservoirModel::automatic)
+        scene.reservoir->model = ReservoirModel::added_mass;
+    return scene;
+}
+
+void check_records(const Scene& scene, Method method)
+{
+    if (method == Method::rigid_block || !scene.motion.records.empty()) return;
+    throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--ablate --method fe without a record.",
+                                "at least one record: slips are what is compared",
+                                "add  --record FILE  or a [[motion.record]]"});
+}
+
+nlohmann::ordered_json json_of_ablations(const Ablations& in)
+{
+    nlohmann::ordered_json j;
+    j["removals"] = json_of(removal_table(in));
+    if (in.runs.step)
+        j["step"] = {{"substeps", in.runs.step->halvings},
+                     {"dt_s", in.runs.step->largest_dt},
+                     {"chosen", in.runs.step->chosen},
+                     {"error_from_substeps", in.runs.step->other}};
+    if (in.plan.method == Method::rigid_block) j["yield"] = json_of(yield_change_table(in));
+    j["changes"] = json_of(change_table_of_all(in));
+    j["notes"] = ablation_notes(in);
+    j["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds_table(in))}};
+    return j;
+}
+
+void print_text(const Scene& scene, const EffectPlan& plan, const Ablations& in, std::ostream& out)
+{
+    out << scene.title << "\n\n" << report::text(effect_table(plan)) << "\n" << report::text(removal_table(in)) << "\n";
+    if (in.plan.method == Method::rigid_block) out << report::text(yield_change_table(in)) << "\n";
+    for (std::size_t r = 0; r < in.records.size(); ++r) out << report::text(change_table(in, r)) << "\n";
+    out << report::text(seconds_table(in));
+    for (const std::string& note : ablation_notes(in)) out << "note: " << note << "\n";
+}
+
+} // namespace
+
+int ablate(const ExplainArguments& arguments, const Streams& streams)
+{
+    const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
+    const Scene given = read_run_scene(arguments.inputs);
+    check_records(given, method);
+    const Scene scene = full_scene(given, method);
+    const EffectPlan effects = make_effect_plan(scene, method);
+    const std::vector<RecordPair> records = read_records(scene, effects);
+    const AblationPlan plan = make_ablations(scene, method, seepage_points(scene));
+
+    const InterruptGuard interrupt;
+    AblationRuns runs;
+    {
+        Progress progress(streams, "ablate", progress_steps(plan));
+        runs = run_ablations(plan, records, arguments.jobs, progress, interrupt);
+    }
+    const Ablations ablations{plan, records, runs};
+    if (streams.form == Form::json) {
+        auto j = json_header("explain");
+        j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(given)}};
+        j["method"] = arguments.method;
+        j["effects"] = json_of(effect_table(effects));
+        j["ablation"] = json_of_ablations(ablations);
+        streams.out << j.dump(2) << "\n";
+    } else {
+        print_text(scene, effects, ablations, streams.out);
+    }
+    if (!arguments.report.empty()) {
+        write_file(arguments.report, report::page_html(ablation_page(ablations, given, effects)));
+        if (!streams.quiet) streams.talk << "report: " << arguments.report.string() << "\n";
+    }
+    return all_answered(runs) ? exit_ok : exit_no_convergence;
+}
+
+} // namespace damslip::cli

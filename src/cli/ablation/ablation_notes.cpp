@@ -1,0 +1,60 @@
+#include "cli/ablation/ablation_tables.hpp"
+
+#include "core/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+std::string step_note(const StepChoice& step)
+{
+    return fmt::format("time step: dt/{} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs "
+                       "with dt/{} and first order; that of a change is of the difference itself.",
+                       1 << step.halvings, step.largest_dt,
+                       step.chosen ? "the one time.slip_tolerance chose for the full scene" : "as time.substeps says",
+                       1 << step.other);
+}
+
+std::optional<std::string> interaction_note(const Ablations& in)
+{
+    if (!in.plan.simplest || in.records.empty()) return std::nullopt;
+    std::string text = "effects act on each other, so the changes do not add up: ";
+    bool any = false;
+    for (std::size_t r = 0; r < in.records.size(); ++r) {
+        const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, r);
+        const std::optional<double> sum = sum_of_changes(in.plan, rows), all = rows.back().slip.change;
+        if (!sum || !all) continue;
+        text += fmt::format("{}{}: sum {:+.4g} mm, all removed at once {:+.4g} mm", any ? "; " : "",
+                            in.records[r].files.name, *sum / units::mm, *all / units::mm);
+        any = true;
+    }
+    return any ? text + "." : "effects act on each other, so the changes do not add up.";
+}
+
+} // namespace
+
+std::vector<std::string> ablation_notes(const Ablations& in)
+{
+    std::vector<std::string> notes;
+    if (in.runs.step) notes.push_back(step_note(*in.runs.step));
+    if (in.plan.method == Method::rigid_block)
+        notes.push_back(
+            in.plan.full.sliding.scheme == SlidingScheme::exact
+                ? "rigid block: events are located exactly, so no step error; the crest moves with the base."
+                : "rigid block, SLAMMER's scheme: its step error is not estimated; the crest moves with "
+                  "the base.");
+    else
+        notes.push_back("crest: largest horizontal distance of its upstream end from where it stood over the base "
+                        "before the earthquake, so deformation and rocking without the slip; contact runs keep no "
+                        "crest acceleration.");
+    if (in.records.empty())
+        notes.push_back("no record is given: no slip. Name one with --record or [[motion.record]].");
+    if (auto note = interaction_note(in)) notes.push_back(std::move(*note));
+    return notes;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,85 @@
+#include "cli/ablation/ablation_runs.hpp"
+
+#include "cli/run/seepage_source.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace damslip::cli {
+
+namespace {
+
+std::vector<const Scene*> scenes_of(const AblationPlan& plan)
+{
+    std::vector<const Scene*> scenes{&plan.full};
+    for (const Ablation& a : plan.removals) scenes.push_back(&a.scene);
+    if (plan.simplest) scenes.push_back(&*plan.simplest);
+    return scenes;
+}
+
+constexpr std::size_t bar_parts = 1000; ///< of one scene
+
+} // namespace
+
+double difference_error(const StepChoice& step, double at_step, double at_other)
+{
+    const double halved = std::exp2(std::abs(step.halvings - step.other));
+    const double finer = std::abs(at_step - at_other) / (halved - 1.0);
+    return step.other < step.halvings ? finer : halved * finer;
+}
+
+std::size_t progress_steps(const AblationPlan& plan)
+{
+    return bar_parts * scenes_of(plan).size();
+}
+
+ReadyScene ready(const Scene& scene, Method method, const std::vector<RecordPair>& records)
+{
+    const EffectPlan plan = make_effect_plan(scene, method);
+    ReadyScene ready{called_for(plan, scene), records};
+    if (!plan.on(Effect::vertical_motion))
+        for (RecordPair& pair : ready.records) pair.vertical.reset();
+    return ready;
+}
+
+std::vector<Point> seepage_points(const Scene& scene)
+{
+    if (!scene.uplift || scene.uplift->model != UpliftModel::seepage || !scene.reservoir) return {};
+    const double heel = scene.reservoir->density * scene.gravity * scene.reservoir->level;
+    if (!(heel > 0.0)) return {};
+    SeepageSource seepage;
+    std::vector<Point> points;
+    for (const sliding::ProfilePoint& p : seepage.profile_of(scene)(sliding::scene_uplift_state(scene)).points)
+        points.push_back({p.distance, std::max(0.0, p.pressure / heel)});
+    return points;
+}
+
+AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPair>& records, int jobs,
+                           Progress& progress, const InterruptGuard& interrupt)
+{
+    const std::vector<const Scene*> scenes = scenes_of(plan);
+    AblationRuns runs;
+    runs.jobs = thread_count(jobs);
+    runs.scenes.resize(scenes.size());
+    if (plan.method == Method::finite_elements)
+        runs.step = choose_step(ready(plan.full, plan.method, records), interrupt);
+    std::vector<double> shares(scenes.size(), 0.0);
+    std::mutex mutex;
+    parallel_for(scenes.size(), jobs, [&](std::size_t i) {
+        const auto done = [&](double share) {
+            const std::lock_guard lock(mutex);
+            shares[i] = share;
+            double sum = 0.0;
+            for (const double s : shares) sum += s;
+            progress.at(bar_parts * sum);
+        };
+        const ReadyScene scene = ready(*scenes[i], plan.method, records);
+        runs.scenes[i] = runs.step ? run_fe(scene, *runs.step, interrupt, done) : run_rigid(scene, interrupt);
+        done(1.0);
+    });
+    return runs;
+}
+
+} // namespace damslip::cli

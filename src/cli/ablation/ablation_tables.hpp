@@ -1,0 +1,32 @@
+#pragma once
+
+#include "cli/ablation/ablation_rows.hpp"
+#include "core/table.hpp"
+
+/// An ablation as tables.
+namespace damslip::cli {
+
+struct Ablations {
+    const AblationPlan& plan;
+    const std::vector<RecordPair>& records;
+    const AblationRuns& runs;
+};
+
+/// Every effect that is on: what takes its place, or why it stays.
+Table removal_table(const Ablations& in);
+/// Slip and crest motion of every scene under one record, and their changes; with the sum of the changes.
+Table change_table(const Ablations& in, std::size_t record);
+/// The same of all records, with a column that names them.
+Table change_table_of_all(const Ablations& in);
+/// Yield acceleration and critical friction of every scene, rigid block.
+Table yield_change_table(const Ablations& in);
+/// Seconds of every scene and those saved; unknowns of FE models. Differs from call to call.
+Table seconds_table(const Ablations& in);
+
+/// What has to be known to read the tables, a sentence each; the same at each call.
+std::vector<std::string> ablation_notes(const Ablations& in);
+
+/// Every run ended properly or failed statically.
+bool all_answered(const AblationRuns& runs);
+
+} // namespace damslip::cli

@@ -1,0 +1,131 @@
+#include "cli/ablation/ablation_runs.hpp"
+
+#include "cli/ablation/processor_clock.hpp"
+#include "cli/run/contact_options.hpp"
+#include "cli/run/fe_inputs.hpp"
+#include "cli/show/contact_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::cli {
+
+namespace {
+
+constexpr int halvings_without_slip = 3; ///< where the full scene fails before the earthquake and chooses no step
+
+fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records)
+{
+    const bool added_mass = make_effect_plan(scene, Method::finite_elements).on(Effect::hydrodynamic_mass);
+    if (scene.added_mass.period_of_dam && added_mass) resolve_dam_period(scene);
+    SeepageSource seepage;
+    return contact_options(scene, records, seepage);
+}
+
+/// Largest distance of the crest from where it stood over the base [m].
+std::optional<double> crest_motion(const fe2d::RunHistory& history)
+{
+    if (history.time.empty()) return std::nullopt;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < history.time.size(); ++i)
+        largest = std::max(largest, std::abs(history.crest_x[i] - history.slip[i]));
+    return largest;
+}
+
+/// @param run_out  the scene's sliding.run_out_max [s]; without one nothing is known to rest
+RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
+{
+    RecordOutcome o;
+    o.status = word(r.status);
+    o.answered = ended_properly(r.status);
+    if (r.status != fe2d::RunStatus::at_rest && r.status != fe2d::RunStatus::sliding_at_end) {
+        o.message = r.message;
+        return o;
+    }
+    o.still_sliding = r.status == fe2d::RunStatus::sliding_at_end && run_out > 0.0;
+    o.slip = r.slip;
+    o.crest = crest_motion(r.history);
+    for (const fe2d::LiftResult& lift : r.lifts) o.lift_slips.push_back(lift.slip);
+    return o;
+}
+
+/// Passes of all records at both steps.
+double whole_work(const StepChoice& step, std::size_t records)
+{
+    return static_cast<double>(records) * (std::exp2(step.halvings) + std::exp2(step.other));
+}
+
+} // namespace
+
+SceneRuns run_fe(const ReadyScene& ready, const StepChoice& step, const InterruptGuard& interrupt,
+                 const std::function<void(double fraction)>& done)
+{
+    SceneRuns runs;
+    Scene scene = ready.scene;
+    const ProcessorClock clock;
+    fe2d::RunOptions options = options_of(scene, ready.records);
+    double before = 0.0, weight = std::exp2(step.halvings);
+    options.progress = [&](const fe2d::RunProgress& p) {
+        done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, ready.records.size()));
+        return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+    };
+    options.halvings = step.halvings;
+    const fe2d::EarthquakeRun model(scene, options);
+    runs.set_up_seconds = clock.seconds();
+    runs.unknowns = model.model().dofs.count + (model.water() ? model.water()->water.unknowns() : 0);
+    options.halvings = step.other;
+    const fe2d::EarthquakeRun other(scene, options);
+    const auto run = [&](const fe2d::EarthquakeRun& at, const GroundMotion& motion, int halvings) {
+        weight = std::exp2(halvings);
+        fe2d::RunResult result = at.run(motion);
+        before += weight;
+        return result;
+    };
+    for (const RecordPair& pair : ready.records) {
+        runs.records.emplace_back();
+        if (interrupt.interrupted()) {
+            runs.records.back().status = word(fe2d::RunStatus::interrupted);
+            continue;
+        }
+        const GroundMotion motion = ground_motion(scene, pair);
+        const ProcessorClock run_clock;
+        const fe2d::RunResult result = run(model, motion, step.halvings);
+        const double seconds = run_clock.seconds();
+        if (!result.stages.empty()) runs.critical_friction = result.stages.back().friction_needed;
+        runs.records.back() = outcome(result, scene.sliding.run_out_max);
+        runs.records.back().seconds = seconds;
+        if (runs.records.back().slip)
+            runs.records.back().slip_other_step =
+                outcome(run(other, motion, step.other), scene.sliding.run_out_max).slip;
+    }
+    return runs;
+}
+
+StepChoice choose_step(const ReadyScene& full, const InterruptGuard& interrupt)
+{
+    StepChoice step;
+    step.chosen = !full.scene.time.substeps;
+    double dt = 0.0;
+    for (const RecordPair& pair : full.records)
+        dt = std::max(dt, full.scene.time.dt.value_or(ground_motion(full.scene, pair).dt));
+    step.halvings = full.scene.time.substeps.value_or(0);
+    if (step.chosen) {
+        Scene scene = full.scene;
+        fe2d::RunOptions options = options_of(scene, full.records);
+        options.progress = [&](const fe2d::RunProgress&) {
+            return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+        };
+        const fe2d::EarthquakeRun model(scene, options);
+        for (const RecordPair& pair : full.records) {
+            const fe2d::RunResult r = model.run(ground_motion(scene, pair));
+            step.halvings = std::max(step.halvings,
+                                     r.status == fe2d::RunStatus::static_failure ? halvings_without_slip : r.halvings);
+            if (interrupt.interrupted()) break;
+        }
+    }
+    step.other = step.halvings > 0 ? step.halvings - 1 : 1;
+    step.largest_dt = dt / std::exp2(step.halvings);
+    return step;
+}
+
+} // namespace damslip::cli
