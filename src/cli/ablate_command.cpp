@@ -2,6 +2,7 @@
 
 #include "cli/ablation/ablation_report.hpp"
 #include "cli/ablation/ablation_tables.hpp"
+#include "cli/run/fe_inputs.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
@@ -16,13 +17,21 @@ namespace damslip::cli {
 
 namespace {
 
-/// The scene whose effects are removed: with the water that a contact run takes, so that no removal changes it.
-Scene full_scene(const Scene& given, Method method)
+/// The scene whose effects are removed, and how reservoir.model = "auto" came out: the water is that of an FE run, and
+/// no removal changes it.
+struct FullScene {
+    Scene scene;
+    std::optional<ReservoirChoice> choice;
+};
+
+FullScene full_scene(const Scene& given, Method method)
 {
-    Scene scene = given;
-    if (method == Method::finite_elements && scene.reservoir && scene.reservoir->model == ReservoirModel::automatic)
-        scene.reservoir->model = ReservoirModel::added_mass;
-    return scene;
+    FullScene full{given, {}};
+    if (method == Method::rigid_block) return full;
+    Scene resolved = called_for(make_effect_plan(given, method), given);
+    full.choice = resolve_reservoir_model(resolved);
+    if (full.choice) full.scene.reservoir->model = resolved.reservoir->model;
+    return full;
 }
 
 void check_records(const Scene& scene, Method method)
@@ -65,7 +74,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
     const Scene given = read_run_scene(arguments.inputs);
     check_records(given, method);
-    const Scene scene = full_scene(given, method);
+    const auto [scene, choice] = full_scene(given, method);
     const EffectPlan effects = make_effect_plan(scene, method);
     const std::vector<RecordPair> records = read_records(scene, effects);
     const AblationPlan plan = make_ablations(scene, method, seepage_points(scene));
@@ -76,7 +85,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
         Progress progress(streams, "ablate", progress_steps(plan));
         runs = run_ablations(plan, records, arguments.jobs, progress, interrupt);
     }
-    const Ablations ablations{plan, records, runs};
+    const Ablations ablations{plan, records, runs, choice ? choice->reason : std::string()};
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(given)}};

@@ -331,7 +331,8 @@ TEST_F(AblateScene, FiniteElementRowsAreThoseOfScenesEditedByHand)
     compare("rock flexibility", without("[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 32\ndepth_m = 16\n", ""));
     compare("structural damping", without("ratio = 0.05", "method = \"none\""));
     compare("separation", without("friction = 0.25", "friction = 0.25\nseparation = \"none\""));
-    for (const std::string effect : {"uplift", "acoustic water", "vertical motion", "rock flexibility", "separation"})
+    for (const std::string effect :
+         {"uplift", "acoustic water", "bottom absorption", "vertical motion", "rock flexibility"})
         EXPECT_NE(row(j, effect)["change_mm"].get<double>(), 0.0) << effect;
     EXPECT_EQ(row(j, "vertical motion", 1)["change_mm"].get<double>(), 0.0); // the second record has none
 }

@@ -40,6 +40,7 @@ std::optional<std::string> interaction_note(const Ablations& in)
 std::vector<std::string> ablation_notes(const Ablations& in)
 {
     std::vector<std::string> notes;
+    if (!in.water.empty()) notes.push_back(in.water + " in all runs");
     if (in.runs.step) notes.push_back(step_note(*in.runs.step));
     if (in.plan.method == Method::rigid_block)
         notes.push_back(

@@ -10,6 +10,7 @@ struct Ablations {
     const AblationPlan& plan;
     const std::vector<RecordPair>& records;
     const AblationRuns& runs;
+    std::string water; ///< what reservoir.model = "auto" became, and why; empty: the scene says it
 };
 
 /// Every effect that is on: what takes its place, or why it stays.
