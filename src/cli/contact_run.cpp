@@ -119,11 +119,12 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         r.fe.history.states = {};
         progress.at(1000 * ++before);
     }
+    const Table counts = count_table(model.model().counts, model.water() ? &model.water()->water : nullptr);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["base"] = "contact";
     j["effects"] = json_of(effect_table(plan));
-    j["model"] = json_of(count_table(model.model().counts));
+    j["model"] = json_of(counts);
     j["contact_pairs"] = model.structure().pairs();
     j["damping"] = {{"mass_coefficient_1_s", model.damping().mass},
                     {"stiffness_coefficient_s", model.damping().stiffness}};
@@ -139,7 +140,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n"
-                    << report::text(count_table(model.model().counts))
+                    << report::text(counts)
                     << fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n",
                                    model.structure().pairs(), model.damping().mass, model.damping().stiffness)
                     << report::text(contact_stage_table(runs)) << "\n"

@@ -48,7 +48,9 @@ std::optional<ModelTables> model_tables(const Scene& given, const EffectPlan& pl
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     const fe2d::Model model = fe2d::build_model(scene, options);
-    return ModelTables{count_table(model.counts), joint_table(scene, model.mesh)};
+    std::optional<fe2d::FluidModel> water;
+    if (plan.on(Effect::acoustic_water) && scene.reservoir->level > 0) water = fe2d::build_fluid(scene);
+    return ModelTables{count_table(model.counts, water ? &*water : nullptr), joint_table(scene, model.mesh)};
 }
 
 /// Nothing for the rigid block.

@@ -226,14 +226,14 @@ int modes(const ModesArguments& arguments, const Streams& streams)
         j["modes"] = json_of(answer.frequencies);
         j["damping"] = json_of(damping.table);
         if (transfer) j["transfer_functions"] = json_of(*transfer);
-        j["model"] = json_of(count_table(model.counts));
+        j["model"] = json_of(count_table(model.counts, water ? &*water : nullptr));
         j["notes"] = notes;
         streams.out << j.dump(2) << "\n";
     } else {
         streams.out << scene.title << "\n\n"
                     << report::text(answer.frequencies) << "\n"
                     << report::text(damping.table) << "\n"
-                    << report::text(count_table(model.counts));
+                    << report::text(count_table(model.counts, water ? &*water : nullptr));
         if (transfer) streams.out << "\n" << report::text(*transfer);
         for (const std::string& note : notes) streams.out << "note: " << note << "\n";
     }

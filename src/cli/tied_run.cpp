@@ -158,11 +158,12 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             r.notes.push_back(water_counts(*water));
             for (std::string& warning : reservoir_warnings(scene, 20.0)) r.notes.push_back(std::move(warning));
         }
+    const Table counts = count_table(model.counts, water ? &*water : nullptr);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["base"] = "tied";
     j["effects"] = json_of(effect_table(plan));
-    j["model"] = json_of(count_table(model.counts));
+    j["model"] = json_of(counts);
     j["stages"] = json_of(stage_table(model, statics));
     j["runs"] = json_of(run_table(runs));
     for (const TiedRun& r : runs) j["notes"][r.record] = r.notes;
@@ -170,7 +171,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n"
-                    << report::text(count_table(model.counts)) << "\n"
+                    << report::text(counts) << "\n"
                     << report::text(stage_table(model, statics)) << "\n"
                     << report::text(run_table(runs));
         for (const TiedRun& r : runs)

@@ -9,9 +9,11 @@ shift 5
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+flag=--out
 if [ "$command" = sweep ]; then out="$work/out/results.csv" page="$work/out/results.html"; mkdir "$work/out"
+elif [ "$command" = explain ]; then flag=--report out="$work/out/ablation.html" page="$work/out/ablation.html"
 else out="$work/out" page="$work/out/report.html"; fi
-"$damslip" "$command" "$@" --out "$out" >"$work/stdout" 2>"$work/talk" || { cat "$work/talk"; exit 1; }
+"$damslip" "$command" "$@" "$flag" "$out" >"$work/stdout" 2>"$work/talk" || { cat "$work/talk"; exit 1; }
 [ "$(tail -n 1 "$work/talk")" = "report: $page" ] || { echo "the last line of the talk does not name the report:"; cat "$work/talk"; exit 1; }
 
 cat "$page" "$(dirname "$0")/interact.html" >"$work/copy.html"

@@ -10,13 +10,20 @@ namespace damslip::cli {
 
 namespace {
 
+/// "dt/8"
+std::string step_word(int halvings)
+{
+    return halvings == 0 ? "dt" : fmt::format("dt/{}", 1 << halvings);
+}
+
 std::string step_note(const StepChoice& step)
 {
-    return fmt::format("time step: dt/{} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs "
-                       "with dt/{} and first order; that of a change is of the difference itself.",
-                       1 << step.halvings, step.largest_dt,
-                       step.chosen ? "the one time.slip_tolerance chose for the full scene" : "as time.substeps says",
-                       1 << step.other);
+    return fmt::format(
+        "time step: {} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs with {} and first "
+        "order; that of a change is of the difference itself.",
+        step_word(step.halvings), step.largest_dt,
+        step.chosen ? "what time.slip_tolerance asks for with all effects, but dt/8 at least" : "as time.substeps says",
+        step_word(step.other));
 }
 
 std::optional<std::string> interaction_note(const Ablations& in)

@@ -35,7 +35,8 @@ const AblationRow* strongest(const AblationPlan& plan, const std::vector<Ablatio
 /// " (-12 %)"; nothing where it would not help.
 std::string percent(const std::optional<double>& value)
 {
-    return value && std::abs(*value) < 1000.0 ? fmt::format(" ({:+.2g} %)", *value) : "";
+    if (!value || std::abs(*value) >= 1000.0) return "";
+    return std::abs(*value) < 10.0 ? fmt::format(" ({:+.2g} %)", *value) : fmt::format(" ({:+.0f} %)", *value);
 }
 
 report::Drawing slip_bars(const Ablations& in, std::size_t record)
@@ -142,10 +143,11 @@ std::vector<std::string> warnings(const Ablations& in)
     for (std::size_t r = 0; r < in.records.size(); ++r)
         for (std::size_t i = 0; i < names.size(); ++i) {
             const RecordOutcome& o = in.runs.scenes[i].records[r];
-            if (!o.slip || o.still_sliding)
-                list.push_back(fmt::format("{}, {}: {}{}{}", in.records[r].files.name,
-                                           i == 0 ? "with all effects" : "without " + names[i], o.status,
-                                           o.message.empty() ? "" : ": ", o.message));
+            if (o.slip && !o.still_sliding) continue;
+            const std::string why = o.still_sliding ? "still sliding after the run-out" : o.message;
+            list.push_back(fmt::format(
+                "{}, {}: {}{}{}", in.records[r].files.name, i == 0 ? "with all effects" : "without " + names[i],
+                o.still_sliding ? "" : o.status, why.empty() || o.still_sliding ? "" : ": ", why));
         }
     return list;
 }

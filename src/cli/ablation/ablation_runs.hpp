@@ -77,7 +77,7 @@ SceneRuns run_rigid(const ReadyScene& ready, const InterruptGuard& interrupt);
 /// @param fraction  told how much of the scene's runs is done, 0 ... 1
 SceneRuns run_fe(const ReadyScene& ready, const StepChoice& step, const InterruptGuard& interrupt,
                  const std::function<void(double fraction)>& done);
-/// The step of the full scene at its own accuracy.
+/// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
 StepChoice choose_step(const ReadyScene& full, const InterruptGuard& interrupt);
 
 } // namespace damslip::cli

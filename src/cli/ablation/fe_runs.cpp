@@ -12,7 +12,8 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr int halvings_without_slip = 3; ///< where the full scene fails before the earthquake and chooses no step
+/// Where the step is chosen: the full scene may do with a longer one, but simpler scenes slip more, or less damped.
+constexpr int least_halvings = 3;
 
 fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records)
 {
@@ -118,8 +119,7 @@ StepChoice choose_step(const ReadyScene& full, const InterruptGuard& interrupt)
         const fe2d::EarthquakeRun model(scene, options);
         for (const RecordPair& pair : full.records) {
             const fe2d::RunResult r = model.run(ground_motion(scene, pair));
-            step.halvings = std::max(step.halvings,
-                                     r.status == fe2d::RunStatus::static_failure ? halvings_without_slip : r.halvings);
+            step.halvings = std::max({step.halvings, least_halvings, r.halvings});
             if (interrupt.interrupted()) break;
         }
     }

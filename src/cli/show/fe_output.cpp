@@ -28,8 +28,13 @@ Eigen::MatrixXd principal(const Eigen::Matrix3Xd& stress)
 
 } // namespace
 
-Table count_table(const fe2d::ModelCounts& counts)
+Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water)
 {
+    if (water)
+        counts.add({.effect = "acoustic water",
+                    .elements = water->reservoir.mesh.element_count(),
+                    .unknowns = water->unknowns(),
+                    .nonzeros = water->mass.nonZeros() + water->damping.nonZeros() + water->stiffness.nonZeros()});
     Table t;
     t.title = "Model";
     t.columns = {{"effect", "effect", "", 4},

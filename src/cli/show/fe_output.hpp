@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/terminal/streams.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "scene/scene.hpp"
@@ -10,7 +11,8 @@
 namespace damslip::cli {
 
 /// What both kinds of FE runs write: fields for ParaView, counts, crest motion.
-Table count_table(const fe2d::ModelCounts& counts);
+/// @param water  acoustic, a row of its own; null: none
+Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water = nullptr);
 
 /// Displacement of the upstream end of the crest [m].
 Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::VectorXd& displacement);

@@ -230,8 +230,10 @@ report::Page FeReport::page(const std::vector<ContactRun>& runs, const std::vect
     for (const Section& section : sections_) page.sections.push_back(section);
     if (!motions_.empty())
         page.sections.push_back({"Records", {rows(record_table(motions_)), spectra(motions_, 1)}, Fold::open});
-    Section model{
-        "Model and solution", {rows(effect_table(in_.plan)), rows(count_table(in_.model.model().counts))}, Fold::open};
+    const fe2d::FluidModel* const water = in_.model.water() ? &in_.model.water()->water : nullptr;
+    Section model{"Model and solution",
+                  {rows(effect_table(in_.plan)), rows(count_table(in_.model.model().counts, water))},
+                  Fold::open};
     for (const Table& table : tables) model.parts.push_back(rows(table));
     page.sections.push_back(std::move(model));
     page.sections.push_back(
