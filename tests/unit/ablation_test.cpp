@@ -352,7 +352,7 @@ TEST_F(AblateScene, RigidRowsAreThoseOfScenesEditedByHand)
     compare("(all effects)", path("block.toml"));
     compare("uplift", edited("edited.toml", text, "model = \"linear\"", "model = \"none\""));
     compare("hydrodynamic added mass",
-            edited("edited.toml", text, "level_m = 1", "level_m = 1\nmodel = \"hydrostatic\""));
+            edited("edited.toml", text, "model = \"added-mass\"", "model = \"hydrostatic\""));
     EXPECT_LT(row(j, "uplift")["change_mm"].get<double>(), 0.0);
     EXPECT_LT(row(j, "hydrodynamic added mass")["change_mm"].get<double>(), 0.0);
 }
