@@ -104,7 +104,8 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
         "time: processor time of all that this rung costs alone, reading and set-up included, median of the runs; "
         "memory: growth of the "
         "resident memory to its peak during the first run.",
-        "dt/4: a quarter of the record's step; dt=auto: chosen by time.slip_tolerance, the default of `fe`; 2h, h/2: "
+        "dt/4: a quarter of the record's step; dt=auto: chosen by time.slip_tolerance, the default of `fe`; "
+        "dt=adaptive: the same with time.stepping = \"adaptive\"; 2h, h/2: "
         "elements of twice and half the scene's size; stick: penalty in N/m³."};
     if (j.top && results[*j.top].slip.size() > 1)
         t.notes.push_back("slips and millimetres: of the record that slides the top rung furthest.");

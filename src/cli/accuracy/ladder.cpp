@@ -110,9 +110,10 @@ std::vector<Rung> ladder(const LadderFacts& facts, const LadderOptions& options,
         if (!row.complete) return rungs;
         ends.push_back(row.last);
         if (row.last < 1) continue; // not even two steps: nothing to compare beside
-        // An error-controlled sub-step would stand here, beside the step chosen for the whole run.
         Rung chosen = fe_rung(water, 0);
         chosen.step = StepChoice::by_tolerance;
+        rungs.push_back(chosen);
+        chosen.step = StepChoice::adaptive;
         rungs.push_back(chosen);
         chosen.step = StepChoice::as_the_scene;
         if (facts.own_settings) rungs.push_back(chosen);
@@ -242,8 +243,8 @@ std::optional<double> expected_seconds(const Rung& rung, const std::vector<RungR
             nearest = &r;
     if (!nearest) return std::nullopt;
     const double unknowns = std::pow(nearest->rung.mesh / rung.mesh, 2.5);
-    const double steps = rung.step == StepChoice::by_tolerance ? 16.0 // passes with whole steps to eighths
-                                                               : std::exp2(rung.halvings);
+    const bool chosen = rung.step == StepChoice::by_tolerance || rung.step == StepChoice::adaptive;
+    const double steps = chosen ? 16.0 : std::exp2(rung.halvings); // 16: passes with whole steps to eighths
     const double run = nearest->seconds - nearest->set_up_seconds;
     const double water = nearest->rung.water == rung.water ? 1.0 : 2.0;
     return water * unknowns * (nearest->set_up_seconds + run * steps / std::exp2(nearest->rung.halvings));

@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 4> fe_models{"fe-dry", "fe-hydrostatic", 
 std::string step_word(const Rung& rung)
 {
     if (rung.step == StepChoice::by_tolerance) return "dt=auto";
+    if (rung.step == StepChoice::adaptive) return "dt=adaptive";
     if (rung.step == StepChoice::as_the_scene) return "scene";
     return rung.halvings == 0 ? "dt" : fmt::format("dt/{}", 1 << rung.halvings);
 }
@@ -48,6 +49,7 @@ bool apply_word(std::string_view word, Rung& rung)
 {
     if (word == "dt") return true;
     if (word == "dt=auto") return rung.step = StepChoice::by_tolerance, true;
+    if (word == "dt=adaptive") return rung.step = StepChoice::adaptive, true;
     if (word == "scene") return rung.step = StepChoice::as_the_scene, true;
     if (const auto parts = number_after(word, "dt/")) {
         rung.halvings = static_cast<int>(std::lround(std::log2(*parts)));

@@ -14,6 +14,7 @@ enum class RungWater { dry, hydrostatic, added_mass, acoustic }; ///< how the wa
 enum class StepChoice {
     fixed,        ///< dt / 2^halvings
     by_tolerance, ///< halved until the slip is within time.slip_tolerance: the default of `fe`
+    adaptive,     ///< the same, sub-steps spread by their local error
     as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the ladder's settings
 };
 

@@ -52,6 +52,7 @@ Scene scene_of(const Scene& given, const Rung& rung)
     if (rung.step == StepChoice::as_the_scene) return scene;
     scene = with_exact_contact(scene).value_or(scene);
     scene.time.substeps.reset();
+    scene.time.stepping = rung.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
     if (rung.step == StepChoice::fixed) scene.time.substeps = rung.halvings;
     if (rung.mesh != 1.0) scale_mesh(rung.mesh, scene);
     if (rung.tangential_stiffness) {
