@@ -18,10 +18,16 @@ std::optional<double> observed_order(std::span<const double> values, double rati
 /// The same where the limit is known: ln(|e1| / |e2|) / ln r of the last two errors.
 std::optional<double> order_of_errors(std::span<const double> errors, double ratio);
 
+/// Observed orders of sequences that converge as they should, accidents allowed for: outside, values are not yet, or not
+/// only, following the power law that extrapolation rests on.
+inline constexpr double lowest_plausible_order = 0.5, highest_plausible_order = 2.5;
+
 struct Limit {
     double value = 0.0;
     double correction = 0.0;     ///< value - last value of the sequence
     std::optional<double> order; ///< observed
+
+    bool plausible() const { return !order || (*order >= lowest_plausible_order && *order <= highest_plausible_order); }
 };
 
 /// Richardson's extrapolation (Richardson 1911; Roache 1998) of values from coarse to fine, each size 1/ratio of the one

@@ -36,7 +36,8 @@ bool of_model(const RungResult& r, RungWater water)
     return r.done() && r.rung.family == RungFamily::finite_elements && r.rung.water == water && r.rung.plain();
 }
 
-/// Does what the finest rung of a row or column leaves open no longer matter, for every record?
+/// Does what the finest rung of a row or column leaves open no longer matter, for every record, by an order that can be
+/// believed?
 /// @param elsewhere  row that shows an order where this one has two rungs only; may be empty
 bool settled(const std::vector<const RungResult*>& row, double tolerance,
              const std::vector<const RungResult*>& elsewhere = {})
@@ -44,7 +45,8 @@ bool settled(const std::vector<const RungResult*>& row, double tolerance,
     for (std::size_t record = 0; record < row.back()->slip.size(); ++record) {
         const std::vector<double> slips = slips_of(row, record);
         const std::optional<Limit> limit = extrapolated(slips, 2.0, observed_order(slips_of(elsewhere, record)));
-        if (!limit || std::abs(limit->correction) > tolerance * std::max(std::abs(slips.back()), settled_slip))
+        if (!limit || !limit->plausible() ||
+            std::abs(limit->correction) > tolerance * std::max(std::abs(slips.back()), settled_slip))
             return false;
     }
     return true;
