@@ -54,7 +54,7 @@ report::Drawing slip_bars(const Ablations& in, std::size_t record)
             b.words = fmt::format("still sliding after {:.4g} mm", *r.slip.value / mm);
         else if (r.slip.change) {
             b.value = *r.slip.change / mm;
-            b.words = fmt::format("{:+.3g} mm", *b.value) + percent(r.slip.percent);
+            b.words = fmt::format("{:+.4g} mm", *b.value) + percent(r.slip.percent);
         }
         bars.push_back(std::move(b));
     }
@@ -77,9 +77,13 @@ report::Drawing second_bars(const Ablations& in)
     const char* const word = small ? "ms" : "s";
     std::vector<Bar> bars;
     for (std::size_t i = 1; i < names.size(); ++i) {
-        const double saved = whole - seconds_of(in.runs.scenes[i]).sum();
-        bars.push_back({names[i], saved / unit, 0.0,
-                        fmt::format("{:+.2g} {}", saved / unit, word) + percent(100.0 * saved / whole), false});
+        const std::optional<double> saved = saved_seconds(in.runs.scenes.front(), in.runs.scenes[i]);
+        Bar b{names[i], {}, 0.0, "not run to the end", false};
+        if (saved) {
+            b.value = *saved / unit;
+            b.words = fmt::format("{:+.2g} {}", *b.value, word) + percent(100.0 * *saved / whole);
+        }
+        bars.push_back(std::move(b));
     }
     return tornado(small ? "Milliseconds saved without each effect" : "Seconds saved without each effect",
                    std::move(bars), fmt::format("saved [{}]", word),
@@ -110,7 +114,7 @@ std::string record_sentence(const Ablations& in, std::size_t record)
     if (!rows.front().slip.value)
         return fmt::format("Record {}: the full scene ends as {}.", name, rows.front().status);
     if (!most) return fmt::format("Record {}: the dam slides {:.4g} mm.", name, *rows.front().slip.value / mm);
-    return fmt::format("Record {}: the dam slides {:.4g} mm; most depends on {}, without it {:+.3g} mm.", name,
+    return fmt::format("Record {}: the dam slides {:.4g} mm; most depends on {}, without it {:+.4g} mm.", name,
                        *rows.front().slip.value / mm, most->name, *most->slip.change / mm);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/ablation/ablation_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace damslip::cli {
@@ -94,6 +95,15 @@ SceneSeconds seconds_of(const SceneRuns& scene)
     SceneSeconds seconds{scene.set_up_seconds, 0.0};
     for (const RecordOutcome& r : scene.records) seconds.runs += r.seconds;
     return seconds;
+}
+
+std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own)
+{
+    const auto whole = [](const SceneRuns& s) {
+        return std::all_of(s.records.begin(), s.records.end(), [](const RecordOutcome& r) { return r.slip; });
+    };
+    if (!whole(full) || !whole(own)) return std::nullopt;
+    return seconds_of(full).sum() - seconds_of(own).sum();
 }
 
 } // namespace damslip::cli

@@ -49,4 +49,7 @@ struct SceneSeconds {
 };
 SceneSeconds seconds_of(const SceneRuns& scene);
 
+/// Seconds that a scene takes less than the full one; empty where one of them has not run to the end of all records [s].
+std::optional<double> saved_seconds(const SceneRuns& full, const SceneRuns& own);
+
 } // namespace damslip::cli

@@ -176,7 +176,7 @@ Table seconds_table(const Ablations& in)
         const SceneRuns& own = in.runs.scenes[i];
         const SceneSeconds s = seconds_of(own);
         std::optional<double> saved;
-        if (i > 0) saved = whole - s.sum();
+        if (i > 0) saved = saved_seconds(full, own);
         std::vector<Cell> row{names[i], s.set_up, s.runs, s.sum(), cell(saved), cell(saved, 0.01 * whole)};
         if (fe(in)) {
             row.emplace_back(own.unknowns);

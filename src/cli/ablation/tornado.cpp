@@ -37,10 +37,17 @@ struct Frame {
 Frame frame_of(const std::vector<Bar>& bars)
 {
     Frame f;
+    double largest = 0.0;
     for (const Bar& b : bars) {
         if (!b.value) continue;
-        f.low = std::min(f.low, *b.value - b.error);
-        f.high = std::max(f.high, *b.value + b.error);
+        largest = std::max(largest, std::abs(*b.value));
+        f.low = std::min(f.low, *b.value);
+        f.high = std::max(f.high, *b.value);
+    }
+    for (const Bar& b : bars) { // whiskers longer than half the longest bar are cut at the frame
+        if (!b.value) continue;
+        f.low = std::min(f.low, *b.value - std::min(b.error, 0.5 * largest));
+        f.high = std::max(f.high, *b.value + std::min(b.error, 0.5 * largest));
     }
     if (f.high == f.low) f.high = 1.0;
     return f;
@@ -48,11 +55,11 @@ Frame frame_of(const std::vector<Bar>& bars)
 
 void draw_axis(report::Sketch& sketch, const Frame& f, double top, const std::string& axis)
 {
-    const double step = round_step((f.high - f.low) / 4.0);
+    const double step = round_step((f.high - f.low) / 3.0);
     for (double k = std::ceil(f.low / step); k * step <= f.high * (1 + 1e-12); ++k) {
         const double x = f.x(k * step);
         sketch.line({{x, axis_height}, {x, top}}, k == 0.0 ? "axis" : "grid-line");
-        sketch.text({x, axis_height}, fmt::format("{:.4g}", k == 0.0 ? 0.0 : k * step), Align::middle, 0, 15, "small");
+        sketch.text({x, axis_height}, fmt::format("{:.6g}", k == 0.0 ? 0.0 : k * step), Align::middle, 0, 15, "small");
     }
     sketch.text({f.x(0.5 * (f.low + f.high)), axis_height}, axis, Align::middle, 0, 33, "small");
 }
@@ -69,7 +76,7 @@ void draw_bar(report::Sketch& sketch, const Frame& f, const Bar& b, double middl
     if (from != to) sketch.polygon({{from, low}, {to, low}, {to, high}, {from, high}}, css);
     double end = to;
     if (b.error > 0) {
-        const double a = f.x(*b.value - b.error), z = f.x(*b.value + b.error);
+        const double a = f.x(std::max(f.low, *b.value - b.error)), z = f.x(std::min(f.high, *b.value + b.error));
         sketch.line({{a, middle}, {z, middle}}, "whisker");
         for (const double x : {a, z}) sketch.line({{x, middle - 4}, {x, middle + 4}}, "whisker");
         end = *b.value < 0 ? std::min(a, to) : std::max(z, to);
