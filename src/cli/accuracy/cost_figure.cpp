@@ -246,7 +246,7 @@ private:
             body_ += "</circle>\n";
             const std::string words = kind_name(kind, results_);
             text(at + 10, 46, words, "start");
-            at += 32 + 6.3 * static_cast<double>(words.size());
+            at += 33 + 6.6 * static_cast<double>(words.size());
         }
     }
 
