@@ -59,7 +59,7 @@ std::vector<Cell> rung_row(const RungResult& r, const RungVerdict& v, const Judg
             millimetres(v.off_top),
             relative ? Cell(100.0 * *v.off_top / std::abs(*top)) : Cell(),
             v.deviation ? Cell(100.0 * *v.deviation) : Cell(),
-            done ? Cell(std::string(v.front ? "•" : "")) : Cell(),
+            v.front ? Cell(true) : Cell(),
             done ? Cell(r.seconds) : Cell(),
             done ? Cell(r.set_up_seconds) : Cell(),
             done ? Cell(std::int64_t{r.repeats}) : Cell(),
