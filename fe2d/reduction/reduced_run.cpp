@@ -44,8 +44,8 @@ struct ReducedRun::Motion {
 };
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
-    : full_(full), scene_(scene), options_(completed(std::move(options), scene)),
-      stages_(load_stages(scene_, full.model(), options_.uplift)), coarse_(full.structure().plane(), coarse_pairs)
+    : full_(full), scene_(scene), options_(completed(std::move(options), scene)), stages_(full.stages()),
+      coarse_(full.structure().plane(), coarse_pairs)
 {
     const Stopwatch start;
     if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;

@@ -77,7 +77,8 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
         water_ = std::make_unique<WaterBody>(scene_, *model_);
     structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, water_.get());
-    stages_ = load_stages(scene_, *model_, options_.uplift);
+    stages_ = load_stages(scene_, *model_, options_.uplift,
+                          options_.water_in_rock ? options_.water_in_rock(*model_) : Eigen::VectorXd());
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
     find_damping();

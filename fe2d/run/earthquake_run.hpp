@@ -15,9 +15,11 @@ namespace damslip::fe2d {
 
 /// What the caller brings from other modules, and what only a run needs.
 struct RunOptions {
-    AddedMassLaw added_mass;                  ///< of the upstream face (ModelOptions::added_mass); empty: none
-    Polyline uplift;                          ///< x = distance from the heel [m], y = pressure [Pa]; empty: none
-    Polyline uplift_after;                    ///< the same after the earthquake; empty: as before
+    AddedMassLaw added_mass; ///< of the upstream face (ModelOptions::added_mass); empty: none
+    Polyline uplift;         ///< x = distance from the heel [m], y = pressure [Pa]; empty: none
+    Polyline uplift_after;   ///< the same after the earthquake; empty: as before
+    /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.
+    std::function<Eigen::VectorXd(const Model&)> water_in_rock;
     std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
     std::optional<Separation> separation;     ///< default: the scene's
     std::optional<SlidingRange> range;        ///< default: the scene's
@@ -107,6 +109,7 @@ public:
     const Model& model() const { return *model_; }
     const WaterBody* water() const { return water_.get(); } ///< acoustic; null: none
     const ContactStructure& structure() const { return *structure_; }
+    const LoadStages& stages() const { return stages_; } ///< static loads before the earthquake
     const RayleighConstants& damping() const { return damping_.constants; }
     double seconds() const { return seconds_; }                                ///< that making it ready took
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far

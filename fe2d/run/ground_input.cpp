@@ -42,8 +42,13 @@ GroundAcceleration GroundInput::at(double time) const
     const double share = clamped - static_cast<double>(k);
     const auto value = [&](const std::vector<double>& a) { return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]); };
     const double upstream = defect(Defect::polarity) ? -1.0 : 1.0;
-    return {upstream * value(motion_.accel_h), value(motion_.accel_v),    ground.velocity_h,        ground.velocity_v,
-            ground.displacement_v,  drag_ * ground.velocity_h, drag_ * ground.velocity_v};
+    return {upstream * value(motion_.accel_h),
+            value(motion_.accel_v),
+            ground.velocity_h,
+            ground.velocity_v,
+            ground.displacement_v,
+            drag_ * ground.velocity_h,
+            drag_ * ground.velocity_v};
 }
 
 } // namespace damslip::fe2d

@@ -36,7 +36,7 @@ BaseResultant base_resultant(const ContactStructure& structure, const VectorXd& 
     return {normal, plane.tangent.dot(force), normal != 0.0 ? -moment / normal : 0.0};
 }
 
-LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift)
+LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift, const VectorXd& in_rock)
 {
     const StaticLoads loads = static_loads(scene, model);
     LoadStages stages;
@@ -51,7 +51,8 @@ LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& u
     const VectorXd in_joints = lift_water(scene, model);
     stages.before_uplift = sum;
     if (in_joints.size() > 0) stages.before_uplift += in_joints;
-    if (!uplift.empty() || in_joints.size() > 0) {
+    if (in_rock.size() > 0) stages.before_uplift += in_rock;
+    if (!uplift.empty() || in_joints.size() > 0 || in_rock.size() > 0) {
         stages.names.push_back("uplift");
         stages.loads.push_back(uplift.empty() ? stages.before_uplift : load_with(stages, model, uplift));
     }

@@ -61,7 +61,9 @@ struct LoadStages {
 /// Gravity, water, uplift with the water in lift joints; stages without loads are left out.
 /// @param uplift  pressure profile under the base: x = distance from the heel [m], y = pressure [Pa]; empty: none. It
 /// acts on both sides of the joint, open or not, so contact forces are effective
-LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift);
+/// @param in_rock  water in the rock, on all unknowns, comes with the uplift and stays (RunOptions::water_in_rock); empty: none
+LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift,
+                       const Eigen::VectorXd& in_rock = {});
 
 /// All loads, with another pressure under the base. @param uplift  as of load_stages(); empty: as it was
 Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline& uplift);

@@ -79,6 +79,25 @@ Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std
     return force;
 }
 
+namespace {
+
+/// The rock's face of the base joint, rock on the left.
+NodeChain rock_face(const Mesh& mesh)
+{
+    return {mesh.contact.rock_nodes.rbegin(), mesh.contact.rock_nodes.rend()};
+}
+
+} // namespace
+
+Eigen::VectorXd water_in_rock(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure, PorePressure form)
+{
+    if (form == PorePressure::none) return Eigen::VectorXd::Zero(dofs.count);
+    if (form == PorePressure::effective)
+        return seepage_body_force(mesh, dofs, pressure) - surface_pressure_force(mesh, dofs, rock_face(mesh), pressure);
+    return pore_pressure_force(mesh, dofs, pressure) + surface_pressure_force(mesh, dofs, mesh.floor, pressure) +
+           surface_pressure_force(mesh, dofs, mesh.ground, pressure);
+}
+
 Eigen::VectorXd pore_pressure_loads(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure,
                                     PorePressure form)
 {
@@ -87,15 +106,8 @@ Eigen::VectorXd pore_pressure_loads(const Mesh& mesh, const DofMap& dofs, const 
     Eigen::VectorXd on_dam = pressure;
     for (std::size_t i = 0; i < mesh.contact.dam_nodes.size(); ++i)
         on_dam[mesh.contact.dam_nodes[i]] = pressure[mesh.contact.rock_nodes[i]];
-    Eigen::VectorXd force = surface_pressure_force(mesh, dofs, mesh.contact.dam_nodes, on_dam);
-    if (form == PorePressure::effective) return force + seepage_body_force(mesh, dofs, pressure);
-
-    const NodeChain rock_face(mesh.contact.rock_nodes.rbegin(), mesh.contact.rock_nodes.rend());
-    force += surface_pressure_force(mesh, dofs, rock_face, pressure);
-    if (form == PorePressure::none) return force;
-    force += surface_pressure_force(mesh, dofs, mesh.floor, pressure);
-    force += surface_pressure_force(mesh, dofs, mesh.ground, pressure);
-    return force + pore_pressure_force(mesh, dofs, pressure);
+    return surface_pressure_force(mesh, dofs, mesh.contact.dam_nodes, on_dam) +
+           surface_pressure_force(mesh, dofs, rock_face(mesh), pressure) + water_in_rock(mesh, dofs, pressure, form);
 }
 
 } // namespace damslip::fe2d

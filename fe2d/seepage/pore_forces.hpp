@@ -39,6 +39,10 @@ Eigen::VectorXd seepage_body_force(const Mesh& mesh, const DofMap& dofs, const E
 Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std::span<const int> chain,
                                        const Eigen::VectorXd& pressure);
 
+/// What pore_pressure_loads() has beyond the uplift on both faces of the joint: the water in the rock and on its surface
+/// beside the dam, forces on the rock alone [N/m]. Zero for PorePressure::none.
+Eigen::VectorXd water_in_rock(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure, PorePressure form);
+
 /// All forces of the pore pressure on rock and base joint in the given form [N/m]; PorePressure::none: uplift on both
 /// faces of the joint only. Uplift presses the dam up and the rock down; with a tied base the two cancel there.
 Eigen::VectorXd pore_pressure_loads(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure,

@@ -325,6 +325,12 @@ void check_acoustic_water(const Reservoir& water, Findings& f)
 
 void check_water(const Scene& s, Findings& f)
 {
+    if (s.stages.pore_pressure != PorePressure::none && s.reservoir && s.reservoir->floor_pressure)
+        f.wrong("stages.pore_pressure",
+                "stages.pore_pressure is given together with reservoir.floor_pressure = true: the floor would be "
+                "loaded twice.",
+                "one of the two: the water in the rock brings the pressure on its surface with it",
+                "delete floor_pressure");
     if (s.silt && s.silt->level > crest_level(s.section))
         f.wrong("silt.level",
                 fmt::format("{} is above the crest at {} m.", value("silt.level_m", s.silt->level),

@@ -43,6 +43,15 @@ TEST(WaterInput, MeshNeedsFourElementsOverTheDepth)
     EXPECT_EQ(water_message("mesh_size_m = 15\n"), "(accepted)");
 }
 
+// Water in the rock brings the pressure on the floor with it.
+TEST(WaterInput, FloorIsLoadedOnce)
+{
+    EXPECT_NE(water_message("floor_pressure = true\n[stages]\npore_pressure = \"total\"\n")
+                  .find("stages.pore_pressure is given together with reservoir.floor_pressure = true"),
+              std::string::npos);
+    EXPECT_EQ(water_message("floor_pressure = true\n"), "(accepted)");
+}
+
 // With the preset of the source the far end is its damper at 2.4 depths and the bottom still; what the file says wins.
 TEST(WaterInput, PresetTakesTheSourcesBoundaries)
 {
@@ -50,6 +59,7 @@ TEST(WaterInput, PresetTakesTheSourcesBoundaries)
     const Scene source = parse_scene(wet_scene + preset, "dam.toml", FileCheck::skip);
     EXPECT_EQ(source.reservoir->far_end, FarEnd::damper);
     EXPECT_EQ(source.reservoir->bottom_motion, BottomMotion::still);
+    EXPECT_EQ(source.reservoir->bottom_reflection, 1.0);
     EXPECT_DOUBLE_EQ(source.reservoir->length, 150.0);
     const Scene own =
         parse_scene(std::string(wet_scene) + "far_end = \"absorbing\"\n" + preset, "dam.toml", FileCheck::skip);

@@ -26,6 +26,8 @@ fe2d::RunOptions contact_options(const Scene& scene, const std::vector<RecordPai
     options.added_mass = added_mass_law(scene);
     sliding::UpliftState water = sliding::scene_uplift_state(scene);
     options.uplift = uplift_polyline(scene, water, seepage.profile_of(scene));
+    if (has_water_in_rock(scene))
+        options.water_in_rock = [scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
     water.drains = sliding::DrainState::ineffective; // after the earthquake
     water.curtain = sliding::CurtainState::damaged;
     options.uplift_after = uplift_polyline(scene, water, seepage.profile_of(scene));

@@ -29,6 +29,13 @@ std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene);
 /// @throws NotConverged when the seepage solver loses its accuracy
 Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model);
 
+/// Does stages.pore_pressure ask for water in the rock, and is there rock?
+bool has_water_in_rock(const Scene& scene);
+
+/// The part of rock_water_load() beyond the uplift on both faces of the joint, which contact runs have by themselves. The
+/// joint's two sides must have facing nodes for stages.pore_pressure = "effective".
+Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model);
+
 /// How added_mass.period_s = "dam" came out.
 struct DamPeriod {
     double frequency = 0.0; ///< f_1 with the added mass of its own period [Hz]

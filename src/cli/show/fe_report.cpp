@@ -170,11 +170,7 @@ report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& 
     return {sentence, Outcome::pass, "PASS"};
 }
 
-FeReport::FeReport(const Input& input)
-    : in_(input),
-      stresses_(input.model.structure(), fe2d::load_stages(input.scene, input.model.model(), input.uplift).last())
-{
-}
+FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model.structure(), input.model.stages().last()) {}
 
 void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {
