@@ -75,7 +75,9 @@ void add_sweep_parts(CLI::App* sub, SweepArguments& a)
     const char* const group = "Long sweeps";
     sub->add_flag("--resume", a.resume, "go on where a sweep with the same --out stopped")->group(group);
     sub->add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.csv")->group(group);
-    sub->add_option("--merge", a.merge, "put parts together: part files, or folders of them; needs no SCENE")
+    sub->add_option(
+           "--merge", a.merge,
+           "put parts together: part files, or folders of them; with SCENE its report has the section and the records")
         ->group(group);
     sub->add_flag("--plan", a.plan, "print the commands of all parts, one a line")->group(group);
     sub->add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")->group(group);

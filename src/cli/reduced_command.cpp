@@ -5,11 +5,13 @@
 #include "cli/show/contact_tables.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
+#include "cli/show/reduced_report.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
+#include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
 
@@ -22,12 +24,7 @@ namespace damslip::cli {
 
 namespace {
 
-struct NamedResult {
-    std::string record;
-    fe2d::ReducedResult result;
-};
-
-Table reduced_table(const std::vector<NamedResult>& runs)
+Table reduced_table(const std::vector<ReducedRecord>& runs)
 {
     Table t;
     t.title = "Earthquake runs, reduced, exact contact";
@@ -43,7 +40,7 @@ Table reduced_table(const std::vector<NamedResult>& runs)
                  {"dt_s", "step", "s", 4},
                  {"unresolved", "unresolved", "", 4},
                  {"seconds", "time", "s", 3}};
-    for (const auto& [record, r] : runs)
+    for (const auto& [record, r, motion] : runs)
         t.rows.push_back({record, word(r.status), 1e3 * r.slip, 1e3 * r.truncation_error, 1e3 * r.step_error,
                           r.max_slip, static_cast<std::int64_t>(r.modes), r.highest_frequency,
                           static_cast<std::int64_t>(r.counts.steps), r.dt,
@@ -67,20 +64,6 @@ Table history_table(const fe2d::ReducedHistory& h)
     return t;
 }
 
-/// The stages in the form of the full run's table.
-Table stage_table(const std::vector<NamedResult>& runs)
-{
-    std::vector<ContactRun> as_contact;
-    for (const auto& [record, result] : runs) {
-        ContactRun run;
-        run.record = record;
-        run.fe.stages = result.stages;
-        run.fe.after = result.after;
-        as_contact.push_back(std::move(run));
-    }
-    return contact_stage_table(as_contact);
-}
-
 } // namespace
 
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
@@ -96,11 +79,13 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     const fe2d::EarthquakeRun full(scene, options);
     const fe2d::ReducedRun model(full, scene, options, arguments.modes.value_or(fe2d::default_modes));
 
-    std::vector<NamedResult> runs;
+    std::vector<ReducedRecord> runs;
     Progress progress(streams, "fe --reduced", records.size());
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        runs.push_back({pair.files.name, model.run(ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)))});
+        GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
+        fe2d::ReducedResult result = model.run(motion);
+        runs.push_back({pair.files.name, std::move(result), std::move(motion)});
         if (!arguments.out.empty())
             write_file(arguments.out / ("history_" + file_word(pair.files.name) + ".csv"),
                        report::csv(history_table(runs.back().result.history),
@@ -109,7 +94,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
         progress.advance();
     }
     std::vector<std::string> messages;
-    for (const NamedResult& run : runs)
+    for (const ReducedRecord& run : runs)
         if (run.result.status != fe2d::RunStatus::at_rest) messages.push_back(run.record + ": " + run.result.message);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -118,21 +103,28 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["effects"] = json_of(effect_table(plan));
     j["model"] = json_of(count_table(full.model().counts));
     j["contact_pairs"] = full.structure().plane().pairs();
-    j["stages"] = json_of(stage_table(runs));
+    j["stages"] = json_of(reduced_stage_table(runs));
     j["runs"] = json_of(reduced_table(runs));
     j["messages"] = messages;
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n" << report::text(count_table(full.model().counts));
-        streams.out << report::text(stage_table(runs)) << "\n" << report::text(reduced_table(runs));
+        streams.out << report::text(reduced_stage_table(runs)) << "\n" << report::text(reduced_table(runs));
         for (const std::string& message : messages) streams.out << "note: " << message << "\n";
     }
     FieldSeries fields(arguments.out, full.model()); // without instants: the reduced run keeps no shapes
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
-    const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const NamedResult& run) {
-                         return ended_properly(run.result.status);
-                     });
+    if (!arguments.out.empty()) {
+        const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
+        const std::filesystem::path file = arguments.out / "report.html";
+        write_file(file, report::page_html(reduced_page({scene, plan, records, full, rigid, options.uplift, runs,
+                                                         reduced_table(runs), messages})));
+        if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
+    }
+    const bool all = runs.size() == records.size() &&
+                     std::all_of(runs.begin(), runs.end(),
+                                 [](const ReducedRecord& run) { return ended_properly(run.result.status); });
     return all ? exit_ok : exit_no_convergence;
 }
 

@@ -26,9 +26,8 @@ namespace {
 /// Flags that do not go together.
 void check_flags(const SweepArguments& a, Form form)
 {
-    if (a.inputs.scene.empty() == a.merge.empty())
-        usage(a.merge.empty() ? "SCENE is missing." : "SCENE and --merge are both given.",
-              "a scene file to sweep over, or --merge with parts to put together",
+    if (a.inputs.scene.empty() && a.merge.empty())
+        usage("SCENE is missing.", "a scene file to sweep over, or --merge with parts to put together",
               "damslip sweep SCENE ... or  damslip sweep --merge FOLDER --out results.csv");
     const bool parts = a.plan || !a.slurm_array.empty();
     if (a.out.empty())
@@ -54,10 +53,34 @@ void put(const std::filesystem::path& file, const std::string& text, const Strea
         write_file(file, text);
 }
 
+constexpr std::size_t largest_report = 1'000'000; ///< rows
+
+/// The report of merged parts: of the rows alone, or with what the scene says when it is named.
+void put_merged_report(const SweepArguments& arguments, const MergedSweep& merged, const Streams& streams)
+{
+    if (arguments.out.empty() || merged.rows > largest_report) return;
+    std::optional<Scene> scene;
+    std::vector<RecordPair> records;
+    if (!arguments.inputs.scene.empty()) {
+        scene = read_run_scene(arguments.inputs);
+        if (merged.text.find("\n# scene " + scene_hash(*scene) + "\n") == std::string::npos)
+            usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
+                  "the scene the parts were made from, with the same changes on the command line", "leave SCENE out");
+        const EffectPlan plan = make_effect_plan(*scene, Method::rigid_block);
+        records = read_records(called_for(plan, *scene), plan);
+    }
+    std::filesystem::path page = arguments.out;
+    page.replace_extension(".html");
+    write_file(page,
+               sweep_report({scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, records, arguments.out, {}}));
+    if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+}
+
 int merge(const SweepArguments& arguments, const Streams& streams)
 {
     const MergedSweep merged = merge_parts(arguments.merge);
     put(arguments.out, merged.text, streams);
+    put_merged_report(arguments, merged, streams);
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows of {} parts{}\n", merged.rows, merged.parts,
                                     arguments.out.empty() ? "" : " in " + arguments.out.string());
@@ -150,13 +173,12 @@ struct Job {
 void put_report(const Job& job, const std::vector<RecordPair>& records, const Grid& grid, const Table& table,
                 const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
-    constexpr std::size_t largest_rows = 1'000'000;
-    if (job.out.empty() || job.shard || table.rows.size() > largest_rows) return;
+    if (job.out.empty() || job.shard || table.rows.size() > largest_report) return;
     std::vector<Table> tables;
     if (outcome.fe) tables = {comparison(job.scene, grid, outcome), count_table(*outcome.fe)};
     std::filesystem::path page = job.out;
     page.replace_extension(".html");
-    write_file(page, sweep_report({job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}));
+    write_file(page, sweep_report({&job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}));
     if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
 }
 

@@ -4,6 +4,7 @@
 #include "cli/show/acoustic_modes.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
+#include "cli/show/tied_report.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
 #include "cli/terminal/usage_error.hpp"
@@ -13,6 +14,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/structure_system.hpp"
+#include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/write.hpp"
 
@@ -25,13 +27,6 @@
 namespace damslip::cli {
 
 namespace {
-
-struct TiedRun {
-    std::string record;
-    fe2d::History history;
-    std::vector<std::string> notes;
-    double seconds = 0.0;
-};
 
 Table stage_table(const fe2d::Model& model, const fe2d::StaticSolution& statics)
 {
@@ -89,7 +84,7 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::Flu
                    const Eigen::VectorXd& load, const Eigen::Vector2d& resultant, const GroundMotion& motion,
                    const InterruptGuard& interrupt, const Streams& streams)
 {
-    TiedRun run{motion.name, {}, motion.notes, 0.0};
+    TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;
@@ -178,6 +173,20 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             for (const std::string& note : r.notes) streams.out << "note: " << r.record << ": " << note << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
+    if (!arguments.out.empty()) {
+        Polyline none; // a bonded base takes its uplift with the loads
+        const FePageFrame frame{
+            scene,
+            plan,
+            records,
+            model,
+            std::move(none),
+            "finite elements, base bonded to the rock",
+            fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};
+        const std::filesystem::path file = arguments.out / "report.html";
+        write_file(file, report::page_html(tied_page(frame, runs, stage_table(model, statics), run_table(runs))));
+        if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
+    }
     const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {
                          return r.history.status == fe2d::TiedRunStatus::complete;
                      });

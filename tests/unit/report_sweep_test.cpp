@@ -121,7 +121,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 {
     const Scene scene = sweep_scene();
     Table rows = sweep_rows();
-    report::Page page = sweep_page({scene, rows, {}, {}, "results.csv"});
+    report::Page page = sweep_page({&scene, rows, {}, {}, "results.csv"});
     EXPECT_EQ(page.headline.outcome, report::Outcome::none);
     EXPECT_NE(page.headline.sentence.find("72 rows: the largest slip is 53 mm (fe, μ = 0.8, record record 3)"),
               std::string::npos)
@@ -134,7 +134,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
     rows.rows[1][16] = std::string("UNRESOLVED");
-    page = sweep_page({scene, rows, {}, {}, "results.csv"});
+    page = sweep_page({&scene, rows, {}, {}, "results.csv"});
     EXPECT_EQ(page.headline.outcome, report::Outcome::unresolved);
     ASSERT_EQ(page.warnings.size(), 1u);
     EXPECT_NE(page.warnings[0].find("UNRESOLVED"), std::string::npos);
@@ -145,7 +145,7 @@ TEST(SweepReport, ATableWithoutRowsHasAPageToo)
     const Scene scene = sweep_scene();
     Table rows = sweep_rows();
     rows.rows.clear();
-    EXPECT_NE(sweep_report({scene, rows, {}, {}, ""}).find("0 rows"), std::string::npos);
+    EXPECT_NE(sweep_report({&scene, rows, {}, {}, ""}).find("0 rows"), std::string::npos);
 }
 
 } // namespace

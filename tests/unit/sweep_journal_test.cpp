@@ -79,6 +79,33 @@ TEST_F(SweepJournal, ALineTornAnywhereIsDropped)
     }
 }
 
+// What was begun and is not finished was stopped; a torn line of begun rows is cut off like any other.
+TEST_F(SweepJournal, KnowsWhatWasStopped)
+{
+    const std::vector<std::size_t> together{1, 2, 3};
+    for (int run = 0; run < 2; ++run) {
+        Journal journal(file(), identity, {}, run == 0 ? JournalStart::fresh : JournalStart::resume);
+        journal.begin(together);
+        const FinishedRow finished = row(2, 0.5);
+        if (run == 1) journal.append({&finished, 1});
+    }
+    write("r.csv.journal", content("r.csv.journal") + "begun 3 4");
+    Journal journal(file(), identity, {}, JournalStart::resume);
+    EXPECT_EQ(journal.stopped(), (std::map<std::size_t, int>{{1, 2}, {3, 2}}));
+    EXPECT_EQ(journal.damaged(), 1u);
+    EXPECT_EQ(journal.take_finished().size(), 1u);
+}
+
+TEST_F(SweepJournal, OnlyBegunRowsAreNothingToLose)
+{
+    {
+        Journal journal(file(), identity, {}, JournalStart::fresh);
+        const std::vector<std::size_t> together{1, 2, 3};
+        journal.begin(together);
+    }
+    EXPECT_EQ(refusal(identity, {}, JournalStart::fresh), "taken");
+}
+
 TEST_F(SweepJournal, ALineWithAnotherChecksumIsLeftAside)
 {
     write_rows({row(1, 0.5), row(2, 0.25), row(3, 0.125)});

@@ -124,6 +124,29 @@ Scene dam_with_water()
     return read_scene(std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam_profile.toml");
 }
 
+// Stopped once: halves; twice: quarters; often enough: one by one. Other groups stay whole; each row is there once, in its order.
+TEST(SweepTasks, StoppedGroupsGoOnInPieces)
+{
+    std::vector<cli::FeGroup> groups(2);
+    groups[0].rows = {0, 2, 4, 6, 8, 10};
+    groups[1].rows = {1, 3, 5};
+    const auto sizes = [&](const std::map<std::size_t, int>& stopped) {
+        std::vector<std::size_t> list;
+        for (const cli::FeGroup& piece : cli::with_stopped_in_pieces(groups, stopped))
+            list.push_back(piece.rows.size());
+        return list;
+    };
+    EXPECT_EQ(sizes({}), (std::vector<std::size_t>{6, 3}));
+    EXPECT_EQ(sizes({{4, 1}}), (std::vector<std::size_t>{3, 3, 3}));
+    EXPECT_EQ(sizes({{4, 1}, {3, 1}}), (std::vector<std::size_t>{3, 3, 1, 1, 1}));
+    EXPECT_EQ(sizes({{4, 2}, {6, 1}}), (std::vector<std::size_t>{1, 1, 1, 1, 1, 1, 3}));
+    EXPECT_EQ(sizes({{4, 1000}}).size(), 7u);
+    std::vector<std::size_t> rows;
+    for (const cli::FeGroup& piece : cli::with_stopped_in_pieces(groups, {{4, 1}}))
+        rows.insert(rows.end(), piece.rows.begin(), piece.rows.end());
+    EXPECT_EQ(rows, (std::vector<std::size_t>{0, 2, 4, 6, 8, 10, 1, 3, 5}));
+}
+
 // Weight, thrust, uplift and added mass all grow with the square of the size, so a_y and the critical friction stay; only
 // the rounding of these sums differs. A force that stays as it is loses its part: it must show.
 TEST(SweepSize, WaterAndWeightGiveTheSameYieldAtEverySize)

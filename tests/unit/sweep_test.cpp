@@ -93,6 +93,19 @@ TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
         ASSERT_EQ(merged.code, 0) << merged.talk;
         EXPECT_EQ(content("merged.csv"), content("whole.csv")) << count;
     }
+    // Its report has the charts of the whole's; with the scene also section, records and provenance.
+    EXPECT_NE(content("merged.html").find("Slip over friction"), std::string::npos);
+    EXPECT_EQ(content("merged.html").find("The section, to scale"), std::string::npos);
+    std::filesystem::create_directories(folder / "two");
+    for (const char* part : {"r.0-of-2.csv", "r.1-of-2.csv"})
+        std::filesystem::copy(folder / "parts" / part, folder / "two" / part);
+    const Answer with_scene = sweep({"--merge", path("two"), "--out", path("merged.csv")});
+    ASSERT_EQ(with_scene.code, 0) << with_scene.talk;
+    EXPECT_NE(content("merged.html").find("The section, to scale"), std::string::npos);
+    write("other.toml", content("block.toml") + "[criteria]\nallowable_slip_mm = 1\n");
+    const Answer other = answer_of({"sweep", path("other.toml"), "--merge", path("two"), "--out", path("other.csv")});
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.talk.find("the parts are not of the scene"), std::string::npos) << other.talk;
     const Answer mixed = answer_of({"sweep", "--merge", path("parts")}); // parts of 2 and of 5
     EXPECT_EQ(mixed.code, 3);
     EXPECT_NE(mixed.talk.find("is not of the same sweep as"), std::string::npos) << mixed.talk;

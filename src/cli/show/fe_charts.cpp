@@ -122,6 +122,7 @@ public:
     {
         report::Chart chart = empty("energy since the start of the shaking", "energy", "kJ/m", 360);
         const auto term = [&](const char* name, double fe2d::Energy::*member, int colour, Mark mark = Mark::line) {
+            if (h_.energy.empty()) return;
             std::vector<double> values;
             values.reserve(h_.energy.size());
             for (const fe2d::Energy& e : h_.energy) values.push_back(e.*member - h_.energy.front().*member);
@@ -134,8 +135,10 @@ public:
         term("friction, dissipated", &fe2d::Energy::friction, 1);
         term("damping, dissipated", &fe2d::Energy::damping, 4);
         term("scheme, dissipated", &fe2d::Energy::numerical, 3);
+        if (!h_.energy.empty() && h_.energy.back().radiated != 0.0)
+            term("radiated into the water", &fe2d::Energy::radiated, 6);
         term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
-        add(chart, "imbalance", h_.imbalance, 1e3, 6);
+        add(chart, "imbalance", h_.imbalance, 1e3, 7);
         chart.note =
             fmt::format("kinetic + strain + damping + scheme + friction = external + contact normal work; what "
                         "is left is the imbalance, at the end {:.1e} of the largest term.",
@@ -164,6 +167,7 @@ private:
     void add(report::Chart& chart, const std::string& name, const std::vector<double>& values, double unit, int colour,
              Weight weight = Weight::normal) const
     {
+        if (values.size() != time_.size()) return; // not kept by this kind of run
         chart.curves.push_back({name, time_, scaled(values, unit), {}, {}, Mark::line, weight, colour});
     }
 
@@ -188,6 +192,7 @@ std::vector<report::Chart> history_charts(const RunView& view)
     const Charts make(view);
     std::vector<report::Chart> charts{make.ground(),  make.slip(),    make.crest(), make.forces(),
                                       make.rocking(), make.lengths(), make.energy()};
+    std::erase_if(charts, [](const report::Chart& chart) { return chart.curves.empty(); });
     for (report::Chart& chart : charts) { // so that a run of 20 s at 0.005 s is whole, and many long ones stay small
         chart.thin_above = std::clamp<std::size_t>(16000 / std::max<std::size_t>(view.records, 1), 800, 4200);
         chart.thin_buckets = chart.thin_above / (2 * chart.curves.size());

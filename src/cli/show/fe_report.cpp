@@ -1,15 +1,9 @@
 #include "cli/show/fe_report.hpp"
 
 #include "cli/show/base_charts.hpp"
-#include "cli/show/effect_table.hpp"
 #include "cli/show/fe_charts.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/show/record_charts.hpp"
-#include "cli/show/report_provenance.hpp"
-#include "cli/show/section_drawing.hpp"
-#include "cli/terminal/streams.hpp"
+#include "cli/show/fe_page.hpp"
 #include "core/units.hpp"
-#include "scene/write.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,30 +41,9 @@ bool falls_after(const ContactRun& r)
     return !r.fe.after.name.empty() && r.fe.after.status != fe2d::StageStatus::ok;
 }
 
-TablePart rows(Table table, Fold fold = Fold::open)
+TablePart rows(Table table)
 {
-    return {std::move(table), Layout::rows, 1, fold};
-}
-
-sliding::PressureProfile profile_of(const Polyline& uplift)
-{
-    sliding::PressureProfile profile;
-    for (const Point& p : uplift) profile.points.push_back({p.x, p.y});
-    return profile;
-}
-
-/// The table of runs without its seconds, which would make every report of the same scene another file.
-Table without_seconds(Table table)
-{
-    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
-                                 [&](const Column& column) { return column.key == "seconds"; });
-    if (at == table.columns.end()) return table;
-    const auto k = at - table.columns.begin();
-    table.columns.erase(at);
-    for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + k);
-    for (std::string& note : table.notes)
-        if (const auto end = note.find("; time without"); end != std::string::npos) note = note.substr(0, end) + ".";
-    return table;
+    return {std::move(table), Layout::rows, 1, Fold::open};
 }
 
 struct LiftSlip {
@@ -88,7 +61,7 @@ LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
     return largest;
 }
 
-std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs)
+std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& error_source)
 {
     const ContactRun& worst = worst_of(runs);
     const double slip = std::abs(worst.fe.max_slip);
@@ -99,7 +72,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                     : fmt::format("The dam slides {:.4g} mm at most by finite elements{} (record {})", slip / mm,
                                   runs.size() > 1 ? fmt::format(" over {} records", runs.size()) : "", worst.record);
     if (std::isfinite(worst.fe.slip_error) && worst.fe.slip_error > 0.0)
-        out += fmt::format(", ± {:.2g} mm from the time step", worst.fe.slip_error / mm);
+        out += fmt::format(", ± {:.2g} mm {}", worst.fe.slip_error / mm, error_source);
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
         out += fmt::format("; lift joint {} {:.4g} mm", lift.name, lift.slip / mm);
     if (worst.rigid) out += fmt::format("; the rigid block {:.4g} mm", worst.rigid->max_slip / mm);
@@ -108,7 +81,22 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
     return out + ".";
 }
 
-std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
+Section statics_section(const std::vector<ContactRun>& runs)
+{
+    return {"Static stages", {rows(contact_stage_table(runs))}, Fold::open};
+}
+
+std::vector<std::string> falls_after_earthquake(const std::vector<ContactRun>& runs)
+{
+    std::vector<std::string> list;
+    for (const ContactRun& r : runs)
+        if (falls_after(r)) list.push_back(r.record + ": " + r.fe.after.text());
+    return list;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
 {
     std::vector<std::pair<std::string, std::string>> list;
     if (runs.empty()) return list;
@@ -131,22 +119,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     return list;
 }
 
-Section statics_section(const std::vector<ContactRun>& runs)
-{
-    return {"Static stages", {rows(contact_stage_table(runs))}, Fold::open};
-}
-
-std::vector<std::string> falls_after_earthquake(const std::vector<ContactRun>& runs)
-{
-    std::vector<std::string> list;
-    for (const ContactRun& r : runs)
-        if (falls_after(r)) list.push_back(r.record + ": " + r.fe.after.text());
-    return list;
-}
-
-} // namespace
-
-report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs)
+report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& error_source)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r =
@@ -155,7 +128,7 @@ report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& 
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !ended_properly(run.fe.status); }))
         return {r->record + ": " + r->fe.message, Outcome::unresolved, "UNRESOLVED"};
 
-    const std::string sentence = slip_sentence(scene, runs);
+    const std::string sentence = slip_sentence(scene, runs, error_source);
     if (const ContactRun* r = find(runs, falls_after))
         return {sentence + " After the earthquake it does not stand: " + r->fe.after.text(), Outcome::fail, "FAIL"};
     if (const ContactRun* r =
@@ -199,20 +172,23 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 report::Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
                             const std::vector<std::string>& messages) const
 {
-    report::Page page;
-    page.title = in_.scene.title.empty() ? in_.scene.file.filename().string() : in_.scene.title;
-    page.subtitle = "Sliding in an earthquake: finite elements with contact. " + in_.scene.file.filename().string() +
-                    ", scene " + scene_hash(in_.scene).substr(0, 12) + ", damslip " + program_version();
+    const FePageFrame frame{in_.scene,
+                            in_.plan,
+                            in_.records,
+                            in_.model.model(),
+                            in_.model.water() ? &in_.model.water()->water : nullptr,
+                            in_.uplift,
+                            "finite elements with contact",
+                            fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for "
+                                        "comparison with events located exactly",
+                                        in_.model.model().dofs.count, in_.model.structure().pairs())};
+    report::Page page = begin_fe_page(frame);
     page.headline = fe_headline(in_.scene, runs);
-    page.key_figures = key_figures(in_.scene, runs);
-    page.warnings = messages;
-    for (std::string& w : falls_after_earthquake(runs)) page.warnings.push_back(std::move(w));
-    for (std::string& w : record_warnings(in_.records)) page.warnings.push_back(std::move(w));
+    page.key_figures = fe_key_figures(in_.scene, runs);
+    std::vector<std::string> warnings = messages;
+    for (std::string& w : falls_after_earthquake(runs)) warnings.push_back(std::move(w));
+    page.warnings.insert(page.warnings.begin(), warnings.begin(), warnings.end());
 
-    page.sections.push_back(
-        {"Section",
-         {section_drawing(in_.scene, profile_of(in_.uplift), dam_mesh_lines(in_.model.model().mesh))},
-         Fold::open});
     Section slip{"Slip", {rows(without_seconds(contact_run_table(runs))), rows(contact_slip_table(runs))}, Fold::open};
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows(contact_lift_table(runs)));
     page.sections.push_back(std::move(slip));
@@ -224,26 +200,7 @@ report::Page FeReport::page(const std::vector<ContactRun>& runs, const std::vect
         page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
     }
     for (const Section& section : sections_) page.sections.push_back(section);
-    if (!motions_.empty())
-        page.sections.push_back({"Records", {rows(record_table(motions_)), spectra(motions_, 1)}, Fold::open});
-    const fe2d::FluidModel* const water = in_.model.water() ? &in_.model.water()->water : nullptr;
-    Section model{"Model and solution",
-                  {rows(effect_table(in_.plan)), rows(count_table(in_.model.model().counts, water))},
-                  Fold::open};
-    for (const Table& table : tables) model.parts.push_back(rows(table));
-    page.sections.push_back(std::move(model));
-    page.sections.push_back(
-        {"Scene",
-         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in_.scene)}},
-         Fold::open});
-    page.provenance = {
-        {"program", "damslip " + program_version()},
-        {"scene", in_.scene.file.string()},
-        {"scene hash", scene_hash(in_.scene)},
-        {"method", fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for "
-                               "comparison with events located exactly",
-                               in_.model.model().dofs.count, in_.model.structure().pairs())}};
-    add_record_provenance(in_.records, page.provenance);
+    end_fe_page(frame, motions_, tables, page);
     return page;
 }
 

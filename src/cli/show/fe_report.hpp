@@ -12,7 +12,13 @@ namespace damslip::cli {
 /// The whole answer in one sentence with its verdict. FAIL: no equilibrium before or after the earthquake, a slip of
 /// base or lift joint above the allowable or without end. Unresolved: a run that did not end properly, or an allowable slip within what the time
 /// step leaves open.
-report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs);
+/// @param error_source  what the slip's error comes from
+report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
+                             const std::string& error_source = "from the time step");
+
+/// Slips, friction, opening of the worst run: for the top of the page.
+std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,
+                                                                const std::vector<ContactRun>& runs);
 
 /// Takes the runs one after the other, so that the values of the pairs over time need to be there for one at a time only.
 class FeReport {

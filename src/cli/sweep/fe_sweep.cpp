@@ -89,8 +89,8 @@ Scene scene_of(const FeSweepInputs& in, const GridIndex& at)
 class FeGroups {
 public:
     FeGroups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, Progress& progress,
-             const InterruptGuard& interrupt, const TakeSlips& take)
-        : in_(inputs), meter_(progress), interrupt_(interrupt), take_(take)
+             const InterruptGuard& interrupt, const BeginRows& begin, const TakeSlips& take)
+        : in_(inputs), meter_(progress), interrupt_(interrupt), begin_(begin), take_(take)
     {
         for (const FeGroup& group : groups) ++models_[key(group)].groups_left;
     }
@@ -102,6 +102,7 @@ public:
         PreparedModel& model = models_.at(key(group));
         const GridIndex at = in_.tasks.index(group.rows.front());
         if (!interrupt_.interrupted()) {
+            begin_(group.rows);
             prepare(model, at, counts);
             const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
                                                       in_.axes.polarity[at.polarity]);
@@ -192,6 +193,7 @@ private:
     const FeSweepInputs& in_;
     FeMeter meter_;
     const InterruptGuard& interrupt_;
+    const BeginRows& begin_;
     const TakeSlips& take_;
     std::map<ModelKey, PreparedModel> models_;
 };
@@ -211,9 +213,10 @@ void check_fe_scenes(const FeSweepInputs& in)
 }
 
 FeSweepCounts run_fe_groups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs,
-                            Progress& progress, const InterruptGuard& interrupt, const TakeSlips& take)
+                            Progress& progress, const InterruptGuard& interrupt, const BeginRows& begin,
+                            const TakeSlips& take)
 {
-    FeGroups runner(inputs, groups, progress, interrupt, take);
+    FeGroups runner(inputs, groups, progress, interrupt, begin, take);
     std::vector<FeSweepCounts> counted(groups.size());
     parallel_for(groups.size(), jobs, [&](std::size_t i) { counted[i] = runner.run(groups[i]); });
     FeSweepCounts sum;

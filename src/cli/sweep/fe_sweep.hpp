@@ -49,10 +49,14 @@ void check_fe_scenes(const FeSweepInputs& inputs);
 /// Takes ids and their slips as soon as they are there; called from several threads.
 using TakeSlips = std::function<void(std::span<const std::size_t> ids, std::span<const FeSlip> slips)>;
 
+/// Told the rows of a group before they go through the earthquake; called from several threads.
+using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
+
 /// Runs all groups. Mesh, matrices and condensed rock of a variant and contact law are made once, when the first of its
 /// groups comes up, and given back after the last; the frictions of a group go through the earthquake together.
 /// Results do not depend on the number of threads.
 FeSweepCounts run_fe_groups(const FeSweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs,
-                            Progress& progress, const InterruptGuard& interrupt, const TakeSlips& take);
+                            Progress& progress, const InterruptGuard& interrupt, const BeginRows& begin,
+                            const TakeSlips& take);
 
 } // namespace damslip::cli

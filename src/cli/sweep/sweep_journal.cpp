@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <sys/file.h>
 #include <unistd.h>
 #include <utility>
@@ -19,7 +20,7 @@ namespace damslip::cli {
 namespace {
 
 constexpr std::string_view first_line = "damslip sweep journal 2";
-constexpr std::string_view done_line = "done\n";
+constexpr std::string_view done_line = "done\n", begun_word = "begun";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
 
 std::string head_of(const SweepIdentity& i, const Shard& shard)
@@ -111,8 +112,23 @@ std::string differences(const std::string& mine, const std::string& theirs)
 bool replaceable(const std::string& content)
 {
     if (!content.starts_with(first_line)) return false;
-    return content.ends_with("\n" + std::string(done_line)) ||
-           static_cast<std::size_t>(std::count(content.begin(), content.end(), '\n')) <= head_lines;
+    if (content.ends_with("\n" + std::string(done_line))) return true;
+    std::size_t rows = 0, line = 0;
+    for (std::size_t at = 0; at < content.size(); ++line) {
+        const std::size_t end = std::min(content.find('\n', at), content.size() - 1) + 1;
+        rows += line >= head_lines && !content.substr(at, begun_word.size()).starts_with(begun_word);
+        at = end;
+    }
+    return rows == 0;
+}
+
+/// Ids of a line that begin() wrote; a damaged one gives others or none, which only costs time.
+std::vector<std::size_t> begun_ids(std::string_view line)
+{
+    std::vector<std::size_t> ids;
+    std::istringstream in{std::string(line.substr(begun_word.size()))};
+    for (std::size_t id = 0; in >> id;) ids.push_back(id);
+    return ids;
 }
 
 /// Opened and locked; the lock goes with the process, however it ends.
@@ -188,6 +204,8 @@ void Journal::read(const std::string& content, const std::string& head, std::siz
         std::optional<FinishedRow> row = row_of(line.substr(0, line.size() - 1), rows);
         if (line == done_line)
             done_ = true;
+        else if (line.starts_with(begun_word))
+            for (const std::size_t id : begun_ids(line)) ++stopped_[id];
         else if (!row)
             ++damaged_;
         else if (!seen[row->id]) {
@@ -197,6 +215,7 @@ void Journal::read(const std::string& content, const std::string& head, std::siz
         at = end + 1;
     }
     whole_bytes_ = at;
+    std::erase_if(stopped_, [&](const auto& entry) { return entry.first >= rows || seen[entry.first]; });
 }
 
 void Journal::append(std::span<const FinishedRow> rows)
@@ -204,6 +223,13 @@ void Journal::append(std::span<const FinishedRow> rows)
     std::string lines;
     for (const FinishedRow& row : rows) lines += line_of(row);
     write(lines);
+}
+
+void Journal::begin(std::span<const std::size_t> ids)
+{
+    std::string line(begun_word);
+    for (const std::size_t id : ids) line += fmt::format(" {}", id);
+    write(line + "\n");
 }
 
 void Journal::mark_done()

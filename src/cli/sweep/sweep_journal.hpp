@@ -4,6 +4,7 @@
 #include "cli/sweep/sweep_identity.hpp"
 #include "core/table.hpp"
 
+#include <map>
 #include <mutex>
 #include <span>
 
@@ -28,7 +29,7 @@ enum class JournalStart {
 /// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (the first
 /// 16 hexadecimal digits of SHA-256) and the row as JSON, numbers with all digits; "done" when the table is written. A
 /// line that was torn by the stop is cut off on resuming; one whose checksum is wrong is left aside, and its row is
-/// computed again.
+/// computed again. A line "begun" with the ids of rows that start together says on resuming which were stopped on the way.
 class Journal {
 public:
     /// @throws InputError for a journal of other inputs (says which differ), for one that another process has open, for
@@ -40,6 +41,12 @@ public:
 
     std::vector<FinishedRow> take_finished() { return std::move(finished_); } ///< as read when opened
     std::size_t damaged() const { return damaged_; } ///< lines left aside, torn last line included
+
+    /// How often rows that are not finished were begun, by id: a run of them was stopped so many times.
+    const std::map<std::size_t, int>& stopped() const { return stopped_; }
+
+    /// Rows that go through the earthquake together from now on. From any thread.
+    void begin(std::span<const std::size_t> ids);
 
     /// From any thread; in the file when this returns. @throws InputError when the disk is full.
     void append(std::span<const FinishedRow> rows);
@@ -53,6 +60,7 @@ private:
     std::filesystem::path file_;
     int descriptor_ = -1;
     std::vector<FinishedRow> finished_;
+    std::map<std::size_t, int> stopped_;
     std::size_t damaged_ = 0, whole_bytes_ = 0;
     bool done_ = false;
     std::mutex mutex_;

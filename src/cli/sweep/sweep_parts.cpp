@@ -1,13 +1,16 @@
 #include "cli/sweep/sweep_parts.hpp"
 
+#include "cli/sweep/sweep_rows.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "core/number.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
 #include <regex>
+#include <utility>
 
 namespace damslip::cli {
 
@@ -142,7 +145,63 @@ void check_parts(const std::vector<Part>& parts)
                "all parts of the sweep", "run them:  " + flags);
 }
 
+/// Fields of a line of report::csv.
+std::vector<std::string> fields_of(const std::string& line)
+{
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"') {
+            const bool escaped = quoted && i + 1 < line.size() && line[i + 1] == '"';
+            if (escaped)
+                fields.back() += line[++i];
+            else
+                quoted = !quoted;
+        } else if (c == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+Cell cell_of(const std::string& key, const std::string& field)
+{
+    for (const char* word : {"uplift", "reservoir", "record", "method", "status"})
+        if (key == word) return field;
+    if (field.empty()) return {};
+    const std::optional<double> number = parse_number(field);
+    if (!number) return field;
+    if (key == "id" || key == "polarity") return static_cast<std::int64_t>(*number);
+    return *number;
+}
+
 } // namespace
+
+Table sweep_rows_of(const std::string& csv)
+{
+    Table table = sweep_table();
+    bool header = true;
+    for (std::size_t at = 0; at < csv.size();) {
+        const std::size_t end = std::min(csv.find('\n', at), csv.size());
+        const std::string line = csv.substr(at, end - at);
+        at = end + 1;
+        if (line.starts_with("#")) continue;
+        const std::vector<std::string> fields = fields_of(line);
+        bool fits = fields.size() == table.columns.size();
+        for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
+        if (!fits)
+            refuse({}, fmt::format("the line \"{}\" is not one of a sweep of this version.", line.substr(0, 60)),
+                   "the columns of this version", "run the parts again");
+        if (!std::exchange(header, false)) {
+            table.rows.emplace_back();
+            for (std::size_t i = 0; i < fields.size(); ++i)
+                table.rows.back().push_back(cell_of(table.columns[i].key, fields[i]));
+        }
+    }
+    return table;
+}
 
 fs::path part_file(const fs::path& csv, const Shard& shard)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/sweep/sweep_identity.hpp"
+#include "core/table.hpp"
 
 #include <filesystem>
 #include <string>
@@ -25,5 +26,8 @@ struct MergedSweep {
 /// @param paths  part files, or folders: all files named *.i-of-n.csv in them
 /// @throws InputError naming the parts that are missing, given twice, damaged or of another sweep
 MergedSweep merge_parts(const std::vector<std::filesystem::path>& paths);
+
+/// The rows of a sweep's CSV as they were before it was written. @throws InputError for other columns than sweep_table()
+Table sweep_rows_of(const std::string& csv);
 
 } // namespace damslip::cli

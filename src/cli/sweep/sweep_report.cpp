@@ -1,11 +1,18 @@
 #include "cli/sweep/sweep_report.hpp"
 
+#include "cli/run/seepage_source.hpp"
+#include "cli/show/effect_table.hpp"
+#include "cli/show/mesh_drawing.hpp"
+#include "cli/show/record_charts.hpp"
 #include "cli/show/report_provenance.hpp"
+#include "cli/show/section_drawing.hpp"
 #include "cli/sweep/sweep_charts.hpp"
 #include "cli/terminal/streams.hpp"
 #include "core/units.hpp"
 #include "report/page_html.hpp"
+#include "scene/effect_plan.hpp"
 #include "scene/write.hpp"
+#include "sliding/uplift/uplift_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -215,12 +222,45 @@ Section rows_section(const SweepReportInput& in)
     return {"Rows", {TablePart{std::move(table), Layout::rows, 1, Fold::open}}, Fold::folded};
 }
 
+bool finite_elements(const SweepView& view)
+{
+    return std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); });
+}
+
+EffectPlan effect_plan(const Scene& scene, const SweepView& view)
+{
+    return make_effect_plan(scene, finite_elements(view) ? Method::finite_elements : Method::rigid_block);
+}
+
+/// The scene as given, before the axes change it; with the mesh where there are FE rows.
+Section section_of(const Scene& given, const SweepView& view)
+{
+    const Scene scene = called_for(effect_plan(given, view), given);
+    SeepageSource seepage;
+    sliding::PressureProfile uplift;
+    if (scene.uplift)
+        uplift = sliding::uplift_profile(scene, sliding::scene_uplift_state(scene), {}, seepage.profile_of(scene));
+    std::vector<Polyline> mesh;
+    if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
+    return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};
+}
+
+Section record_section(const Scene& scene, const std::vector<RecordPair>& records)
+{
+    std::vector<GroundMotion> motions;
+    for (const RecordPair& pair : records) motions.push_back(ground_motion(scene, pair));
+    return {
+        "Records", {TablePart{record_table(motions), Layout::rows, 1, Fold::open}, spectra(motions, 1)}, Fold::open};
+}
+
 std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
 {
     std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
-                                                          {"scene", in.scene.file.string()},
-                                                          {"scene hash", scene_hash(in.scene)},
                                                           {"methods", join(view.methods)}};
+    if (in.scene) {
+        list.emplace_back("scene", in.scene->file.string());
+        list.emplace_back("scene hash", scene_hash(*in.scene));
+    }
     if (!in.csv.empty()) list.emplace_back("rows", in.csv.filename().string());
     add_record_provenance(in.records, list);
     return list;
@@ -231,11 +271,15 @@ std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInp
 report::Page sweep_page(const SweepReportInput& in)
 {
     const SweepView view = sweep_view(in.rows);
-    const std::optional<double> allowable = in.scene.criteria.allowable_slip;
+    const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
     report::Page page;
-    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = "Sliding in an earthquake: sweep over friction and more. " + in.scene.file.filename().string() +
-                    ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.title = "Sweep";
+    page.subtitle = "Sliding in an earthquake: sweep over friction and more. ";
+    if (in.scene) {
+        page.title = in.scene->title.empty() ? in.scene->file.filename().string() : in.scene->title;
+        page.subtitle += in.scene->file.filename().string() + ", scene " + scene_hash(*in.scene).substr(0, 12) + ", ";
+    }
+    page.subtitle += "damslip " + program_version();
     page.headline = headline(view, allowable);
     page.key_figures = {{"Rows", fmt::format("{}", view.rows.size())},
                         {"Variants", fmt::format("{}", view.variants.size())},
@@ -258,10 +302,15 @@ report::Page sweep_page(const SweepReportInput& in)
     for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
     page.sections.push_back(std::move(methods));
     page.sections.push_back(rows_section(in));
-    page.sections.push_back(
-        {"Scene",
-         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
-         Fold::open});
+    if (in.scene) {
+        page.sections.push_back(section_of(*in.scene, view));
+        if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));
+        page.sections.push_back(
+            {"Scene",
+             {TablePart{effect_table(effect_plan(*in.scene, view)), Layout::rows, 1, Fold::open},
+              report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(*in.scene)}},
+             Fold::open});
+    }
     page.provenance = provenance(in, view);
     return page;
 }

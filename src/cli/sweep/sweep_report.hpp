@@ -9,7 +9,7 @@
 namespace damslip::cli {
 
 struct SweepReportInput {
-    const Scene& scene;               ///< as given
+    const Scene* scene;               ///< as given; null: not known, as of merged parts
     const Table& rows;                ///< the whole table of the sweep
     const std::vector<Table>& tables; ///< further ones: comparison of the methods, counts
     const std::vector<RecordPair>& records;

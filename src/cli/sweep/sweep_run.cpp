@@ -29,6 +29,11 @@ public:
         if (journal_) journal_->append(rows);
         for (FinishedRow& row : rows) put(std::move(row));
     }
+    void begin(std::span<const std::size_t> ids)
+    {
+        if (journal_) journal_->begin(ids);
+    }
+    std::map<std::size_t, int> stopped() const { return journal_ ? journal_->stopped() : std::map<std::size_t, int>{}; }
     std::vector<std::size_t> missing() const
     {
         std::vector<std::size_t> ids;
@@ -54,17 +59,19 @@ FeSweepCounts run_fe_rows(const FeSweepInputs& inputs, const std::vector<std::si
                           const Streams& streams, const InterruptGuard& interrupt, RowStore& store)
 {
     const auto threads = static_cast<std::size_t>(thread_count(jobs));
-    const std::vector<FeGroup> groups = fe_groups(inputs.tasks, inputs.axes, missing, threads);
+    const std::vector<FeGroup> groups =
+        with_stopped_in_pieces(fe_groups(inputs.tasks, inputs.axes, missing, threads), store.stopped());
     std::size_t runs = 0;
     for (const FeGroup& group : groups) runs += group.rows.size();
     Progress progress(streams, "sweep, finite elements", runs);
-    return run_fe_groups(inputs, groups, jobs, progress, interrupt,
-                         [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
-                             std::vector<FinishedRow> rows;
-                             for (std::size_t i = 0; i < ids.size(); ++i)
-                                 if (!slips[i].interrupted) rows.push_back(fe_row(ids[i], slips[i]));
-                             store.finish(std::move(rows));
-                         });
+    return run_fe_groups(
+        inputs, groups, jobs, progress, interrupt, [&store](std::span<const std::size_t> ids) { store.begin(ids); },
+        [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
+            std::vector<FinishedRow> rows;
+            for (std::size_t i = 0; i < ids.size(); ++i)
+                if (!slips[i].interrupted) rows.push_back(fe_row(ids[i], slips[i]));
+            store.finish(std::move(rows));
+        });
 }
 
 void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_t> missing, int jobs,

@@ -2,6 +2,8 @@
 
 #include "cli/sweep/sweep_axes.hpp"
 
+#include <map>
+
 namespace damslip::cli {
 
 /// Positions of one row on the axes.
@@ -51,5 +53,10 @@ struct FeGroup {
 /// at most `parts` groups where there are fewer groups than parts; the slips do not depend on it.
 std::vector<FeGroup> fe_groups(const TaskList& tasks, const Axes& axes, const std::vector<std::size_t>& rows,
                                std::size_t parts);
+
+/// Groups whose rows were stopped n times before they finished, cut into pieces of a 2^n-th of their rows, at least one: what stops
+/// again and again before a group is through gets through in the end, with the same slips.
+/// @param stopped  how often, by id of row
+std::vector<FeGroup> with_stopped_in_pieces(std::vector<FeGroup> groups, const std::map<std::size_t, int>& stopped);
 
 } // namespace damslip::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cli/run/rigid_model.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "report/page.hpp"
+#include "scene/effect_plan.hpp"
+
+namespace damslip::cli {
+
+/// The earthquake of one record on few modes of the dam.
+struct ReducedRecord {
+    std::string record;
+    fe2d::ReducedResult result;
+    GroundMotion motion;
+};
+
+/// Static stages of reduced runs, which the full model made.
+Table reduced_stage_table(const std::vector<ReducedRecord>& runs);
+
+/// What the page of reduced runs is made from.
+struct ReducedReportInput {
+    const Scene& scene; ///< as the plan calls for it
+    const EffectPlan& plan;
+    const std::vector<RecordPair>& records;
+    const fe2d::EarthquakeRun& full;
+    const RigidModel& rigid;
+    const Polyline& uplift; ///< along the base before the earthquake [m, Pa]
+    const std::vector<ReducedRecord>& runs;
+    const Table& table; ///< one row a run
+    const std::vector<std::string>& messages;
+};
+
+/// Slip beside the rigid block's, crest and forces of each record; errors by modes and step.
+report::Page reduced_page(const ReducedReportInput& input);
+
+} // namespace damslip::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cli/show/fe_page.hpp"
+#include "fe2d/time/history.hpp"
+
+namespace damslip::cli {
+
+/// The earthquake of one record on a bonded base.
+struct TiedRun {
+    std::string record;
+    fe2d::History history;
+    std::vector<std::string> notes;
+    double seconds = 0.0;
+    GroundMotion motion;
+};
+
+/// Histories of crest, base forces and energies of runs that cannot slide.
+/// @param stages, table  of the static stages and of the runs
+report::Page tied_page(const FePageFrame& frame, const std::vector<TiedRun>& runs, const Table& stages,
+                       const Table& table);
+
+} // namespace damslip::cli
