@@ -180,6 +180,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             plan,
             records,
             model,
+            water ? &*water : nullptr,
             std::move(none),
             "finite elements, base bonded to the rock",
             fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};

@@ -112,7 +112,8 @@ TEST(SweepReport, PointsOverTheYieldRatioAndYieldOverFriction)
 
 Scene sweep_scene()
 {
-    return parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
+    return parse_scene("[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
+                       "25\n[contact]\nfriction = "
                        "0.6\n[criteria]\nallowable_slip_mm = 45\n",
                        "block.toml", FileCheck::skip);
 }

@@ -17,7 +17,7 @@ const cli::SweepIdentity identity{"1.0", "scene-hash", "records-hash", "friction
 
 FinishedRow row(std::size_t id, double slip, const std::string& status = "at rest")
 {
-    return {id, true, {slip, slip, {}, {}, {}, 0.1, {}, std::int64_t{3}, status}};
+    return {id, true, {slip, slip, {}, {}, {}, 0.1, {}, std::int64_t{3}, status, {}}};
 }
 
 class SweepJournal : public SweepScene {

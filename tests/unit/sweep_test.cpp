@@ -74,6 +74,24 @@ TEST_F(SweepScene, SizeAndReservoirReachTheModel)
     EXPECT_EQ(yields.size(), 3u); // hydrostatic, Zangar, and Westergaard for auto and acoustic; the size changes none
 }
 
+// The slips of a row are those of `damslip fe`, of the lift joint too; without joints the column is empty.
+TEST_F(SweepScene, LiftJointsHaveAColumn)
+{
+    write("joint.toml", content("block.toml") + "[[lift_joint]]\nelevation_m = 1\nfriction = 0.12\n");
+    const std::vector<std::string> one{"--friction", "0.1", "--method", "rigid,fe", "--json"};
+    const Answer a = answer_of(with({"sweep", path("joint.toml")}, one));
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto rows = nlohmann::json::parse(a.out)["rows"];
+    EXPECT_TRUE(rows[0]["lift_joint_slip_m"].is_null()); // the rigid block has no joints
+    const Answer fe = answer_of({"fe", path("joint.toml"), "--json"});
+    ASSERT_EQ(fe.code, 0) << fe.talk;
+    const auto lift = nlohmann::json::parse(fe.out)["lift_joints"][0];
+    EXPECT_GT(lift["largest_slip_mm"].get<double>(), 0.0);
+    EXPECT_EQ(lift["largest_slip_mm"].get<double>(), 1e3 * rows[1]["lift_joint_slip_m"].get<double>());
+    const Answer none = sweep(one);
+    EXPECT_TRUE(nlohmann::json::parse(none.out)["rows"][1]["lift_joint_slip_m"].is_null());
+}
+
 TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
 {
     ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);

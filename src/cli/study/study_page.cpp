@@ -1,5 +1,6 @@
 #include "cli/study/study_page.hpp"
 
+#include "cli/show/effect_table.hpp"
 #include "cli/show/record_charts.hpp"
 #include "cli/show/report_provenance.hpp"
 #include "cli/show/section_drawing.hpp"
@@ -232,7 +233,8 @@ report::Page study_page(const StudyPageInput& in)
     page.sections.push_back({"Rows", {rows_of(std::move(table))}, Fold::folded});
     page.sections.push_back(
         {"Scene",
-         {report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
+         {rows_of(effect_table(make_effect_plan(in.scene, Method::finite_elements))),
+          report::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
          Fold::open});
     page.provenance = {
         {"program", "damslip " + program_version()},

@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -167,6 +168,9 @@ private:
         std::vector<FeSlip> slips;
         for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
             slips.push_back(slip_of(r, r.slip_error));
+            for (const fe2d::LiftResult& lift : r.lifts)
+                if (slips.back().slip)
+                    slips.back().lift_slip = std::max(slips.back().lift_slip.value_or(0.0), lift.largest_slip);
             if (keep_histories()) slips.back().history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
         }

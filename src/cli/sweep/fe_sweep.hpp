@@ -22,7 +22,8 @@ struct FeSlip {
     bool interrupted = false; ///< stopped on the way: not a result
     std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
     std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
-    SlipHistory history;                                                ///< of sweeps of few rows
+    std::optional<double> lift_slip; ///< largest |slip| of the lift joints on the way [m]; none: no joint
+    SlipHistory history;             ///< of sweeps of few rows
 };
 
 /// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.

@@ -17,7 +17,7 @@ struct FinishedRow {
     std::vector<Cell> results; ///< of the columns after the axes and the yield acceleration, result_columns of them
     SlipHistory history = {};  ///< of slides and FE runs of sweeps of few rows
 };
-constexpr std::size_t result_columns = 9;
+constexpr std::size_t result_columns = 10;
 
 enum class JournalStart {
     fresh, ///< an unfinished journal in its place is refused, one that is done or empty replaced

@@ -210,9 +210,23 @@ Section variant_section(const SweepView& view, const std::optional<double>& allo
     return section;
 }
 
+/// Columns that no row has a value in, such as those of methods that are not there, are left out.
+Table without_empty_columns(Table table)
+{
+    for (std::size_t j = table.columns.size(); j-- > 0;) {
+        const auto empty = [j](const std::vector<Cell>& row) {
+            return std::holds_alternative<std::monostate>(row[j]) || row[j] == Cell(std::string());
+        };
+        if (!std::all_of(table.rows.begin(), table.rows.end(), empty)) continue;
+        table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(j));
+        for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+    return table;
+}
+
 Section rows_section(const SweepReportInput& in)
 {
-    Table table = in.rows;
+    Table table = without_empty_columns(in.rows);
     table.title = "Rows";
     if (table.rows.size() > listed_rows) {
         table.notes.push_back(fmt::format("The first {} of {} rows{}.", listed_rows, table.rows.size(),

@@ -6,12 +6,13 @@ namespace {
 
 /// Results in the order of the columns; what a method does not give stays empty.
 struct Results {
-    Cell slip, max_slip, upstream_slip, slip_low, slip_high, slip_error, truncation_error, critical_friction, status;
+    Cell slip, max_slip, upstream_slip, slip_low, slip_high, slip_error, truncation_error, critical_friction, status,
+        lift_slip;
 
     std::vector<Cell> cells() const
     {
         return {slip,       max_slip,         upstream_slip,     slip_low, slip_high,
-                slip_error, truncation_error, critical_friction, status};
+                slip_error, truncation_error, critical_friction, status,   lift_slip};
     }
 };
 enum ResultColumn : std::size_t { slip_column = 0, slip_error_column = 5, critical_friction_column = 7 };
@@ -85,7 +86,8 @@ Table sweep_table()
                  {"slip_error_m", "± step", "m", 2},
                  {"truncation_error_m", "± modes", "m", 2},
                  {"critical_friction", "critical μ", "–", 6},
-                 {"status", "status", "", 4}};
+                 {"status", "status", "", 4},
+                 {"lift_joint_slip_m", "lift joints", "m", 5}};
     return t;
 }
 
@@ -137,6 +139,7 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip)
     results.truncation_error = number(slip.truncation_error);
     results.critical_friction = number(slip.critical_friction);
     results.status = slip.status;
+    results.lift_slip = number(slip.lift_slip);
     return {id, slip.good, results.cells(), slip.history};
 }
 
