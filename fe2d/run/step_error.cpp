@@ -7,6 +7,8 @@ namespace damslip::fe2d {
 
 namespace {
 
+constexpr double believable_order = 2.5; ///< differences that fall faster than that do so by accident
+
 /// (s_i - s_j) / (s_j - s_k) of an error of order p.
 double ratio_of_differences(double p, int first, int second)
 {
@@ -33,7 +35,14 @@ double step_error(std::span<const SlipAtStep> slips)
 {
     const auto last = slips.last(2);
     const int halvings = last[1].halvings - last[0].halvings;
-    return std::abs(last[1].slip - last[0].slip) / (std::exp2(observed_order(slips) * halvings) - 1.0);
+    double difference = std::abs(last[1].slip - last[0].slip);
+    if (slips.size() >= 3) { // a sudden agreement is an accident
+        const SlipAtStep& first = slips[slips.size() - 3];
+        const double before = std::abs(last[0].slip - first.slip);
+        difference = std::max(
+            difference, before / ratio_of_differences(believable_order, last[0].halvings - first.halvings, halvings));
+    }
+    return difference / (std::exp2(observed_order(slips) * halvings) - 1.0);
 }
 
 int next_halvings(std::span<const SlipAtStep> slips, double excess)

@@ -18,7 +18,8 @@ inline constexpr double largest_order = 1.75;
 /// edges converges with first order at worst. 1 for fewer slips.
 double observed_order(std::span<const SlipAtStep> slips);
 
-/// Error of the last of at least two slips, |s_k - s_j| / (2^(p (k - j)) - 1) with the observed order [m].
+/// Error of the last of at least two slips, |s_k - s_j| / (2^(p (k - j)) - 1) with the observed order [m]. A difference
+/// that is smaller than the one before by more than order 2.5 explains counts as large as with that order.
 double step_error(std::span<const SlipAtStep> slips);
 
 /// Halvings to try next: one more, or two more after the first two slips when the error is far from what is wanted even

@@ -33,8 +33,17 @@ TEST(FeStepError, DoesNotRelyOnMoreThanTheUsualOrderNorOnLessThanOne)
     EXPECT_NEAR(observed_order(of_order(0.5, {0, 1, 2})), 1.0, 1e-9);
     const std::vector<SlipAtStep> two = of_order(1.75, {0, 1}); // first order: then the finer errs by the difference
     EXPECT_DOUBLE_EQ(step_error(two), std::abs(two[0].slip - two[1].slip));
-    const std::vector<SlipAtStep> still{{0, 0.5}, {1, 0.7}, {2, 0.7}};
+    const std::vector<SlipAtStep> still{{0, 0.7}, {1, 0.7}, {2, 0.7}};
     EXPECT_EQ(step_error(still), 0.0);
+}
+
+// Two slips that agree after one far off: of the difference before, an order of 2.5 leaves a 2^2.5th.
+TEST(FeStepError, DoesNotBelieveASuddenAgreement)
+{
+    const std::vector<SlipAtStep> sudden{{0, 0.5}, {1, 0.7}, {2, 0.7}};
+    EXPECT_NEAR(step_error(sudden), 0.2 * std::exp2(-2.5) / (std::exp2(largest_order) - 1.0), 1e-12);
+    const std::vector<SlipAtStep> cubic = of_order(3.0, {0, 1, 2});
+    EXPECT_GT(step_error(cubic), cubic.back().slip - 1.0);
 }
 
 TEST(FeStepError, FarFromTheGoalItSkipsOnePass)
