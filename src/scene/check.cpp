@@ -1,6 +1,8 @@
 #include "scene/check.hpp"
 
 #include "core/number.hpp"
+#include "core/units.hpp"
+#include "scene/rock_slope.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -124,6 +126,56 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
 std::string value(const char* key, double x)
 {
     return fmt::format("{} = {}", key, shortest(x));
+}
+
+bool any_of_rock_slope(const SectionInput& in)
+{
+    return in.slope_height || in.face_dip || in.plane_dip || in.crack_distance || in.upper_dip;
+}
+
+/// Empty where the slope cannot be: said in `findings`.
+Polyline polygon_of_rock_slope(const SectionInput& in, Findings& findings)
+{
+    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
+        if (!value)
+            findings.wrong("section", fmt::format("section.{} is missing.", key),
+                           "slope_height_m, face_dip_deg, plane_dip_deg and crack_distance_m of a rock slope",
+                           fmt::format("add  {} = {}  to [section]", key, example));
+        return value.has_value();
+    };
+    const bool complete[] = {need(in.slope_height, "slope_height_m", "12"), need(in.face_dip, "face_dip_deg", "60"),
+                             need(in.plane_dip, "plane_dip_deg", "35"),
+                             need(in.crack_distance, "crack_distance_m", "4")};
+    if (!(complete[0] && complete[1] && complete[2] && complete[3])) return {};
+    const RockSlope slope{*in.slope_height, *in.face_dip, *in.plane_dip, *in.crack_distance, in.upper_dip.value_or(0)};
+    const auto degrees = [](const char* key, double angle) { return fmt::format("{} = {:.10g}", key, angle / units::degree); };
+    const auto wrong = [&](const char* key, std::string problem, const char* allowed, const char* fix) {
+        findings.wrong(std::string("section.") + key, std::move(problem), allowed, fix);
+        return Polyline{};
+    };
+    if (slope.plane_dip >= slope.face_dip)
+        return wrong("plane_dip",
+                     fmt::format("{} is not flatter than {}.", degrees("section.plane_dip_deg", slope.plane_dip),
+                                 degrees("section.face_dip_deg", slope.face_dip)),
+                     "a plane that comes out in the face: plane_dip_deg < face_dip_deg", "exchange them, if mixed up");
+    if (slope.upper_dip >= slope.face_dip)
+        return wrong("upper_dip",
+                     fmt::format("{} is not flatter than {}.", degrees("section.upper_dip_deg", slope.upper_dip),
+                                 degrees("section.face_dip_deg", slope.face_dip)),
+                     "upper_dip_deg < face_dip_deg", "there is no crest otherwise");
+    const double crest = slope.height / std::tan(slope.face_dip);
+    if (slope.crack_distance <= -crest)
+        return wrong("crack_distance",
+                     fmt::format("{} puts the crack before the slope: its toe is {} m before the crest.",
+                                 value("section.crack_distance_m", slope.crack_distance), shortest(crest)),
+                     "a crack between the toe of the slope and the place where the plane comes up", "move the crack");
+    if (crack_depth(slope) <= 1e-9 * slope.height)
+        return wrong("crack_distance",
+                     fmt::format("{}: the plane has come up to the surface before the crack.",
+                                 value("section.crack_distance_m", slope.crack_distance)),
+                     "a crack between the toe of the slope and the place where the plane comes up",
+                     "move the crack towards the crest; a block without crack is a polygon_m");
+    return sliding_block(slope);
 }
 
 void check_base(const Scene& s, Findings& f)
@@ -468,21 +520,46 @@ void check_fe(const Scene& s, Findings& f)
                 "alpha for hht", "delete them or choose newmark");
 }
 
+/// Water in a tension crack presses but hardly moves; it seeps out along the plane, whose pressure falls to zero at the
+/// toe (Hoek & Bray 1981).
+void fill_crack_water(Scene& scene, const Findings& findings)
+{
+    if (!findings.given("reservoir.model")) scene.reservoir->model = ReservoirModel::hydrostatic;
+    if (!scene.uplift) scene.uplift.emplace().model = UpliftModel::linear;
+}
+
+void check_crack_water(const Scene& s, Findings& f)
+{
+    const double depth = upstream_face(s.section).back().y;
+    if (f.given("section.slope_height") && s.reservoir && s.reservoir->level > depth * (1 + 1e-12))
+        f.wrong("reservoir.level",
+                fmt::format("{} does not fit into the tension crack, which is {} m deep.",
+                            value("reservoir.level_m", s.reservoir->level), shortest(depth)),
+                "depth of the water above the foot of the crack, at most the crack's depth", "lower it");
+}
+
 } // namespace
 
 Section make_section(const SectionInput& in, Findings& findings)
 {
     const bool dimensions = in.height || in.base || in.crest || in.neck || in.upstream_slope ||
                             in.upstream_slope_height || in.base_inclination;
+    const bool slope = any_of_rock_slope(in);
     Section section{in.polygon};
     if (!in.polygon.empty() && dimensions) {
         findings.wrong("section", "section.polygon_m is given together with dimensions.",
                        "polygon_m alone, or height_m, base_m, crest_m ... alone", "delete one of the two descriptions");
         return section;
     }
+    if (slope && (!in.polygon.empty() || dimensions)) {
+        findings.wrong("section", "section describes a rock slope together with a polygon or dimensions.",
+                       "slope_height_m, face_dip_deg, plane_dip_deg, crack_distance_m, upper_dip_deg alone",
+                       "delete one of the two descriptions");
+        return section;
+    }
     if (in.polygon.empty()) {
         if (findings.given("section.polygon")) return section; // already reported
-        section.polygon = polygon_by_dimensions(in, findings);
+        section.polygon = slope ? polygon_of_rock_slope(in, findings) : polygon_by_dimensions(in, findings);
         if (section.polygon.empty()) return section;
     }
     if (!findings.any()) check_polygon(section.polygon, findings);
@@ -492,6 +569,7 @@ Section make_section(const SectionInput& in, Findings& findings)
 void fill_defaults(Scene& scene, const Findings& findings)
 {
     const double base = base_length(scene.section);
+    if (scene.reservoir && findings.given("section.slope_height")) fill_crack_water(scene, findings);
     if (scene.reservoir) {
         if (!findings.given("reservoir.level")) scene.reservoir->level = crest_level(scene.section);
         if (!findings.given("reservoir.length")) {
@@ -527,6 +605,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
     check_lift_joints(scene, findings);
     check_joint(scene, findings);
     check_water(scene, findings);
+    check_crack_water(scene, findings);
     check_motion(scene, findings, files);
     check_combinations(scene, findings);
     check_fe(scene, findings);

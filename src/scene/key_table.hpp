@@ -94,6 +94,7 @@ struct KeyGroup {
 struct SectionInput {
     std::vector<Point> polygon;
     std::optional<double> height, base, crest, neck, upstream_slope, upstream_slope_height, base_inclination;
+    std::optional<double> slope_height, face_dip, plane_dip, crack_distance, upper_dip; ///< of a rock slope
 };
 
 /// The whole table. `section` receives what [section] says; it must outlive the use of the groups.

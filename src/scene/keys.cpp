@@ -141,7 +141,10 @@ KeyGroup section_group(SectionInput& input)
     KeyGroup g{
         "section",
         Presence::always,
-        "Cross-section: either `polygon_m`, or `height_m`, `base_m`, `crest_m` and what refines them.",
+        "Cross-section: either `polygon_m`, or `height_m`, `base_m`, `crest_m` and what refines them, or the block of "
+        "a "
+        "rock slope above a plane and before a tension crack: `slope_height_m`, `face_dip_deg`, `plane_dip_deg`, "
+        "`crack_distance_m`.",
         {pairs("polygon", length, length, Range::any(), "from the dimensions below",
                "vertices counter-clockwise from the heel at (0, 0); the second is the toe; the edge between them is "
                "the base",
@@ -160,7 +163,20 @@ KeyGroup section_group(SectionInput& input)
                 "the upstream face slopes from the heel to this height and is vertical above", "30",
                 at(&S::upstream_slope_height)),
          number("base_inclination", angle, Range::inside(-45, 45), "0",
-                "dip of the base, positive downstream: the toe lies below the heel", "5", at(&S::base_inclination))},
+                "dip of the base, positive downstream: the toe lies below the heel", "5", at(&S::base_inclination)),
+         number("slope_height", length, Range::above(0), "no rock slope",
+                "rock slope: crest above the line where the plane comes out in the face", "12", at(&S::slope_height)),
+         number("face_dip", angle, Range::inside(0, 90), "required with slope_height", "rock slope: dip of the face",
+                "60", at(&S::face_dip)),
+         number("plane_dip", angle, Range::inside(0, 45), "required with slope_height",
+                "rock slope: dip of the plane the block slides on", "35", at(&S::plane_dip)),
+         number("crack_distance", length, Range::any(), "required with slope_height",
+                "rock slope: the vertical tension crack behind the crest, horizontally; negative: in the face. Water "
+                "in the crack is [reservoir], its level_m the depth above the foot of the crack",
+                "4", at(&S::crack_distance)),
+         number("upper_dip", angle, Range::inside(-45, 45), "0",
+                "rock slope: dip of the ground behind the crest, positive: it falls towards the crest", "5",
+                at(&S::upper_dip))},
         [&input](Scene&) -> void* { return &input; },
         [&input](const Scene& s) {
             input = SectionInput{};

@@ -10,6 +10,7 @@ void add_block_cases(Registry& registry);
 void add_empirical_cases(Registry& registry);
 void add_load_cases(Registry& registry);
 void add_equilibrium_cases(Registry& registry);
+void add_neighbour_cases(Registry& registry);
 void add_fe_core_cases(Registry& registry);
 void add_fe_modes_cases(Registry& registry);
 void add_fe_fluid_cases(Registry& registry);
