@@ -4,7 +4,6 @@
 #include "cli/accuracy/accuracy_tables.hpp"
 #include "cli/accuracy/climb.hpp"
 #include "cli/accuracy/cost_figure.hpp"
-#include "cli/accuracy/processor_time.hpp"
 #include "cli/accuracy/rung_runner.hpp"
 #include "cli/accuracy/variant.hpp"
 #include "cli/show/fe_output.hpp"
@@ -12,6 +11,7 @@
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
+#include "core/processor_clock.hpp"
 #include "core/units.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
@@ -78,7 +78,7 @@ struct Loaded {
 
 Loaded load(const AccuracyArguments& a)
 {
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     Loaded loaded{read_run_scene(a.inputs), {}, 0.0, 0};
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)

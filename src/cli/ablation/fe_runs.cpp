@@ -1,9 +1,9 @@
 #include "cli/ablation/ablation_runs.hpp"
 
-#include "cli/ablation/processor_clock.hpp"
 #include "cli/run/contact_options.hpp"
 #include "cli/run/fe_inputs.hpp"
 #include "cli/show/contact_tables.hpp"
+#include "core/processor_clock.hpp"
 
 #include <algorithm>
 #include <cmath>

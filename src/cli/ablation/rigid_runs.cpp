@@ -1,8 +1,8 @@
 #include "cli/ablation/ablation_runs.hpp"
 
-#include "cli/ablation/processor_clock.hpp"
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/seepage_source.hpp"
+#include "core/processor_clock.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

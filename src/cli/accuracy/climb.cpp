@@ -1,6 +1,6 @@
 #include "cli/accuracy/climb.hpp"
 
-#include "cli/accuracy/processor_time.hpp"
+#include "core/processor_clock.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ RungResult run_repeatedly(const Rung& rung, int repeats, const ClimbCalls& calls
 
 std::vector<RungResult> climb(const LadderFacts& facts, const ClimbOptions& options, const ClimbCalls& calls)
 {
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     std::vector<RungResult> results;
     while (const std::optional<Rung> rung = next_rung(facts, options.ladder, results)) {
         if (calls.interrupted && calls.interrupted()) break;

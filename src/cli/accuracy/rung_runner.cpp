@@ -1,7 +1,6 @@
 #include "cli/accuracy/rung_runner.hpp"
 
 #include "cli/accuracy/peak_memory.hpp"
-#include "cli/accuracy/processor_time.hpp"
 #include "cli/accuracy/regression_rungs.hpp"
 #include "cli/accuracy/variant.hpp"
 #include "cli/run/contact_law.hpp"
@@ -10,6 +9,7 @@
 #include "cli/run/reducible.hpp"
 #include "cli/run/rigid_model.hpp"
 #include "core/input_error.hpp"
+#include "core/processor_clock.hpp"
 #include "core/units.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
@@ -109,7 +109,7 @@ RungResult RungRunner::run(const Rung& rung) const
     RungResult result;
     result.rung = rung;
     const PeakMemory memory;
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     try {
         const Scene scene = scene_of(scene_, rung);
         if (rung.family == RungFamily::regression)
@@ -132,7 +132,7 @@ RungResult RungRunner::run(const Rung& rung) const
 
 void RungRunner::run_regression(const Rung& rung, RungResult& result) const
 {
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     SeepageSource seepage;
     const EffectPlan plan = make_effect_plan(scene_, Method::rigid_block);
     const Scene scene = called_for(plan, scene_);
@@ -156,7 +156,7 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
 
 void RungRunner::run_rigid(const Scene& given, RungResult& result) const
 {
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     SeepageSource seepage;
     const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
     const Scene scene = called_for(plan, given);
@@ -176,7 +176,7 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
 
 void RungRunner::run_finite_elements(const Scene& given, RungResult& result) const
 {
-    const ProcessorTime clock;
+    const ProcessorClock clock(ProcessorTimeOf::process);
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = fe_scene(given, plan);
     if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) resolve_dam_period(scene);
