@@ -47,9 +47,10 @@ double complementarity_residual(const ContactProblem& problem, const ContactSolu
         const double normal = solution.force[i], shear = solution.force[m + i];
         const double opening = solution.displacement[i] * problem.stiffness(i, i);
         const double slip = solution.displacement[m + i] * problem.stiffness(m + i, m + i);
-        const double strength = problem.law.strength(i, normal);
-        const double normal_residual =
-            problem.law.separation == Separation::allowed ? std::min(normal, opening) : opening;
+        const bool may_open = problem.law.separation == Separation::allowed;
+        const bool parted = may_open ? opening > 0.0 : normal < 0.0; // then there is no shear, cohesion or not
+        const double strength = parted ? 0.0 : problem.law.strength(i, normal);
+        const double normal_residual = may_open ? std::min(normal, opening) : opening;
         // λ_t is its own projection on [-strength, strength] after a step against the slip.
         const double shear_residual = shear - std::clamp(shear - slip, -strength, strength);
         largest = std::max({largest, std::abs(normal_residual), std::abs(shear_residual)});

@@ -179,4 +179,26 @@ TEST(FeContactSolver, a_mechanism_is_reported)
     EXPECT_TRUE(report.mechanism);
 }
 
+// A pair pulled apart, or one that is pulled and may not part, carries no shear whatever its cohesion: λ⁰ = (-2, 1) with
+// V = diag(4, 1) opens by 0.5 and slips by -1. That is the solution, so nothing of the contact conditions is violated.
+TEST(FeContactSolver, cohesion_does_not_count_where_the_joint_has_parted)
+{
+    const MatrixXd stiffness = Eigen::Vector2d(4.0, 1.0).asDiagonal().toDenseMatrix();
+    const VectorXd stuck = Eigen::Vector2d(-2.0, 1.0);
+    for (const Separation separation : {Separation::allowed, Separation::none}) {
+        ContactLaw law = uniform_law(1, 0.5, 10.0);
+        law.separation = separation;
+        ContactSolver solver(stiffness);
+        ContactSolution s;
+        const ContactReport report = solver.solve(stuck, law, s);
+        EXPECT_TRUE(report.resolved());
+        EXPECT_EQ(s.force[1], 0.0);
+        EXPECT_NEAR(s.displacement[1], -1.0, 1e-15);
+        EXPECT_LT(report.residual, 1e-14);
+        // With shear left on it, it is one.
+        s.force[1] = 1.0;
+        EXPECT_NEAR(complementarity_residual({stiffness, stuck, law}, s), 1.0, 1e-14);
+    }
+}
+
 } // namespace
