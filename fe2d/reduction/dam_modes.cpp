@@ -129,7 +129,7 @@ DamModes dam_modes(const ContactStructure& structure, int elastic)
     modes.on_plane.resize(2 * m, 3 + count);
     for (Index i = 0; i < 3 + count; ++i) modes.on_plane.col(i) = plane.to_plane(VectorXd(shape.col(i).tail(2 * m)));
     const Mesh& mesh = structure.model().mesh;
-    const Index crest = 2 * structure.order().new_node[static_cast<std::size_t>(mesh.crest.front())];
+    const Index crest = 2 * structure.order().new_node[static_cast<std::size_t>(mesh.crest.back())];
     modes.crest = shape.row(crest).transpose();
     modes.ground_x = shape.transpose() * structure.inertia_x();
     modes.ground_y = shape.transpose() * structure.inertia_y();

@@ -65,7 +65,7 @@ HistoryRecorder::HistoryRecorder(const DynamicContact& dynamics, RunHistory& his
       to_middle_(weights_at_middle(dynamics.structure().plane()))
 {
     const Mesh& mesh = dynamics.structure().model().mesh;
-    crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.front()];
+    crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.back()];
     crest_start_ = dynamics.state().u[crest_];
     history_ = {};
     history_.lifts.resize(static_cast<std::size_t>(dynamics.structure().planes().count() - 1));

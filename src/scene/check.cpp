@@ -375,6 +375,25 @@ void check_acoustic_water(const Reservoir& water, Findings& f)
                 fmt::format("write  mesh_size_m = {}", shortest(water.level / 20)));
 }
 
+/// Goldgruber & Feldbacher's mass (3-10) is of faces within 30 degrees.
+void check_face_of_added_mass(const Scene& s, Findings& f)
+{
+    if (s.added_mass.formula != AddedMassFormula::goldgruber || !s.reservoir ||
+        s.reservoir->model == ReservoirModel::hydrostatic)
+        return;
+    const Polyline face = upstream_face(s.section);
+    for (std::size_t i = 0; i + 1 < face.size(); ++i) {
+        const double angle = std::atan2(face[i + 1].x - face[i].x, face[i + 1].y - face[i].y) / units::degree;
+        if (face[i].y >= s.reservoir->level || angle <= 30.0 * (1.0 + 1e-12)) continue;
+        f.wrong(
+            "added_mass.formula",
+            fmt::format("added_mass.formula = \"goldgruber\" with a wet face {:.4g} degrees from the vertical.", angle),
+            "a wet upstream face within 0 to 30 degrees of the vertical, the range of (3-10)",
+            "use added_mass.formula = \"zangar\" or \"westergaard\"");
+        return;
+    }
+}
+
 void check_water(const Scene& s, Findings& f)
 {
     if (s.stages.pore_pressure != PorePressure::none && s.reservoir && s.reservoir->floor_pressure)
@@ -394,6 +413,7 @@ void check_water(const Scene& s, Findings& f)
                             value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
                 "metres above the heel", "check datum and unit");
     if (s.reservoir) check_acoustic_water(*s.reservoir, f);
+    check_face_of_added_mass(s, f);
     if (s.added_mass.period && s.reservoir) {
         const double h = s.reservoir->level, c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
         if (s.added_mass.formula == AddedMassFormula::westergaard && *s.added_mass.period <= 4 * h / c)

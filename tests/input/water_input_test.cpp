@@ -36,6 +36,28 @@ TEST(WaterInput, BottomIsDescribedOnce)
     EXPECT_NE(water_message("bottom_reflection = -1.5\n").find("-1 ... 1"), std::string::npos);
 }
 
+// Slope 1 up to 10 m, vertical above: 45 degrees, refused where that part is wet and the water has a mass.
+TEST(WaterInput, GoldgrubersMassIsOfSteepFaces)
+{
+    const std::string section =
+        "[section]\npolygon_m = [[0, 0], [45, 0], [22, 60], [10, 60], [10, 10]]\n[dam]\ndensity_kg_m3 = 2500\n"
+        "[contact]\nfriction = 0.77\n[added_mass]\nformula = \"goldgruber\"\n[reservoir]\n";
+    const auto message = [&](const std::string& reservoir) -> std::string {
+        try {
+            parse_scene(section + reservoir, "dam.toml", FileCheck::skip);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "(accepted)";
+    };
+    EXPECT_EQ(message("level_m = 50\n"),
+              "dam.toml:8:1: error: added_mass.formula = \"goldgruber\" with a wet face 45 degrees from the vertical.\n"
+              "  expected: a wet upstream face within 0 to 30 degrees of the vertical, the range of (3-10)\n"
+              "  fix:      use added_mass.formula = \"zangar\" or \"westergaard\"");
+    EXPECT_EQ(message("level_m = 50\nmodel = \"hydrostatic\"\n"), "(accepted)");
+    EXPECT_EQ(message("level_m = 0\n"), "(accepted)");
+}
+
 TEST(WaterInput, MeshNeedsFourElementsOverTheDepth)
 {
     EXPECT_NE(water_message("mesh_size_m = 20\n").find("leaves fewer than four elements over the depth of 62.5 m"),
