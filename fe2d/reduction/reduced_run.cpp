@@ -114,18 +114,21 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     result.pair_opening = end.opening;
 }
 
-double ReducedRun::truncation_error(const Motion& motion, const Contact& contact, const ContactMemory& rest) const
+std::optional<double> ReducedRun::truncation_error(const Motion& motion, const Contact& contact,
+                                                   const ContactMemory& rest) const
 {
     if (!coarse_system_) return 0.0;
     const ContactMemory memory = coarse_.coarsened(rest);
     Motion coarse_motion = motion;
     coarse_motion.contact.landing = Landing::ringing; // few pairs land together: jolts that the full plane has not
+    bool interrupted = false;
     const auto slips = [&](const ReducedSystem& system) {
         Strength strength(contact, coarse_.plane());
         strength.set_separation(*options_.separation);
         strength.follow(memory);
         ReducedResult result;
         shake(coarse_motion, coarse_.plane(), system, strength, memory, result);
+        interrupted = interrupted || result.status == RunStatus::interrupted;
         return result.history.slip;
     };
     const double modes = static_cast<double>(coarse_system_->modes.count() - 3);
@@ -133,9 +136,11 @@ double ReducedRun::truncation_error(const Motion& motion, const Contact& contact
     const double fewer = static_cast<double>(coarse_fewer_->modes.count() - 3);
     const std::vector<double> kept = slips(*coarse_system_);
     const double to_more = largest_difference(kept, slips(*coarse_reference_));
+    if (interrupted) return std::nullopt;
     if (coarse_reference_->modes.complete) return to_more;
     if (fewer < 1.0) return to_more / (1.0 - modes / more); // one mode: none to compare with, n^-1 as if the slower
     const double from_fewer = largest_difference(slips(*coarse_fewer_), kept);
+    if (interrupted) return std::nullopt;
     // The error as n^-p: both differences tell it, and their ratio tells p.
     const auto gone = [&](double p) { return 1.0 - std::pow(modes / more, p); };
     const auto gained = [&](double p) { return std::pow(modes / fewer, p) - 1.0; };
@@ -203,7 +208,9 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         if (result.step_error <= *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
             break;
     }
-    result.truncation_error = truncation_error(loop, contact.value_or(scene_.contact), memory);
+    const std::optional<double> error = truncation_error(loop, contact.value_or(scene_.contact), memory);
+    if (!error) result.status = RunStatus::interrupted;
+    result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
     result.seconds.dynamics = clock.seconds();
 
     clock = Stopwatch();
@@ -215,7 +222,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.after = solve_stage(statics, structure, "after the earthquake", structure.split(after), strength, end);
     result.seconds.statics += clock.seconds();
 
-    if (result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    if (result.status != RunStatus::interrupted && result.counts.unresolved > 0) result.status = RunStatus::unresolved;
     result.message = fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * result.slip,
                                  1e3 * result.truncation_error, result.modes);
     return result;

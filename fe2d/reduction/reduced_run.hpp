@@ -5,6 +5,8 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 
+#include <optional>
+
 namespace damslip::fe2d {
 
 /// Values at the record's steps and in the run-out, the start included; slips and crest since the static state.
@@ -32,7 +34,8 @@ struct ReducedResult {
     double slip = 0.0;     ///< final, area mean, since the static state [m]
     double max_slip = 0.0; ///< largest |slip| on the way [m]
     double truncation_error =
-        0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are
+        0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
+             ///< NaN: interrupted
     double step_error = 0.0;        ///< estimate of what the time step leaves open [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
     double highest_frequency = 0.0; ///< of them [Hz]
@@ -71,7 +74,9 @@ private:
     /// From rest to the end of the run-out; history, slip, counts and contact at the end go into `result`.
     void shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
                const ContactMemory& rest, ReducedResult& result) const;
-    double truncation_error(const Motion& motion, const Contact& contact, const ContactMemory& rest) const;
+    /// @returns nothing when one of its runs was interrupted
+    std::optional<double> truncation_error(const Motion& motion, const Contact& contact,
+                                           const ContactMemory& rest) const;
 
     const EarthquakeRun& full_;
     Scene scene_;

@@ -85,6 +85,27 @@ TEST(FeReduction, all_modes_are_the_full_run_on_a_rigid_base)
     expect_full_run(scene, options, 0.8);
 }
 
+// A run stopped while its error is being estimated is not finished: its error would be that of a slip that was not
+// reached. Stopped at every hundredth question, the last one included.
+TEST(FeReduction, stopped_at_any_moment_it_is_interrupted)
+{
+    Scene scene = small_dam(0.75);
+    RunOptions options = options_of(scene);
+    options.halvings = 0;
+    const EarthquakeRun full(scene, options);
+    const GroundMotion motion = sines(1.5, 2.0);
+    long asked = 0, stop_at = 0;
+    options.progress = [&](const RunProgress&) { return ++asked == stop_at ? RunAnswer::stop : RunAnswer::go_on; };
+    const ReducedRun reduced(full, scene, options, 6);
+    EXPECT_NE(reduced.run(motion).status, RunStatus::interrupted);
+    const long all = asked;
+    ASSERT_GT(all, 4 * 200); // one run and three for its error
+    for (stop_at = all; stop_at > 0; stop_at -= 100) {
+        asked = 0;
+        EXPECT_EQ(reduced.run(motion).status, RunStatus::interrupted) << stop_at << " of " << all;
+    }
+}
+
 // φᵀMφ = 1 and the flexibility of all modes together: what is kept and what is left out add up to the same whole.
 TEST(FeReduction, kept_and_residual_flexibility_add_up)
 {
