@@ -3,7 +3,9 @@
 set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgsl-dev libsuitesparse-dev libopenblas-dev libcli11-dev libtomlplusplus-dev
           nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev)
-[ "${1:-}" = tests ] && packages+=(libgtest-dev)
+for part in "$@"; do
+    case "$part" in tests) packages+=(libgtest-dev) ;; coverage) packages+=(gcovr) ;; esac
+done
 missing=()
 for p in "${packages[@]}"; do
     dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")

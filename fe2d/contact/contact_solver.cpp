@@ -37,6 +37,20 @@ private:
     std::vector<std::uint64_t> marks_;
 };
 
+/// Takes the cohesion of open pairs that carry shear. @returns whether there was one
+bool break_open_pairs(const ContactSolution& solution, double tolerance, ContactLaw& law)
+{
+    bool any = false;
+    const Index m = law.pairs();
+    for (Index i = 0; i < m; ++i)
+        if (solution.states[static_cast<std::size_t>(i)] == ContactState::open && law.cohesion[i] > 0.0 &&
+            std::abs(solution.force[m + i]) > tolerance) {
+            law.cohesion[i] = 0.0;
+            any = true;
+        }
+    return any;
+}
+
 } // namespace
 
 ContactState next_state(const ContactProblem& problem, const ContactSolution& solution, Index pair, double tolerance)
@@ -148,44 +162,24 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
             return finish(ContactPath::gauss_seidel);
         }
     }
-    if (law.separation == Separation::allowed) {
-        ContactLaw left = law;
-        if (last_resort(problem, left, solution, report, tolerance)) {
-            report.path = ContactPath::lemke;
-            report.residual = complementarity_residual({*stiffness_, stuck_force, left}, solution) / scale;
-            return report;
-        }
-    }
-    return finish(ContactPath::unresolved);
-}
-
-/// Cohesion that an open pair has not makes the law jump, and there need not be a solution: shut, the cohesion pulls the
-/// pair open; open, it shuts. To Lemke's method strength is c + mu λ_n of open pairs too. A pair that it leaves open under
-/// shear has broken in this step: it loses its cohesion in `law`, and the problem is solved again.
-bool ContactSolver::last_resort(const ContactProblem& problem, ContactLaw& law, ContactSolution& solution,
-                                ContactReport& report, double tolerance)
-{
-    const Index m = law.pairs();
-    const ContactProblem broken{problem.stiffness, problem.stuck_force, law};
-    for (bool breaks = true; breaks;) { // each time round one pair more at least, so m + 1 times at most
+    // Cohesion that an open pair has not makes the law jump, and there need not be a solution: shut, the cohesion pulls the
+    // pair open; open, it shuts. To Lemke's method strength is c + mu λ_n of open pairs too. A pair that it leaves open
+    // under shear has broken in this step: without its cohesion the problem is solved again.
+    ContactLaw left = law;
+    const ContactProblem broken{*stiffness_, stuck_force, left};
+    for (Index k = 0; k <= m && law.separation == Separation::allowed; ++k) { // one pair more each time at least
         int pivots = 0;
         ContactSolution last = solution;
-        if (!solve_by_lemke(broken, last, pivots)) return false;
+        if (!solve_by_lemke(broken, last, pivots)) break;
         ContactSolution polished = last;
-        breaks = false;
-        if (newton(broken, polished, report, tolerance)) {
-            solution = polished;
-            return true;
-        }
-        for (Index i = 0; i < m; ++i)
-            if (last.states[static_cast<std::size_t>(i)] == ContactState::open && law.cohesion[i] > 0.0 &&
-                std::abs(last.force[m + i]) > tolerance) {
-                law.cohesion[i] = 0.0;
-                breaks = true;
-            }
-        if (!breaks) solution = last;
+        const bool settled = newton(broken, polished, report, tolerance);
+        if (!settled && break_open_pairs(last, tolerance, left)) continue;
+        solution = settled ? polished : last;
+        report.path = ContactPath::lemke;
+        report.residual = complementarity_residual(broken, solution) / scale;
+        return report;
     }
-    return true;
+    return finish(ContactPath::unresolved);
 }
 
 bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution)

@@ -22,8 +22,7 @@ enum class Landing {
 };
 
 struct ContactOptions {
-    Landing landing =
-        Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
+    Landing landing = Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
     double tangential_stiffness =
         0.0; ///< k of a penalty in front of Coulomb's law (ElasticStick) [N/m³]; 0: sticking is rigid, exact
     double slip_tolerance = 0.0; ///< F_f of elastic slip that follows the pressure (SlipTolerance) [-]; 0: none; > 0:
@@ -75,8 +74,6 @@ public:
 private:
     bool newton(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
     bool one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
-    bool last_resort(const ContactProblem& problem, ContactLaw& law, ContactSolution& solution, ContactReport& report,
-                     double tolerance);
     bool evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report);
 
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;

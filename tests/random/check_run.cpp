@@ -1,0 +1,196 @@
+#include "random/check_run.hpp"
+
+#include "cli/program.hpp"
+#include "scene/read.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace damslip::random {
+
+// Every term of the ledger comes from the states, what is missing is round-off: in proportion to the terms, and where
+// hardly anything moves, to the work of the weight over the last digits of the dam's displacements (largest_rounding).
+const double energy_tolerance = 1e-6;
+
+namespace {
+
+using nlohmann::json;
+
+struct Answer {
+    int code = 0;
+    std::string out, talk;
+};
+
+Answer answer_of(const std::vector<std::string>& arguments)
+{
+    std::ostringstream out, talk;
+    const int code = cli::run_program(arguments, out, talk, false);
+    return {code, out.str(), talk.str()};
+}
+
+class Checker {
+public:
+    explicit Checker(CheckedRuns& runs) : runs_(runs) {}
+
+    template <class... Values>
+    void demand(bool holds, fmt::format_string<Values...> text, Values&&... values)
+    {
+        if (!holds) runs_.findings.push_back(fmt::format(text, std::forward<Values>(values)...));
+    }
+
+private:
+    CheckedRuns& runs_;
+};
+
+bool is_number(const json& row, const char* key)
+{
+    return row.contains(key) && row[key].is_number() && std::isfinite(row[key].get<double>());
+}
+
+void demand_numbers(Checker& check, const char* what, const json& row, std::initializer_list<const char*> keys)
+{
+    for (const char* key : keys) check.demand(is_number(row, key), "{}: {} is not a number", what, key);
+}
+
+/// What every answer has in common.
+void check_answer(Checker& check, const char* command, const Answer& a)
+{
+    check.demand(a.code == 0 || a.code == 3 || a.code == 4, "{}: exit code {}: {}", command, a.code, a.talk);
+    const json j = json::parse(a.out, nullptr, false);
+    check.demand(!j.is_discarded(), "{}: the answer is not JSON", command);
+    if (a.code != 3 || j.is_discarded()) return;
+    const bool sentences = j.contains("error") && !j["error"]["diagnostics"].empty();
+    check.demand(sentences, "{}: refused without a sentence", command);
+    if (!sentences) return;
+    for (const json& d : j["error"]["diagnostics"]) {
+        check.demand(!d["file"].get<std::string>().empty(), "{}: no file named: {}", command, d["message"].dump());
+        check.demand(!d["message"].get<std::string>().empty(), "{}: an empty sentence", command);
+        check.demand(!d["fix"].get<std::string>().empty() || !d["expected"].get<std::string>().empty(),
+                     "{}: neither what is allowed nor a fix: {}", command, d["message"].dump());
+    }
+}
+
+void check_screen(Checker& check, const json& j)
+{
+    static const std::set<std::string> known{"at rest", "sliding at end", "slides statically", "static sliding",
+                                             "unresolved"};
+    for (const json& row : j["displacements"]) {
+        const std::string status = row["status"];
+        if (status != "at rest" && status != "sliding at end") continue;
+        demand_numbers(check, "screen", row, {"slip_h_mm", "max_slip_m", "upstream_slip_mm", "pga_m_s2"});
+        if (!is_number(row, "max_slip_m")) continue;
+        const double judged = row[is_number(row, "slip_hv_mm") ? "slip_hv_mm" : "slip_h_mm"].get<double>();
+        check.demand(std::abs(judged) <= 1e3 * row["max_slip_m"].get<double>() * (1 + 1e-12),
+                     "screen: slip {} mm above the largest", judged);
+        check.demand(row["upstream_slip_mm"].get<double>() >= 0, "screen: negative upstream slip");
+    }
+}
+
+void check_contact_row(Checker& check, const json& row)
+{
+    static const std::set<std::string> known{"at rest",        "sliding at end", "static failure", "UNRESOLVED",
+                                             "LEFT THE PLANE", "DIVERGED",       "MODEL FAILED"};
+    const std::string status = row["status"];
+    check.demand(known.contains(status), "fe: unknown status {}", status);
+    if (status == "static failure" || status == "MODEL FAILED") return;
+    demand_numbers(check, "fe", row, {"slip_mm", "max_slip_m", "steps", "dt_s", "residual"});
+    if (status != "at rest" && status != "sliding at end") return;
+    demand_numbers(check, "fe", row, {"energy_error"});
+    check.demand(row["residual"].get<double>() <= 1e-6, "fe: contact residual {} of N'", row["residual"].get<double>());
+    check.demand(std::abs(row["slip_mm"].get<double>()) <= 1e3 * row["max_slip_m"].get<double>() * (1 + 1e-9) + 1e-12,
+                 "fe: slip {} mm above the largest", row["slip_mm"].get<double>());
+}
+
+/// Friction's work goes by the trapezoid: a step in which shear or pressure turns may give back a little.
+/// @param elastic  contact gives way before it slips, and its friction column holds what that stores and gives back
+/// @param rounding  work of the weight over 1e-12 of the dam's height [J/m]
+void check_energy(Checker& check, const json& fe, bool elastic, double rounding)
+{
+    for (const json& row : fe["energy"]) {
+        demand_numbers(
+            check, "fe", row,
+            {"kinetic_J_m", "strain_J_m", "friction_J_m", "external_J_m", "imbalance_J_m", "imbalance_share"});
+        if (!is_number(row, "imbalance_J_m") || !is_number(row, "imbalance_share")) continue;
+        const double missing = std::abs(row["imbalance_J_m"].get<double>()), share = row["imbalance_share"];
+        check.demand(share <= energy_tolerance || missing <= rounding,
+                     "fe: {} J/m are missing, {} of the largest energy", missing, share);
+        check.demand(elastic ||
+                         row["friction_J_m"].get<double>() >= -0.01 * missing / std::max(share, 1e-300) - rounding,
+                     "fe: friction gave {} J/m back", -row["friction_J_m"].get<double>());
+    }
+}
+
+/// Friction that holds the dam before the earthquake by the FE loads and by the rigid block's, where they mean the same:
+/// no cohesion, no crack, no ice (of the sliding computations only), no water in the rock.
+void check_critical_friction(Checker& check, const Scene& scene, const json& screen, const json& fe)
+{
+    if (scene.contact.cohesion > 0 || scene.ice || scene.stages.pore_pressure != PorePressure::none ||
+        (scene.uplift && scene.uplift->crack != CrackRule::none))
+        return;
+    json last;
+    for (const json& stage : fe["stages"])
+        if (stage["record"] == "all" && stage["stage"].get<std::string>().find(',') == std::string::npos) last = stage;
+    const json& yield = screen["yield"][0];
+    if (last.is_null() || last["status"] != "stands" || // a failed stage does not have all loads
+        !is_number(last, "friction_needed") || !is_number(yield, "critical_friction"))
+        return;
+    const double by_fe = last["friction_needed"], by_block = yield["critical_friction"];
+    check.demand(std::abs(by_fe - by_block) <= 1e-6 * (1 + by_block),
+                 "friction that holds: {} by FE, {} by the rigid block", by_fe, by_block);
+}
+
+/// A run again gives the same bytes, but for the seconds.
+std::string without_seconds(const std::string& answer)
+{
+    std::istringstream in(answer);
+    std::string kept;
+    for (std::string line; std::getline(in, line);)
+        if (line.find("seconds\":") == std::string::npos) kept += line + "\n";
+    return kept;
+}
+
+} // namespace
+
+CheckedRuns check_run(const std::filesystem::path& scene)
+{
+    CheckedRuns runs;
+    Checker check(runs);
+    const Answer screen = answer_of({"screen", scene.string(), "--json"});
+    const Answer fe = answer_of({"fe", scene.string(), "--json"});
+    runs.screen_code = screen.code;
+    runs.fe_code = fe.code;
+    check_answer(check, "screen", screen);
+    check_answer(check, "fe", fe);
+    if (!runs.findings.empty()) return runs;
+
+    if (fe.code == 3) runs.refusal = json::parse(fe.out)["error"]["diagnostics"][0]["message"];
+    const json screened = json::parse(screen.out), ran = json::parse(fe.out);
+    if (screened.contains("displacements")) check_screen(check, screened);
+    if (ran.contains("runs")) {
+        bool proper = true;
+        for (const json& row : ran["runs"]) {
+            runs.status = row["status"];
+            check_contact_row(check, row);
+            proper = proper &&
+                     (runs.status == "at rest" || runs.status == "sliding at end" || runs.status == "static failure");
+        }
+        check.demand(fe.code == (proper ? 0 : 4), "fe: exit code {} with status {}", fe.code, runs.status);
+        check.demand(without_seconds(answer_of({"fe", scene.string(), "--json"}).out) == without_seconds(fe.out),
+                     "fe: other bytes when run again");
+        const Scene read = read_scene(scene);
+        double top = 0.0;
+        for (const Point& p : read.section.polygon) top = std::max(top, p.y);
+        if (proper)
+            check_energy(check, ran, read.contact.enforcement != ContactEnforcement::exact,
+                         1e-12 * read.dam.density * read.gravity * area(read.section) * top);
+        if (screened.contains("yield")) check_critical_friction(check, read, screened, ran);
+    }
+    return runs;
+}
+
+} // namespace damslip::random
