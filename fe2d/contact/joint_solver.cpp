@@ -67,11 +67,35 @@ bool JointSolver::lands(const ContactStates& before, const ContactStates& now) c
     return false;
 }
 
+bool JointSolver::shuts(const ContactStates& before, const ContactStates& now) const
+{
+    const auto open = [](ContactState state) { return state == ContactState::open; };
+    return lands_ && std::all_of(before.begin(), before.end(), open) && !std::all_of(now.begin(), now.end(), open);
+}
+
 bool JointSolver::land(const ContactLaw& law, const VectorXd& rate, ContactSolution& jumps)
 {
-    VectorXd held = VectorXd::Zero(rate.size());
-    for (Eigen::Index gap = 0; gap < rate.size(); ++gap)
-        if (holds(jumps.states, gap)) held[gap] = -rate[gap];
+    const auto m = static_cast<Eigen::Index>(jumps.states.size());
+    for (bool turned = true; turned;) {
+        if (!hold(law, rate, jumps)) return false;
+        turned = false;
+        for (Eigen::Index i = 0; i < m; ++i) {
+            ContactState& state = jumps.states[static_cast<std::size_t>(i)];
+            const double after = rate[m + i] + jumps.displacement[m + i];
+            const bool back = (state == ContactState::slip_downstream && after < 0.0) ||
+                              (state == ContactState::slip_upstream && after > 0.0);
+            if (back) state = ContactState::stick;
+            turned = turned || back;
+        }
+    }
+    return true;
+}
+
+bool JointSolver::hold(const ContactLaw& law, const VectorXd& values, ContactSolution& jumps)
+{
+    VectorXd held = VectorXd::Zero(values.size());
+    for (Eigen::Index gap = 0; gap < values.size(); ++gap)
+        if (holds(jumps.states, gap)) held[gap] = -values[gap];
     return rigid_->land(law, held, jumps);
 }
 

@@ -33,9 +33,14 @@ public:
     /// Do gaps come to be held between two sets of states, so that land() has to bring them to rest? Never where
     /// sticking or shutting is elastic, or by the options.
     bool lands(const ContactStates& before, const ContactStates& now) const;
-    /// Impulses that make the rates of all held gaps zero (ContactSolver::land()). @returns false for a mechanism.
-    /// @param rate  of all gaps, 2m @param jumps  states on entry; changes of the rates, and impulses
+    /// Does a body that flew, every pair open, shut some pair between two sets of states? False where lands() is.
+    bool shuts(const ContactStates& before, const ContactStates& now) const;
+    /// Impulses that make the rates of all held gaps zero (ContactSolver::land()). Friction stops a slipping pair, it does
+    /// not turn it round: such pairs come to stick. @returns false for a mechanism.
+    /// @param rate  of all gaps, 2m @param jumps  states on entry and after; changes of the rates, and impulses
     bool land(const ContactLaw& law, const Eigen::VectorXd& rate, ContactSolution& jumps);
+    /// Forces that make `values` of all held gaps zero, with the states as they are. @returns false for a mechanism.
+    bool hold(const ContactLaw& law, const Eigen::VectorXd& values, ContactSolution& jumps);
 
 private:
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;

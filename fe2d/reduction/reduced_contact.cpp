@@ -101,22 +101,39 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     return report;
 }
 
-/// DynamicContact::land() in modal amplitudes.
-void ReducedContact::land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law)
+/// Changes of modes and massless body by forces on the pairs, into modal_step_ and massless_step_.
+/// @returns the change of the mean tangential gap
+double ReducedContact::change_by(ReducedOperator& op, const ContactSolution& jumps)
 {
-    const ContactStates& states = state_.contact.states;
-    if (!op.contact().lands(before, states)) return;
     const Index m = plane_.pairs();
-    const VectorXd rate = system_.modes.on_plane * state_.q_v + system_.flexibility * state_.p_v;
-    ContactSolution jumps{states, {}, {}};
-    if (!op.contact().land(law, rate, jumps)) return;
-    ++counts_.landings;
     const double slip = system_.weights.dot(jumps.displacement.tail(m));
     const VectorXd none = VectorXd::Zero(2 * m);
     op.finish(VectorXd::Zero(system_.modes.count()), none, none, jumps.force, slip, modal_step_, massless_step_);
+    return slip;
+}
+
+/// DynamicContact::land() and settle() in modal amplitudes.
+void ReducedContact::land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law)
+{
+    ContactStates& states = state_.contact.states;
+    if (!op.contact().lands(before, states)) return;
+    const bool shuts = op.contact().shuts(before, states);
+    const auto gaps = [&](const VectorXd& modes, const VectorXd& massless) {
+        return VectorXd(system_.modes.on_plane * modes + system_.flexibility * massless);
+    };
+    ContactSolution jumps{states, {}, {}};
+    const VectorXd rate = gaps(state_.q_v, state_.p_v);
+    if (!(shuts ? op.contact().land(law, rate, jumps) : op.contact().hold(law, rate, jumps))) return;
+    states = jumps.states;
+    ++counts_.landings;
+    rate_ += change_by(op, jumps);
     state_.q_v += modal_step_;
     state_.p_v += massless_step_;
-    rate_ += slip;
+    if (!shuts || !op.contact().hold(law, gaps(state_.q_a, state_.p_a), jumps)) return;
+    accel_ += change_by(op, jumps);
+    state_.q_a += modal_step_;
+    state_.p_a += massless_step_;
+    state_.contact.force += jumps.force / op.constants().a0;
 }
 
 double ReducedContact::mean_slip() const

@@ -36,6 +36,7 @@ public:
 
 private:
     ReducedOperator& operator_of(double dt);
+    double change_by(ReducedOperator& op, const ContactSolution& jumps);
     void land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
 

@@ -144,7 +144,15 @@ private:
     double slip_error() const;
     double dam_error() const;
 
+    /// Of dam and rock.
+    struct Change {
+        Eigen::VectorXd dam, rock;
+    };
+    Eigen::VectorXd gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock,
+                               const Eigen::VectorXd& tangential) const;
+    Change change_by(const ContactSolution& jumps) const;
     void land(const ContactStates& before, const ContactLaw& law);
+    void settle(JointSolver& solver, const ContactLaw& law);
     void multiply(const StepConstants& constants);
     WaterLedger::Instant water_instant() const;
     void start_ledger();

@@ -5,38 +5,53 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The impulses go through the operator of the step, as its forces do; what kinetic energy they take counts as
-/// numerical.
-void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
+/// Normal and tangential gaps of any motion of dam and rock; the tangential ones are kept by themselves.
+VectorXd DynamicContact::gap_values(const VectorXd& dam, const VectorXd& rock, const VectorXd& tangential) const
 {
-    JointSolver& solver = *problems_[op_].solver;
-    const ContactStates& states = state_.contact.states;
-    if (!solver.lands(before, states)) return;
+    VectorXd gap = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
+    if (structure_.has_rock()) gap -= trace_ * rock;
+    gap.tail(tangential.size()) = tangential;
+    return gap;
+}
+
+/// What forces on the pairs change of dam and rock, through the operator of the step, as its own forces do.
+DynamicContact::Change DynamicContact::change_by(const ContactSolution& jumps) const
+{
     const Index m = structure_.pairs(), base = structure_.rock_nodes();
-    VectorXd rate = structure_.planes().gaps() * state_.v.tail(2 * structure_.interface());
-    if (structure_.has_rock()) rate -= trace_ * state_.rock_v;
-    rate.tail(m) = rate_t_;
-    ContactSolution jumps{states, {}, {}};
-    if (!solver.land(law, rate, jumps)) return;
-    ++counts_.landings;
-    const VectorXd& jump = jumps.displacement;
     DynamicOperator::Free free;
     free.dam = VectorXd::Zero(state_.v.size());
     free.interface = VectorXd::Zero(2 * structure_.interface());
     free.mean = VectorXd::Zero(structure_.planes().count());
     VectorXd tilde;
-    op_->finish(free, jumps.force, VectorXd::Zero(2 * m), jump, tilde);
+    op_->finish(free, jumps.force, VectorXd::Zero(2 * m), jumps.displacement, tilde);
     op_->factor().backward(free.dam);
-
-    const VectorXd& change = free.dam;
-    state_.v += change;
-    VectorXd rock_change(2 * base);
+    Change change{std::move(free.dam), VectorXd(2 * base)};
     if (structure_.matching()) {
-        const VectorXd rock = structure_.planes().gaps() * free.interface - jump;
-        rock_change << rock.head(base), rock.segment(m, base);
+        const VectorXd rock = structure_.planes().gaps() * free.interface - jumps.displacement;
+        change.rock << rock.head(base), rock.segment(m, base);
     } else if (structure_.has_rock()) {
-        rock_change = -op_->rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
+        change.rock = -op_->rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
     }
+    return change;
+}
+
+/// Velocities of held gaps become zero by impulses; what kinetic energy they take counts as numerical. After a flight
+/// accelerations follow.
+void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
+{
+    JointSolver& solver = *problems_[op_].solver;
+    ContactStates& states = state_.contact.states;
+    if (!solver.lands(before, states)) return;
+    const bool shuts = solver.shuts(before, states);
+    const Index m = structure_.pairs();
+    ContactSolution jumps{states, {}, {}};
+    const VectorXd rate = gap_values(state_.v, state_.rock_v, rate_t_);
+    if (!(shuts ? solver.land(law, rate, jumps) : solver.hold(law, rate, jumps))) return;
+    states = jumps.states;
+    ++counts_.landings;
+    const VectorXd& jump = jumps.displacement;
+    const auto [change, rock_change] = change_by(jumps);
+    state_.v += change;
     state_.rock_v += rock_change;
     rate_t_ += jump.tail(m);
     for (Index i = 0; i < m; ++i)
@@ -78,7 +93,39 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
         water_.jolt = jolt;
     }
     energy_.numerical += before_landing - energy_.kinetic - energy_.strain;
+    if (shuts && !structure_.water()) settle(solver, law);
     gather_forces(forces_);
+}
+
+/// A gap v Δt wide that shuts within a step leaves its end with an acceleration of up to v/(β Δt) away from the plane,
+/// and a force as large: the next steps would throw the body back, and friction would have met the force, not the
+/// impulse m v. Held gaps stand still: their accelerations become zero, forces on the pairs with them, M δa = w Bᵀδλ.
+/// Through the step's operator that holds but for (w/a0)(a1 C + K) δa, which the ledger of the next step knows.
+void DynamicContact::settle(JointSolver& solver, const ContactLaw& law)
+{
+    const StepConstants& c = op_->constants();
+    const Index m = structure_.pairs();
+    const double w = 1.0 + c.scheme.alpha;
+    ContactSolution jumps{state_.contact.states, {}, {}};
+    if (!solver.hold(law, gap_values(state_.a, state_.rock_a, accel_t_), jumps)) return;
+    const auto [change, rock_change] = change_by(jumps);
+    state_.a += change;
+    state_.rock_a += rock_change;
+    accel_t_ += jumps.displacement.tail(m);
+    for (Index i = 0; i < m; ++i)
+        if (holds(state_.contact.states, m + i)) accel_t_[i] = 0.0;
+    const VectorXd force = jumps.force / c.a0;
+    state_.contact.force += force;
+
+    VectorXd stiffness_change, mass_change;
+    operators_->products().multiply(change, stiffness_change, mass_change);
+    products_.mass_2 += mass_change;
+    products_.stiffness_2 += damping_.constants.stiffness * w * c.a5 * stiffness_change;
+    landed_.dam += mass_change / w;
+    landed_.dam.tail(2 * structure_.interface()) -= structure_.planes().gaps().transpose() * force;
+    structure_.leave_dam_mass(mass_change, change);
+    products_.dam_mass_2 += mass_change;
+    if (structure_.has_rock()) landed_.rock += trace_.transpose() * force;
 }
 
 } // namespace damslip::fe2d

@@ -97,6 +97,11 @@ bool solve_by_complementarity(const ContactProblem& problem, double force, Vecto
     return true;
 }
 
+bool all_open(const ContactStates& states)
+{
+    return std::all_of(states.begin(), states.end(), [](ContactState state) { return state == ContactState::open; });
+}
+
 } // namespace
 
 StepRecords recorded_run(const Scene& scene, const RunOptions& options, const GroundMotion& motion)
@@ -120,7 +125,9 @@ StepRecords recorded_run(const Scene& scene, const RunOptions& options, const Gr
         StepRecord record;
         record.stuck_force = problem.stuck_force(dynamics.state(), ground);
         const VectorXd slip_before = dynamics.state().contact.slip;
+        const bool flying = all_open(dynamics.state().contact.states);
         record.report = dynamics.advance(motion.dt, ground, strength.law());
+        if (flying && !all_open(dynamics.state().contact.states)) continue; // forces are not the step's after a landing
         const ContactMemory& after = dynamics.state().contact;
         record.force = after.force;
         record.displacement.resize(2 * m);

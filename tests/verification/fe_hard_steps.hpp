@@ -21,7 +21,8 @@ struct StepRecords {
     std::vector<StepRecord> steps;
 };
 
-/// Runs a scene under a motion of one sample a step and writes down the contact problem of every step. The problems are
+/// Runs a scene under a motion of one sample a step and writes down the contact problem of every step but those in
+/// which a flight ends. The problems are
 /// put together here, from the states before the steps; the run is only asked for its answers.
 StepRecords recorded_run(const Scene& scene, const fe2d::RunOptions& options, const GroundMotion& motion);
 
