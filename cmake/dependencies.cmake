@@ -1,0 +1,22 @@
+# The libraries damslip is made of. Included by the build and by the installed damslipConfig.cmake.
+find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(GSL REQUIRED)
+find_package(fmt REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(Spectra REQUIRED)
+find_package(BLAS REQUIRED)
+
+# SuiteSparse before 6 ships no CMake configuration: found by header and library.
+if(NOT TARGET damslip_suitesparse)
+  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+  add_library(damslip_suitesparse INTERFACE IMPORTED GLOBAL)
+  target_include_directories(damslip_suitesparse SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+  foreach(part cholmod umfpack amd colamd camd ccolamd suitesparseconfig)
+    find_library(SUITESPARSE_${part} ${part} REQUIRED)
+    target_link_libraries(damslip_suitesparse INTERFACE ${SUITESPARSE_${part}})
+  endforeach()
+  target_link_libraries(damslip_suitesparse INTERFACE BLAS::BLAS ${CMAKE_DL_LIBS})
+endif()

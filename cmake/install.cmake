@@ -1,0 +1,46 @@
+# What `cmake --install` puts where:
+#   runtime      bin/damslip, man pages, shell completion, share/damslip with examples and records, share/doc/damslip
+#   development  include/damslip, lib/damslip/*.a, lib/cmake/damslip: find_package(damslip)
+include(CMakePackageConfigHelpers)
+
+# One library of damslip_folder. Its headers keep their paths ("scene/read.hpp") below include/damslip.
+function(damslip_install_library target)
+  string(REGEX REPLACE "^damslip_" "" name ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/damslip>)
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  install(TARGETS ${target} EXPORT damslipTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/damslip COMPONENT development)
+endfunction()
+
+function(damslip_install_package)
+  # All of a folder under one name; fe2d has its own.
+  add_library(damslip_records INTERFACE)
+  target_link_libraries(damslip_records INTERFACE
+    damslip_record records_read records_write records_measure records_transform records_generate)
+  add_library(damslip_sliding INTERFACE)
+  target_link_libraries(damslip_sliding INTERFACE
+    sliding_block sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
+  foreach(target damslip_records damslip_sliding fe2d)
+    damslip_install_library(${target})
+  endforeach()
+
+  foreach(folder src/core src/scene records sliding fe2d)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/damslip COMPONENT development
+            FILES_MATCHING PATTERN "*.hpp" PATTERN data EXCLUDE)
+  endforeach()
+  set(config ${CMAKE_INSTALL_LIBDIR}/cmake/damslip)
+  install(EXPORT damslipTargets NAMESPACE damslip:: DESTINATION ${config} COMPONENT development)
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/damslipConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/damslipConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake
+                ${PROJECT_BINARY_DIR}/damslipConfigVersion.cmake
+          DESTINATION ${config} COMPONENT development)
+endfunction()
+
+# The examples with the records they name (../records/data), and the documents.
+function(damslip_install_shared_files)
+  set(data ${CMAKE_INSTALL_DATADIR}/damslip)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data} COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/records/data DESTINATION ${data}/records COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+endfunction()
