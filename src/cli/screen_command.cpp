@@ -48,6 +48,7 @@ nlohmann::ordered_json summary(const Scene& given, const Scene& scene, const Scr
     if (!given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(given));
     j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
+    if (const auto block = flexible_block(scene)) j["flexible_block"] = json_of(flexible_table(s, *block));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s));
     j["warnings"] = s.warnings;
@@ -89,6 +90,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));
     show(slip_table(s, scene.criteria.allowable_slip));
+    if (const auto block = flexible_block(scene)) show(flexible_table(s, *block));
     show(statistics_table(s));
     for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
 }

@@ -742,11 +742,12 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          number("force_x", line_force, Range::any(), "0", "positive downstream", "50", at(&F::force_x)),
          number("force_y", line_force, Range::any(), "0", "positive up", "-200", at(&F::force_y))}));
     append(motion_groups());
-    groups.push_back(group("regressions", "Empirical regressions of the slip: what they need beyond the record.",
-                           &Scene::regressions,
-                           {number("period", seconds, Range::between(0, 10), "0 (rigid)",
-                                   "fundamental period of the sliding mass, for the regressions of flexible masses",
-                                   "0.3", at(&RegressionOptions::period))}));
+    groups.push_back(group(
+        "regressions", "Empirical regressions of the slip: what they need beyond the record.", &Scene::regressions,
+        {number("period", seconds, Range::between(0, 10), "0 (rigid)",
+                "fundamental period of the sliding mass: for the regressions of flexible masses; above 0 `screen` also "
+                "follows its vibration, decoupled from the slip and coupled to it",
+                "0.3", at(&RegressionOptions::period))}));
     using W = RegressionWeightKey;
     groups.push_back(list_group<W>(
         "regressions.weight",

@@ -1,13 +1,17 @@
 #include "core/units.hpp"
+#include "exact/flexible_slip.hpp"
 #include "exact/plane_failure.hpp"
 #include "exact/reference_scene.hpp"
 #include "scene/rock_slope.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/combinations.hpp"
+#include "sliding/flexible/flexible_slide.hpp"
 #include "verification/modules.hpp"
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace damslip::verification {
@@ -95,6 +99,145 @@ std::vector<damslip::verification::Check> plane_failure_range()
     return checks;
 }
 
+/// Mass 1 on a level base, g = 10 m/s^2.
+SlipStages level_block(double yield)
+{
+    RigidBlock block;
+    block.mass = 1.0;
+    block.gravity = 10.0;
+    block.friction = 0.1 * yield;
+    return {{0.0, block, 0.0}};
+}
+
+FlexibleBlock flexible(double period, double damping, double mass_ratio)
+{
+    FlexibleBlock block;
+    block.period = period;
+    block.damping_ratio = damping;
+    block.mass_ratio = mass_ratio;
+    return block;
+}
+
+GroundMotion sampled(const std::function<double(double)>& accel, double dt, int n)
+{
+    GroundMotion motion;
+    motion.dt = dt;
+    for (int k = 0; k <= n; ++k) motion.accel_h.push_back(accel(k * dt));
+    return motion;
+}
+
+/// Amplitude 3 m/s^2, 1.5 Hz, growing and fading within 4 s; at rest from then on.
+double wave(double t)
+{
+    return t < 4.0 ? 3.0 * std::pow(std::sin(std::numbers::pi * t / 4.0), 2) * std::sin(3.0 * std::numbers::pi * t)
+                   : 0.0;
+}
+
+/// One push of 3 m/s^2 within 0.8 s; steepest 3.75 pi m/s^3.
+double pulse(double t)
+{
+    return t < 0.8 ? 3.0 * std::pow(std::sin(std::numbers::pi * t / 0.8), 2) : 0.0;
+}
+
+std::vector<damslip::verification::Check> flexible_step()
+{
+    std::vector<damslip::verification::Check> checks;
+    SlideOptions options;
+    options.sliding.run_out_max = 0.0;
+    for (const double gamma : {0.3, 0.8}) {
+        const double A = 6.0;
+        const GroundMotion steady = sampled([=](double) { return A; }, 0.01, 100);
+        const exact::FlexibleSlipCase c{2.0 * std::numbers::pi / 0.4, 0.0, gamma, 1.0};
+        const FlexibleSlide coupled = slide_coupled(steady, level_block(1.0), flexible(0.4, 0.0, gamma), options);
+        checks.push_back({"coupled slip after 1 s", "m", exact::slip_under_step(c, A, 1.0), coupled.slide.slip, 1e-12});
+        // Without slip x = A/omega^2 (1 - cos omega t): k = A (1 - Gamma cos omega t), largest at half a period.
+        checks.push_back(
+            {"peak of the average acceleration without slip", "m/s²", A * (1.0 + gamma),
+             slide_decoupled(steady, level_block(20.0), flexible(0.4, 0.0, gamma), options).peak_acceleration, 1e-12});
+    }
+    return checks;
+}
+
+std::vector<damslip::verification::Check> flexible_impulses()
+{
+    std::vector<damslip::verification::Check> checks;
+    for (const auto& [period, damping, gamma] :
+         {std::array{0.3, 0.05, 0.81}, std::array{0.7, 0.15, 0.6}, std::array{1.5, 0.05, 0.4}}) {
+        const exact::FlexibleSlipCase c{2.0 * std::numbers::pi / period, damping, gamma, 0.9};
+        SlideOptions options;
+        options.sliding.run_out_max = 0.0;
+        const FlexibleSlide coupled =
+            slide_coupled(sampled(wave, 0.0025, 2400), level_block(0.9), flexible(period, damping, gamma), options);
+        checks.push_back({"coupled slip, T = " + std::to_string(period).substr(0, 3) + " s", "m",
+                          exact::slip_by_impulses(c, wave, 6.0, 1e-5), coupled.slide.slip, 1e-4, Measure::absolute});
+        checks.push_back({"the same, moved in all", "m", coupled.slide.downstream_slip - coupled.slide.upstream_slip,
+                          coupled.slide.slip, 1e-14, Measure::absolute});
+    }
+    return checks;
+}
+
+std::vector<damslip::verification::Check> flexible_limits()
+{
+    std::vector<damslip::verification::Check> checks;
+    const GroundMotion push = sampled(pulse, 0.01, 150);
+    const double rigid = slide(push, level_block(0.9)).slip;
+    double before = 0.0;
+    for (const double period : {0.04, 0.02}) {
+        const FlexibleBlock block = flexible(period, 0.05, 0.81);
+        const double omega = 2.0 * std::numbers::pi / period;
+        const double bound = 0.81 * (2.0 * 3.0 + 3.75 * std::numbers::pi * 1.0) / (omega * omega);
+        const std::string at = ", T = " + std::to_string(period).substr(0, 4) + " s";
+        const double coupled = slide_coupled(push, level_block(0.9), block).slide.slip;
+        checks.push_back({"coupled against rigid" + at, "m", rigid, coupled, bound, Measure::absolute});
+        checks.push_back({"decoupled against rigid" + at, "m", rigid,
+                          slide_decoupled(push, level_block(0.9), block).slide.slip, bound, Measure::absolute});
+        if (before != 0.0)
+            checks.push_back({"difference over that of half the period", "–", 4.0, before / (coupled - rigid), 0.05});
+        before = coupled - rigid;
+    }
+    const GroundMotion motion = sampled(wave, 0.01, 600);
+    const FlexibleBlock block = flexible(0.5, 0.05, 0.81);
+    const double peak = slide_decoupled(motion, level_block(50.0), block).peak_acceleration;
+    checks.push_back({"slip below the yield, coupled", "m", 0.0,
+                      slide_coupled(motion, level_block(1.001 * peak), block).slide.max_slip, 0.0, Measure::absolute});
+    checks.push_back({"slip below the yield, decoupled", "m", 0.0,
+                      slide_decoupled(motion, level_block(1.001 * peak), block).slide.max_slip, 0.0,
+                      Measure::absolute});
+    checks.push_back({"peak acceleration below the yield, coupled", "m/s²", peak,
+                      slide_coupled(motion, level_block(50.0), block).peak_acceleration, 2e-3});
+    const FlexibleSlide at_peak = slide_coupled(motion, level_block(0.99 * peak), block);
+    const double slides = at_peak.slide.max_slip;
+    checks.push_back(
+        {"a sliding mass gets no more than the yield", "m/s²", 0.99 * peak, at_peak.peak_acceleration, 1e-9});
+    checks.push_back({"slip just above it, coupled", "m", 0.0, slides, 0.0, Measure::lower_bound});
+    return checks;
+}
+
+/// Energies per mass of the block, by trapezoids over the samples.
+std::vector<damslip::verification::Check> flexible_energy()
+{
+    const double dt = 0.0005, yield = 0.9, zeta = 0.05, gamma = 0.81, omega = 2.0 * std::numbers::pi / 0.4;
+    const GroundMotion motion = sampled(wave, dt, 10000);
+    SlideOptions options;
+    options.history = HistoryOutput::samples;
+    options.sliding.run_out_max = 0.0;
+    const FlexibleSlide r = slide_coupled(motion, level_block(yield), flexible(0.4, zeta, gamma), options);
+    const auto& w = r.slide.history.slip_rate;
+    const auto& u = r.deflection_rate;
+    double input = 0.0, damping = 0.0;
+    for (std::size_t k = 0; k + 1 < w.size(); ++k)
+        for (const std::size_t i : {k, k + 1}) {
+            input += 0.5 * dt * motion.accel_h[i] * (w[i] + gamma * u[i]);
+            damping += 0.5 * dt * 2.0 * zeta * omega * gamma * u[i] * u[i];
+        }
+    const double x = r.deflection.back();
+    const double stored = 0.5 * w.back() * w.back() + gamma * w.back() * u.back() + 0.5 * gamma * u.back() * u.back() +
+                          0.5 * gamma * omega * omega * x * x;
+    const double friction = yield * (r.slide.downstream_slip + r.slide.upstream_slip);
+    return {{"friction, damping and stored energy", "J/kg", input, friction + damping + stored, 1e-5},
+            {"share of friction", "–", 0.3, friction / input, 0.0, Measure::lower_bound}};
+}
+
 } // namespace
 
 void add_neighbour_cases(Registry& registry)
@@ -109,6 +252,26 @@ void add_neighbour_cases(Registry& registry)
     registry.push_back({"sliding.neighbours.plane-failure-range",
                         "Crack in the face, at the crest and behind it, wet and dry: weight and factor of safety.",
                         "Hoek & Bray (1981), ch. 7", "round-off", plane_failure_range});
+    registry.push_back({"sliding.neighbours.flexible-step",
+                        "Flexible block under a sudden steady acceleration: coupled slip, response without slip.",
+                        "closed forms (tests/exact/flexible_slip.hpp)", "round-off", flexible_step});
+    registry.push_back({"sliding.neighbours.flexible-impulses",
+                        "Coupled slip with starts, stops and reversals against a time-stepping scheme without events.",
+                        "Moreau (1999), Comput. Methods Appl. Mech. Eng. 177; step 1e-5 s",
+                        "the scheme is of first order: step x peak rate (about 0.5 m/s) x a few reversals, 2e-5 m, and "
+                        "samples 2.5 ms apart of a 1.5 Hz wave, (omega dt)^2/12 = 5e-5 of it",
+                        flexible_impulses});
+    registry.push_back({"sliding.neighbours.flexible-limits",
+                        "Stiff: the rigid block; never above its yield: no slip, coupled and decoupled alike.",
+                        "definition; k - a_h = -Gamma x'' integrated twice over a slip of duration D changes it by "
+                        "Gamma (x - x_0 - x_0' D), with x = A/omega^2, x_0' = A'/omega^2 of slow motion",
+                        "Gamma (2 A + A' D)/omega^2 with D = 1 s, of second order in T (next order: 5 % of the ratio); "
+                        "peaks seen at looks T sqrt(1 - Gamma)/40 apart",
+                        flexible_limits});
+    registry.push_back({"sliding.neighbours.flexible-energy",
+                        "Coupled: work of the ground = friction + damping + kinetic and strain energy.",
+                        "equations of motion of the two coordinates",
+                        "trapezoids over samples T/800 apart, (omega dt)^2/12 = 5e-6", flexible_energy});
 }
 
 } // namespace damslip::verification

@@ -38,13 +38,15 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, cons
             rows.push_back(std::move(row));
         }
     }
-    parallel_for(2 * rows.size(), jobs, [&](std::size_t task) {
-        SlipRow& row = rows[task / 2];
-        const GroundMotion& motion = motions[task / 4];
-        if (task % 2 == 0)
+    parallel_for(3 * rows.size(), jobs, [&](std::size_t task) {
+        SlipRow& row = rows[task / 3];
+        const GroundMotion& motion = motions[task / 6];
+        if (task % 3 == 0)
             row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
-        else if (!motion.accel_v.empty())
+        else if (task % 3 == 1 && !motion.accel_v.empty())
             row.with_vertical = slide_model(scene, model, motion, row.polarity);
+        else if (task % 3 == 2 && flexible_block(scene))
+            row.flexible = slide_flexible(scene, model, motion, row.polarity);
     });
     return rows;
 }
@@ -162,6 +164,10 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
     add("rigid, horizontal", [](const SlipRow& r) { return dynamic_slip(r.horizontal); });
     add("rigid, with vertical",
         [](const SlipRow& r) { return r.with_vertical ? dynamic_slip(*r.with_vertical) : std::nullopt; });
+    add("flexible, decoupled",
+        [](const SlipRow& r) { return r.flexible ? dynamic_slip(r.flexible->decoupled.slide) : std::nullopt; });
+    add("flexible, coupled",
+        [](const SlipRow& r) { return r.flexible ? dynamic_slip(r.flexible->coupled.slide) : std::nullopt; });
     return out;
 }
 
@@ -208,6 +214,22 @@ double percentile(std::vector<double> samples, double q)
     const auto below = static_cast<std::size_t>(at);
     const std::size_t above = std::min(below + 1, samples.size() - 1);
     return samples[below] + (at - static_cast<double>(below)) * (samples[above] - samples[below]);
+}
+
+std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene)
+{
+    if (scene.regressions.period <= 0.0) return std::nullopt;
+    sliding::FlexibleBlock block;
+    block.period = scene.regressions.period;
+    return block;
+}
+
+FlexibleSlips slide_flexible(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                             sliding::HistoryOutput history)
+{
+    const sliding::SlideOptions options{scene.sliding, polarity, history};
+    return {sliding::slide_decoupled(motion, model.stages, *flexible_block(scene), options),
+            sliding::slide_coupled(motion, model.stages, *flexible_block(scene), options)};
 }
 
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)

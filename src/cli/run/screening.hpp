@@ -3,6 +3,7 @@
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/run_inputs.hpp"
 #include "sliding/equilibrium/combinations.hpp"
+#include "sliding/flexible/flexible_slide.hpp"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,11 @@ struct BaseRow {
     RigidModel model;
 };
 
+/// Slip of a block that is flexible: regressions.period_s > 0; with the vertical component where the record has one.
+struct FlexibleSlips {
+    sliding::FlexibleSlide decoupled, coupled;
+};
+
 /// One record with one polarity.
 struct SlipRow {
     std::string record;
@@ -23,6 +29,8 @@ struct SlipRow {
     double pga = 0.0;                                  ///< of the scaled horizontal component [m/s^2]
     sliding::SlideResult horizontal;                   ///< without the vertical component
     std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
+
+    std::optional<FlexibleSlips> flexible; ///< where the scene gives a period of the sliding mass
 
     /// The slip to judge by: with the vertical component where there is one.
     const sliding::SlideResult& judged() const { return with_vertical ? *with_vertical : horizontal; }
@@ -58,6 +66,14 @@ struct Screening {
 
 /// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
+
+/// The sliding mass with the scene's regressions.period_s as a uniform shear column with 5 % damping; nothing where the
+/// scene gives no period: rigid.
+std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene);
+
+/// @param scene  one with a flexible block
+FlexibleSlips slide_flexible(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                             sliding::HistoryOutput history = sliding::HistoryOutput::none);
 
 /// Value below which the share q of the sorted samples lies, linear between order statistics (Hyndman & Fan 1996, type 7).
 double percentile(std::vector<double> samples, double q);

@@ -163,6 +163,24 @@ Table record_table(const std::vector<GroundMotion>& motions)
     return t;
 }
 
+/// Slip of the flexible block, the polarity that slides farther coupled. Its curves have their own sample times.
+report::Chart flexible_chart(const Scene& scene, const Screening& s, const GroundMotion& motion, std::size_t number,
+                             std::size_t records)
+{
+    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
+    const int polarity = b.flexible->coupled.slide.max_slip > a.flexible->coupled.slide.max_slip ? -1 : 1;
+    const FlexibleSlips slips =
+        slide_flexible(scene, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
+    report::Chart chart;
+    chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", polarity);
+    chart.x = time_axis();
+    chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    chart.curves.push_back(slip_curve(slips.decoupled.slide.history, "decoupled", 2));
+    chart.curves.push_back(slip_curve(slips.coupled.slide.history, "coupled", 3));
+    thin_for(chart, records);
+    return chart;
+}
+
 std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion,
                                        std::size_t number, std::size_t records)
 {
@@ -198,6 +216,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
         add(std::move(slip));
         add(demand_chart(motion, both.history, hv->polarity));
     }
+    if (flexible_block(scene)) parts.emplace_back(flexible_chart(scene, s, motion, number, records));
     if (auto regressions = regressions_beside(s, number)) {
         regressions->title = motion.name + ": " + regressions->title;
         parts.emplace_back(std::move(*regressions));

@@ -149,6 +149,8 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
     const bool slides = !s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding;
+    if (const auto block = flexible_block(in.scene))
+        section.parts.push_back(TablePart{flexible_table(s, *block), Layout::rows, 1, Fold::open});
     if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));

@@ -113,6 +113,37 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     return t;
 }
 
+Table flexible_table(const Screening& s, const sliding::FlexibleBlock& flexible)
+{
+    Table t;
+    t.title = "Displacement of the flexible block";
+    t.columns = {{"record", "record", "", 4},
+                 {"polarity", "polarity", "", 4},
+                 {"rigid_max_slip_mm", "rigid", "mm", 5},
+                 {"decoupled_max_slip_mm", "decoupled", "mm", 5},
+                 {"coupled_max_slip_mm", "coupled", "mm", 5},
+                 {"amplification_decoupled", "peak average/PGA decoupled", "–", 4},
+                 {"amplification_coupled", "peak average/PGA coupled", "–", 4},
+                 {"coupled_slip_mm", "coupled, at the end", "mm", 5},
+                 {"status", "status", "", 4}};
+    for (const SlipRow& row : s.slips) {
+        if (!row.flexible) continue;
+        const auto& [decoupled, coupled] = *row.flexible;
+        const auto over_pga = [&row](double k) { return row.pga > 0 ? Cell(k / row.pga) : Cell(); };
+        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity),
+                          slip_cell(row.judged(), row.judged().max_slip / mm),
+                          slip_cell(decoupled.slide, decoupled.slide.max_slip / mm),
+                          slip_cell(coupled.slide, coupled.slide.max_slip / mm), over_pga(decoupled.peak_acceleration),
+                          over_pga(coupled.peak_acceleration), slip_cell(coupled.slide, coupled.slide.slip / mm),
+                          status_word(coupled.slide.status)});
+    }
+    t.notes.push_back(
+        fmt::format("one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g}; largest slips. Average: "
+                    "the horizontal acceleration over the mass. Verdicts are by the rigid block.",
+                    flexible.period, 100.0 * flexible.damping_ratio, flexible.mass_ratio));
+    return t;
+}
+
 Table regression_table(const Screening& s)
 {
     Table t;
