@@ -101,6 +101,7 @@ public:
     double energy_imbalance() const { return energy_.imbalance(energy_start_); } ///< [J/m]
     double energy_scale() const { return energy_scale_; }                        ///< largest term so far [J/m]
     const DynamicCounts& counts() const { return counts_; }
+    double static_normal_force() const { return normal_force_; } ///< N' before the motion [N/m]
     const ContactStructure& structure() const { return structure_; }
     std::size_t bytes() const; ///< shared operators included
 
