@@ -44,3 +44,24 @@ function(damslip_install_shared_files)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/records/data DESTINATION ${data}/records COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 endfunction()
+
+# What the program writes about itself: manual pages, and completion in the folders where the shells look for it.
+function(damslip_install_pages)
+  set(man ${PROJECT_BINARY_DIR}/man)
+  set(completion ${PROJECT_BINARY_DIR}/completion)
+  file(MAKE_DIRECTORY ${man} ${completion})
+  add_custom_command(OUTPUT ${man}/damslip.1 ${completion}/bash ${completion}/zsh ${completion}/fish
+    COMMAND damslip man --out ${man}
+    COMMAND damslip completion bash >${completion}/bash
+    COMMAND damslip completion zsh >${completion}/zsh
+    COMMAND damslip completion fish >${completion}/fish
+    DEPENDS damslip VERBATIM)
+  add_custom_target(damslip_pages ALL DEPENDS ${man}/damslip.1)
+  install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime FILES_MATCHING PATTERN "*.1")
+  install(FILES ${completion}/bash RENAME damslip
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+  install(FILES ${completion}/zsh RENAME _damslip
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
+  install(FILES ${completion}/fish RENAME damslip.fish
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
+endfunction()

@@ -4,6 +4,7 @@
 #include "cli/completion_command.hpp"
 #include "cli/explain_command.hpp"
 #include "cli/fe_command.hpp"
+#include "cli/man_command.hpp"
 #include "cli/modes_command.hpp"
 #include "cli/parser.hpp"
 #include "cli/schema_command.hpp"
@@ -36,6 +37,7 @@ struct Parser : ParserBase {
     FeArguments fe;
     RecordArguments record;
     SchemaArguments schema;
+    ManArguments man;
     std::string shell;
 };
 
@@ -243,6 +245,11 @@ void add_small_commands(Parser& p)
         command(p, "completion", "completion script for bash, zsh or fish", "source <(damslip completion bash)");
     complete->add_option("SHELL", p.shell, "bash, zsh or fish")->required();
     complete->callback([&p] { p.chosen = [shell = p.shell](const Streams& s) { return completion(shell, s); }; });
+
+    CLI::App* pages = command(p, "man", "manual pages, made from the help texts", "damslip man fe | man -l -");
+    pages->add_option("COMMAND", p.man.command, "the command whose page is printed; none: the program's own");
+    pages->add_option("--out", p.man.out, "folder for the pages of all commands");
+    pages->callback([&p] { p.chosen = [a = p.man](const Streams& s) { return man(a, s); }; });
 }
 
 void build(Parser& p)
@@ -311,14 +318,6 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
     }
 }
 
-void summarise(const CLI::App& app, const std::string& prefix, std::vector<CommandSummary>& out)
-{
-    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-        out.push_back({prefix + sub->get_name(), sub->get_description(), flag_names(*sub)});
-        summarise(*sub, prefix + sub->get_name() + " ", out);
-    }
-}
-
 } // namespace
 
 CLI::App* add_command(CLI::App& parent, ParserBase& base, const std::string& name, const std::string& description,
@@ -355,9 +354,7 @@ std::vector<CommandSummary> command_summaries()
 {
     Parser parser;
     build(parser);
-    std::vector<CommandSummary> summaries;
-    summarise(parser.app, "", summaries);
-    return summaries;
+    return summaries_of(parser.app);
 }
 
 } // namespace damslip::cli

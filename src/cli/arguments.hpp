@@ -1,15 +1,12 @@
 #pragma once
 
+#include "cli/command_summary.hpp"
 #include "cli/terminal/streams.hpp"
 
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace damslip::cli {
 
@@ -20,13 +17,6 @@ struct Invocation {
     bool quiet = false;
 };
 
-/// Names and flags of all commands, for suggestions and completion.
-struct CommandSummary {
-    std::string name;
-    std::string description;
-    std::vector<std::string> flags; ///< "--record"
-};
-
 /// Help or version text to print before leaving with exit code 0.
 struct HelpText {
     std::string text;
@@ -35,6 +25,7 @@ struct HelpText {
 /// Parses the command line. @throws HelpText, UsageError (with the nearest command or flag)
 Invocation parse_arguments(const std::vector<std::string>& arguments);
 
+/// The program itself (its name is empty) and all its commands.
 std::vector<CommandSummary> command_summaries();
 
 } // namespace damslip::cli

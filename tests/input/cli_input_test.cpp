@@ -125,5 +125,10 @@ TEST(CliInput, CompletionForAnUnknownShell)
 {
     EXPECT_EQ(run({"completion", "tcsh"}).code, 2);
 }
+TEST(CliInput, ManualPageOfAnUnknownCommand)
+{
+    EXPECT_EQ(run({"man", "record", "invent"}).code, 2);
+    EXPECT_EQ(run({"man", "record", "info"}).code, 0);
+}
 
 } // namespace
