@@ -18,14 +18,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave: a twentieth of it, or what
-/// lifts the dam by a tenth of a millimetre (landings at the end of coarse steps give and take as much).
+/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave: of contact a twentieth of
+/// it, or what lifts the dam by a tenth of a millimetre (landings at the end of coarse steps give and take as much). A stable
+/// scheme with beta < gamma/2 lends some of the kinetic energy and takes it back; an unstable one soon has given many times
+/// all else.
 bool diverges(const DynamicContact& dynamics)
 {
     const Energy& energy = dynamics.energy();
-    return !std::isfinite(energy.kinetic) ||
-           energy.contact_normal > 1e-4 * dynamics.static_normal_force() +
-                                       0.05 * (std::abs(energy.external) + std::abs(energy.friction));
+    const double given = std::abs(energy.external) + std::abs(energy.friction);
+    const double little = 1e-4 * dynamics.static_normal_force();
+    return !std::isfinite(energy.kinetic) || energy.contact_normal > little + 0.05 * given ||
+           -energy.numerical > little + 10.0 * given;
 }
 
 double largest(const std::vector<double>& values)

@@ -180,9 +180,10 @@ void EarthquakeRun::judge(RunResult& result) const
                                      result.end_time, result.slip, *options_.max_slip);
         break;
     case RunStatus::diverged:
-        result.message = fmt::format("Stopped at {:.2f} s: contact has put {:.3g} J/m into the motion. Use a smaller "
-                                     "step, damping, or a more negative time.alpha.",
-                                     result.end_time, result.history.energy.back().contact_normal);
+        result.message = fmt::format(
+            "Stopped at {:.2f} s: contact and time scheme have put {:.3g} J/m into the motion. Use a smaller "
+            "step, damping, or a more negative time.alpha.",
+            result.end_time, result.history.energy.back().contact_normal - result.history.energy.back().numerical);
         break;
     default:
         break;

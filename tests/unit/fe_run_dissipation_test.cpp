@@ -231,4 +231,22 @@ TEST(FeRunDissipation, impacts_that_give_energy_are_a_status)
     EXPECT_NE(result.message.find("smaller step"), std::string::npos) << result.message;
 }
 
+// Linear acceleration with steps many times longer than it is stable for, on a joint that cannot open: the scheme itself
+// makes the energy.
+TEST(FeRunDissipation, a_scheme_that_gives_energy_is_a_status)
+{
+    Scene scene = stiff_block(8.0, 8.0, 0.7);
+    scene.contact.separation = JointOpening::none;
+    scene.damping.method = DampingMethod::none;
+    scene.time.scheme = TimeScheme::newmark;
+    scene.time.beta = 1.0 / 6.0;
+    RunOptions options;
+    options.halvings = 0;
+    const GroundMotion motion = sines(4.0, 2.0);
+    const RunResult result = EarthquakeRun(scene, options).run(motion);
+    ASSERT_EQ(result.status, RunStatus::diverged) << result.message;
+    EXPECT_LT(result.end_time, 1.0);
+    EXPECT_LT(result.history.energy.back().numerical, -10.0);
+}
+
 } // namespace
