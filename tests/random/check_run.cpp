@@ -106,7 +106,7 @@ void check_contact_row(Checker& check, const json& row)
                  "fe: slip {} mm above the largest", row["slip_mm"].get<double>());
 }
 
-/// Friction's work goes by the trapezoid: a step in which shear or pressure turns may give back a little.
+/// Friction's work goes by the trapezoid: a step in which shear turns, or that a dam spends hopping, may give some back.
 /// @param elastic  contact gives way before it slips, and its friction column holds what that stores and gives back
 /// @param rounding  work of the weight over 1e-12 of the dam's height [J/m]
 void check_energy(Checker& check, const json& fe, bool elastic, double rounding)
@@ -117,10 +117,11 @@ void check_energy(Checker& check, const json& fe, bool elastic, double rounding)
             {"kinetic_J_m", "strain_J_m", "friction_J_m", "external_J_m", "imbalance_J_m", "imbalance_share"});
         if (!is_number(row, "imbalance_J_m") || !is_number(row, "imbalance_share")) continue;
         const double missing = std::abs(row["imbalance_J_m"].get<double>()), share = row["imbalance_share"];
-        check.demand(share <= energy_tolerance || missing <= rounding,
+        const double round_off = rounding + 1e-11 * row["strain_J_m"].get<double>();
+        check.demand(share <= (elastic ? 1e-2 : energy_tolerance) || missing <= round_off,
                      "fe: {} J/m are missing, {} of the largest energy", missing, share);
         check.demand(elastic ||
-                         row["friction_J_m"].get<double>() >= -0.01 * missing / std::max(share, 1e-300) - rounding,
+                         row["friction_J_m"].get<double>() >= -0.2 * missing / std::max(share, 1e-300) - rounding,
                      "fe: friction gave {} J/m back", -row["friction_J_m"].get<double>());
     }
 }
@@ -186,7 +187,9 @@ CheckedRuns check_run(const std::filesystem::path& scene)
         double top = 0.0;
         for (const Point& p : read.section.polygon) top = std::max(top, p.y);
         if (proper)
-            check_energy(check, ran, read.contact.enforcement != ContactEnforcement::exact,
+            check_energy(check, ran,
+                         read.contact.enforcement != ContactEnforcement::exact ||
+                             read.contact.normal != NormalContact::hard,
                          1e-12 * read.dam.density * read.gravity * area(read.section) * top);
         if (screened.contains("yield")) check_critical_friction(check, read, screened, ran);
     }
