@@ -179,12 +179,15 @@ void EarthquakeRun::judge(RunResult& result) const
         result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
                                      result.end_time, result.slip, *options_.max_slip);
         break;
-    case RunStatus::diverged:
-        result.message = fmt::format(
-            "Stopped at {:.2f} s: contact and time scheme have put {:.3g} J/m into the motion. Use a smaller "
-            "step, damping, or a more negative time.alpha.",
-            result.end_time, result.history.energy.back().contact_normal - result.history.energy.back().numerical);
+    case RunStatus::diverged: {
+        const Energy& energy = result.history.energy.back();
+        const bool scheme = -energy.numerical > energy.contact_normal;
+        result.message = fmt::format("Stopped at {:.2f} s: {} has put {:.3g} J/m into the motion. Use a smaller "
+                                     "step, damping, or a more negative time.alpha.",
+                                     result.end_time, scheme ? "the time scheme" : "contact",
+                                     scheme ? -energy.numerical : energy.contact_normal);
         break;
+    }
     default:
         break;
     }

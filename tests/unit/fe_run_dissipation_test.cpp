@@ -247,6 +247,7 @@ TEST(FeRunDissipation, a_scheme_that_gives_energy_is_a_status)
     ASSERT_EQ(result.status, RunStatus::diverged) << result.message;
     EXPECT_LT(result.end_time, 1.0);
     EXPECT_LT(result.history.energy.back().numerical, -10.0);
+    EXPECT_NE(result.message.find("the time scheme has put"), std::string::npos) << result.message;
 }
 
 } // namespace
