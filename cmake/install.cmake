@@ -20,7 +20,7 @@ function(damslip_install_package)
     damslip_record records_read records_write records_measure records_transform records_generate)
   add_library(damslip_sliding INTERFACE)
   target_link_libraries(damslip_sliding INTERFACE
-    sliding_block sliding_flexible sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
+    sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
   foreach(target damslip_records damslip_sliding fe2d)
     damslip_install_library(${target})
   endforeach()

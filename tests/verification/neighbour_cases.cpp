@@ -7,6 +7,7 @@
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/wedge/wedge.hpp"
 #include "verification/modules.hpp"
 
 #include <array>
@@ -238,6 +239,85 @@ std::vector<damslip::verification::Check> flexible_energy()
             {"share of friction", "–", 0.3, friction / input, 0.0, Measure::lower_bound}};
 }
 
+Wedge wedge_of(double dip_1, double direction_1, double phi_1, double dip_2, double direction_2, double phi_2)
+{
+    Wedge w;
+    w.mass = 1e5;
+    w.first = {dip_1 * degree, direction_1 * degree, 10.0, std::tan(phi_1 * degree), 0.0, 0.0};
+    w.second = {dip_2 * degree, direction_2 * degree, 10.0, std::tan(phi_2 * degree), 0.0, 0.0};
+    return w;
+}
+
+/// Planes that mirror each other about the vertical plane through north: the line plunges psi to the north, the angle
+/// between the planes is xi, beta = 90 degrees.
+std::vector<damslip::verification::Check> symmetric_wedge()
+{
+    std::vector<damslip::verification::Check> checks;
+    for (const double dip : {45.0, 65.0})
+        for (const double turn : {35.0, 60.0}) {
+            const double phi = 32.0 * degree, d = dip * degree, t = turn * degree;
+            const Wedge w = wedge_of(dip, turn, 32.0, dip, -turn, 32.0);
+            const double psi = std::atan(std::tan(d) * std::cos(t));
+            const double cos_xi = -(std::sin(d) * std::sin(d) * std::cos(2.0 * t) + std::cos(d) * std::cos(d));
+            const double sin_half = std::sqrt(0.5 * (1.0 - cos_xi));
+            checks.push_back({"factor of safety", "–", std::tan(phi) / std::tan(psi) / sin_half,
+                              wedge_state(w).factor_of_safety, 1e-13});
+            // In its plane of symmetry it is a block on a plane with tan phi_e = tan phi / sin(xi/2).
+            const double phi_e = std::atan(std::tan(phi) / sin_half);
+            if (phi_e <= psi) continue;
+            const WedgeYield y = wedge_yield(w, {0.0, 1.0, 0.0});
+            checks.push_back({"yield acceleration", "m/s²", 9.81 * std::tan(phi_e - psi), y.acceleration, 1e-12});
+            checks.push_back(
+                {"slip acceleration per excess", "–", std::cos(phi_e - psi) / std::cos(phi_e), y.factor, 1e-12});
+        }
+    return checks;
+}
+
+std::vector<damslip::verification::Check> wedge_modes()
+{
+    // Printed for planes 45/105 and 70/235: N_A sin-ratio A = (cos psi_a - cos psi_b cos theta)/(sin psi_5 sin^2 theta).
+    const WedgeState both = wedge_state(wedge_of(45, 105, 20, 70, 235, 30));
+    std::vector<damslip::verification::Check> checks{
+        {"both planes: mode", "–", 0.0, static_cast<double>(both.mode), 0.0, Measure::absolute},
+        {"both planes: N_A over the drive", "–", 1.5475, both.first_normal / both.drive, 5e-3},
+        {"both planes: plunge of the line", "°", 31.2, std::asin(-both.direction[2]) / degree, 0.05,
+         Measure::absolute}};
+    // Dipping much the same way, it slides on the flatter plane, away from the steeper one; the other way round it would
+    // go through the flatter one.
+    const Wedge one = wedge_of(60, 20, 40, 25, 0, 40);
+    const WedgeState alone = wedge_state(one);
+    checks.push_back({"second plane only: mode", "–", 2.0, static_cast<double>(alone.mode), 0.0, Measure::absolute});
+    checks.push_back({"second plane only: factor", "–", std::tan(40 * degree) / std::tan(25 * degree),
+                      alone.factor_of_safety, 1e-13});
+    const Wedge stands = wedge_of(25, 0, 40, 10, 180, 40);
+    const Wedge first = wedge_of(30, 0, 40, 60, 20, 40);
+    checks.push_back(
+        {"first plane only: mode", "–", 1.0, static_cast<double>(wedge_state(first).mode), 0.0, Measure::absolute});
+    RigidBlock block;
+    block.mass = first.mass;
+    block.friction = first.first.friction;
+    block.base_inclination = 30 * degree;
+    const WedgeYield yield = wedge_yield(first, {0.0, 1.0, 0.0});
+    checks.push_back({"first plane only: a_y", "m/s²", 9.81 * std::tan(10 * degree), yield.acceleration, 1e-12});
+    const GroundMotion motion = sampled(pulse, 0.01, 150);
+    checks.push_back({"first plane only: slip, against the rigid block", "m", slide(motion, block).slip,
+                      slide_wedge(motion, yield).slip, 1e-10});
+    Wedge floats = stands;
+    floats.first.water_force = floats.second.water_force = floats.mass * 9.81;
+    checks.push_back({"water on both planes lifts: mode", "–", 3.0, static_cast<double>(wedge_state(floats).mode), 0.0,
+                      Measure::absolute});
+    checks.push_back({"its factor of safety", "–", 0.0, wedge_state(floats).factor_of_safety, 0.0, Measure::absolute});
+    // Exchanging the planes exchanges the names.
+    Wedge a = wedge_of(45, 105, 20, 70, 235, 30), b = a;
+    a.first.water_force = b.second.water_force = 2e5;
+    std::swap(b.first, b.second);
+    b.second.water_force = 2e5;
+    b.first.water_force = 0.0;
+    checks.push_back(
+        {"planes exchanged: factor", "–", wedge_state(a).factor_of_safety, wedge_state(b).factor_of_safety, 1e-13});
+    return checks;
+}
+
 } // namespace
 
 void add_neighbour_cases(Registry& registry)
@@ -252,6 +332,17 @@ void add_neighbour_cases(Registry& registry)
     registry.push_back({"sliding.neighbours.plane-failure-range",
                         "Crack in the face, at the crest and behind it, wet and dry: weight and factor of safety.",
                         "Hoek & Bray (1981), ch. 7", "round-off", plane_failure_range});
+    registry.push_back({"sliding.neighbours.symmetric-wedge",
+                        "Wedge on two equal planes: factor of safety, yield acceleration, slip acceleration.",
+                        "Hoek & Bray (1981), ch. 8: FS = tan phi/tan psi sin beta/sin(xi/2); Newmark (1965) with that "
+                        "friction in the plane of symmetry",
+                        "round-off", symmetric_wedge});
+    registry.push_back(
+        {"sliding.neighbours.wedge-modes",
+         "The way of sliding is found: both planes, either alone, lifting; slip against the rigid block.",
+         "planes of the example of Hoek & Bray (1981), ch. 8 (45/105 and 70/235: A = 1.5475, plunge "
+         "31.2 deg); a block on one plane",
+         "the printed A comes from angles rounded to 0.1 and 1 degree: 0.5 %; round-off", wedge_modes});
     registry.push_back({"sliding.neighbours.flexible-step",
                         "Flexible block under a sudden steady acceleration: coupled slip, response without slip.",
                         "closed forms (tests/exact/flexible_slip.hpp)", "round-off", flexible_step});

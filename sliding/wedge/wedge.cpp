@@ -1,0 +1,169 @@
+#include "sliding/wedge/wedge.hpp"
+
+#include "core/input_error.hpp"
+#include "sliding/block/roots.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace damslip::sliding {
+
+namespace {
+
+double dot(const Vector3& a, const Vector3& b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3 sum(const Vector3& a, double factor, const Vector3& b)
+{
+    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+Vector3 unit(const Vector3& a)
+{
+    const double length = std::sqrt(dot(a, a));
+    return length > 0.0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : Vector3{};
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b)
+{
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Into the wedge, upwards.
+Vector3 normal_of(const WedgePlane& p)
+{
+    return {std::sin(p.dip) * std::sin(p.dip_direction), std::sin(p.dip) * std::cos(p.dip_direction), std::cos(p.dip)};
+}
+
+void check(const Wedge& w)
+{
+    Diagnostic wrong;
+    wrong.file = "wedge";
+    wrong.expected =
+        "mass > 0; dips 0 ... 90 degrees; friction, cohesion, areas and water forces >= 0; planes that meet";
+    const auto bad = [](double x) { return !(x >= 0.0) || !std::isfinite(x); };
+    if (!(w.mass > 0.0) || !std::isfinite(w.mass) || bad(w.gravity))
+        wrong.problem = "mass or gravity of the wedge is not allowed.";
+    for (const WedgePlane& p : {w.first, w.second}) {
+        if (bad(p.dip) || p.dip > 0.5 * std::numbers::pi || !std::isfinite(p.dip_direction))
+            wrong.problem = "a dip of the wedge is not allowed.";
+        if (bad(p.friction) || bad(p.cohesion) || bad(p.area) || bad(p.water_force))
+            wrong.problem = "a strength, area or water force of the wedge is not allowed.";
+    }
+    const Vector3 line = cross(normal_of(w.first), normal_of(w.second));
+    if (wrong.problem.empty() && !(dot(line, line) > 1e-12)) wrong.problem = "the planes of the wedge are parallel.";
+    if (!wrong.problem.empty()) throw InputError(wrong);
+}
+
+double cohesion_force(const WedgePlane& p)
+{
+    return p.cohesion * p.area;
+}
+
+void finish(WedgeState& s)
+{
+    s.factor_of_safety = s.drive > 0.0 ? s.resistance / s.drive : std::numeric_limits<double>::infinity();
+}
+
+/// Both normal forces of a wedge that keeps to both planes: S + N1 n1 + N2 n2 along the line of intersection.
+WedgeState on_both(const Wedge& w, const Vector3& n1, const Vector3& n2, const Vector3& force)
+{
+    WedgeState s;
+    const double c = dot(n1, n2), f1 = dot(force, n1), f2 = dot(force, n2);
+    s.first_normal = -(f1 - c * f2) / (1.0 - c * c);
+    s.second_normal = -(f2 - c * f1) / (1.0 - c * c);
+    const Vector3 line = unit(cross(n1, n2));
+    const double along = dot(force, line);
+    s.direction = along >= 0.0 ? line : Vector3{-line[0], -line[1], -line[2]};
+    s.drive = std::abs(along);
+    s.resistance = cohesion_force(w.first) + cohesion_force(w.second) + w.first.friction * s.first_normal +
+                   w.second.friction * s.second_normal;
+    finish(s);
+    return s;
+}
+
+WedgeState on_one(WedgeMode mode, const WedgePlane& plane, const Vector3& n, const Vector3& force)
+{
+    WedgeState s;
+    s.mode = mode;
+    const double pressed = -dot(force, n);
+    (mode == WedgeMode::first_plane ? s.first_normal : s.second_normal) = pressed;
+    const Vector3 along = sum(force, pressed, n);
+    s.direction = unit(along);
+    s.drive = std::sqrt(dot(along, along));
+    s.resistance = cohesion_force(plane) + plane.friction * pressed;
+    finish(s);
+    return s;
+}
+
+} // namespace
+
+WedgeState wedge_state(const Wedge& wedge, const Vector3& push, double accel)
+{
+    check(wedge);
+    const Vector3 n1 = normal_of(wedge.first), n2 = normal_of(wedge.second);
+    Vector3 force{0.0, 0.0, -wedge.mass * wedge.gravity};
+    force = sum(force, wedge.mass * accel, push);
+    force = sum(force, wedge.first.water_force, n1);
+    force = sum(force, wedge.second.water_force, n2);
+    const WedgeState both = on_both(wedge, n1, n2, force);
+    if (both.first_normal > 0.0 && both.second_normal > 0.0) return both;
+    // Pressed on one plane, and sliding on it leads away from the other.
+    const double f1 = dot(force, n1), f2 = dot(force, n2), c = dot(n1, n2);
+    if (f1 < 0.0 && f2 - c * f1 >= 0.0) return on_one(WedgeMode::first_plane, wedge.first, n1, force);
+    if (f2 < 0.0 && f1 - c * f2 >= 0.0) return on_one(WedgeMode::second_plane, wedge.second, n2, force);
+    WedgeState lifted;
+    lifted.mode = WedgeMode::lifts;
+    lifted.direction = unit(force);
+    lifted.drive = std::sqrt(dot(force, force));
+    return lifted;
+}
+
+WedgeYield wedge_yield(const Wedge& wedge, const Vector3& push)
+{
+    const auto excess = [&](double a) {
+        const WedgeState s = wedge_state(wedge, push, a);
+        return s.drive - s.resistance;
+    };
+    WedgeYield y;
+    const double step = wedge.gravity / 200.0;
+    double below = 0.0;
+    if (excess(0.0) <= 0.0) {
+        int k = 1;
+        while (k <= 2000 && excess(k * step) <= 0.0) ++k;
+        if (k > 2000) {
+            y.acceleration = std::numeric_limits<double>::infinity();
+            return y;
+        }
+        below = bracketed_root(excess, (k - 1) * step, k * step);
+    }
+    y.acceleration = below;
+    y.state = wedge_state(wedge, push, below);
+    // The forces are linear in a: what a unit of m a adds along the direction less what it adds to the resistance.
+    const Vector3 n1 = normal_of(wedge.first), n2 = normal_of(wedge.second);
+    const double c = dot(n1, n2), e1 = dot(push, n1), e2 = dot(push, n2);
+    double resisted = 0.0;
+    if (y.state.mode == WedgeMode::both_planes)
+        resisted = -(wedge.first.friction * (e1 - c * e2) + wedge.second.friction * (e2 - c * e1)) / (1.0 - c * c);
+    else if (y.state.mode == WedgeMode::first_plane)
+        resisted = -wedge.first.friction * e1;
+    else if (y.state.mode == WedgeMode::second_plane)
+        resisted = -wedge.second.friction * e2;
+    y.factor = dot(push, y.state.direction) - resisted;
+    return y;
+}
+
+SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const FixedYieldOptions& options)
+{
+    FixedYield fixed;
+    fixed.downstream = {{yield.acceleration, 0.0}, yield.factor};
+    GroundMotion horizontal = motion;
+    horizontal.accel_v.clear();
+    return slide_fixed_yield(SkippingMotion(std::move(horizontal)), fixed, options);
+}
+
+} // namespace damslip::sliding
