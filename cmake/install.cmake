@@ -43,6 +43,7 @@ function(damslip_install_shared_files)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data} COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/records/data DESTINATION ${data}/records COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
 endfunction()
 
 # What the program writes about itself: manual pages, and completion in the folders where the shells look for it.

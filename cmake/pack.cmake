@@ -1,0 +1,16 @@
+# `cpack --config build/release/CPackConfig.cmake`: damslip_<version>_<architecture>.deb with the program, its pages, examples, records and documents.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME damslip)
+set(CPACK_PACKAGE_CONTACT "the damslip project <damslip@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "seismic sliding of concrete gravity dams and rock blocks")
+set(CPACK_PACKAGE_DESCRIPTION "How far a gravity dam or rock block slides in an earthquake, and how sure the answer is: regressions,
+rigid block integrated exactly, and a finite-element model of dam, rock, water and contact.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)   # Depends from the libraries the program is linked to
+include(CPack)
