@@ -18,10 +18,11 @@ namespace {
 
 constexpr int newton_steps = 30;
 constexpr int renewals = 60;
-constexpr double row_tolerance = 1e-10;  ///< of the residual, relative to the largest stuck force
-constexpr double edge = 1e-10;           ///< of |e| against γ_e: states do not change within it
-constexpr double least_strength = 1e-6;  ///< of a pair whose stiffness is held, relative to the largest one
-constexpr double renewal_change = 1e-12; ///< of the strengths, relative to the largest: they repeat themselves
+constexpr double row_tolerance = 1e-10;   ///< of the residual, relative to the largest stuck force
+constexpr double largest_residual = 1e-7; ///< of a solution, relative to the largest stuck force
+constexpr double edge = 1e-10;            ///< of |e| against γ_e: states do not change within it
+constexpr double least_strength = 1e-6;   ///< of a pair whose stiffness is held, relative to the largest one
+constexpr double renewal_change = 1e-12;  ///< of the strengths, relative to the largest: they repeat themselves
 
 bool is_closed(ContactState state)
 {
@@ -181,6 +182,7 @@ ContactReport SlipTolerance::solve(const VectorXd& stuck_force, const ContactLaw
         report.path = done || settled ? ContactPath::gauss_seidel : ContactPath::unresolved;
     }
     report.residual = scale > 0.0 ? residual(step, it) / scale : 0.0;
+    if (report.residual > largest_residual) report.path = ContactPath::unresolved;
 
     for (Index i = 0; i < m; ++i) {
         const ContactState state = it.states[static_cast<std::size_t>(i)];
