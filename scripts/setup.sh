@@ -4,7 +4,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgsl-dev libsuitesparse-dev libopenblas-dev libcli11-dev libtomlplusplus-dev
           nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev)
 for part in "$@"; do
-    case "$part" in tests) packages+=(libgtest-dev) ;; coverage) packages+=(gcovr) ;; esac
+    case "$part" in tests) packages+=(libgtest-dev) ;; coverage) packages+=(gcovr) ;; package) packages+=(dpkg-dev file) ;; esac
 done
 missing=()
 for p in "${packages[@]}"; do
