@@ -415,7 +415,9 @@ void check_water(const Scene& s, Findings& f)
     if (s.reservoir) check_acoustic_water(*s.reservoir, f);
     check_face_of_added_mass(s, f);
     if (s.added_mass.period && s.reservoir) {
-        const double h = s.reservoir->level, c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
+        double h = s.reservoir->level; // the highest of all states
+        for (const Combination& state : s.combinations) h = std::max(h, state.reservoir_level.value_or(h));
+        const double c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
         if (s.added_mass.formula == AddedMassFormula::westergaard && *s.added_mass.period <= 4 * h / c)
             f.wrong("added_mass.period",
                     fmt::format("{} is not above the reservoir's own first period 4 h/c = {:.4g} s.",
