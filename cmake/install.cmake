@@ -53,9 +53,9 @@ function(damslip_install_pages)
   file(MAKE_DIRECTORY ${man} ${completion})
   add_custom_command(OUTPUT ${man}/damslip.1 ${completion}/bash ${completion}/zsh ${completion}/fish
     COMMAND damslip man --out ${man}
-    COMMAND damslip completion bash >${completion}/bash
-    COMMAND damslip completion zsh >${completion}/zsh
-    COMMAND damslip completion fish >${completion}/fish
+    COMMAND damslip completion bash > ${completion}/bash
+    COMMAND damslip completion zsh > ${completion}/zsh
+    COMMAND damslip completion fish > ${completion}/fish
     DEPENDS damslip VERBATIM)
   add_custom_target(damslip_pages ALL DEPENDS ${man}/damslip.1)
   install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime FILES_MATCHING PATTERN "*.1")
