@@ -57,12 +57,13 @@ double total(const Eigen::VectorXd& inflow, const std::vector<int>& nodes)
 void fill_profile(SeepageResult& result)
 {
     const auto& contact = result.mesh.contact;
+    const std::vector<double>& distance = contact.matching ? contact.distance : contact.rock_node_distance;
     result.lowest_pressure = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < contact.rock_nodes.size(); ++i) {
         const int n = contact.rock_nodes[i];
         const double p = result.unit_weight * (result.field.head[n] - result.mesh.nodes[n].y);
         result.lowest_pressure = std::min(result.lowest_pressure, p);
-        result.profile.push_back({contact.distance[i], std::max(0.0, p)});
+        result.profile.push_back({distance[i], std::max(0.0, p)});
     }
     for (std::size_t i = 0; i + 1 < result.profile.size(); ++i)
         result.uplift += 0.5 * (result.profile[i].pressure + result.profile[i + 1].pressure) *

@@ -60,6 +60,17 @@ TEST(FePoreRun, ADamThatSticksStandsWhereTheTiedDamDoes)
     }
 }
 
+// Sides of the joint that do not match: the pressures are read where the rock's nodes are.
+TEST(FePoreRun, SidesThatDoNotMatch)
+{
+    Eigen::Vector2d matching, other;
+    Scene scene = sticking_dam(PorePressure::total);
+    at_rest(scene, matching);
+    scene.mesh.rock_contact_size = 1.7;
+    ASSERT_EQ(at_rest(scene, other).status, RunStatus::at_rest);
+    EXPECT_LT((other - matching).norm(), 0.05 * matching.norm()); // finer rock below a coarse base
+}
+
 // The water in the rock does not change what the base carries.
 TEST(FePoreRun, ResultantsStay)
 {
