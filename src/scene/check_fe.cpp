@@ -1,0 +1,64 @@
+#include "scene/checks.hpp"
+
+#include "core/number.hpp"
+#include "scene/section.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip::checks {
+
+void check_fe(const Scene& s, Findings& f)
+{
+    const Damping& d = s.damping;
+    if (d.first_mode < 1 || d.second_mode <= d.first_mode || d.second_mode > 100)
+        f.wrong("damping.second_mode",
+                fmt::format("damping.first_mode = {} and damping.second_mode = {} are not allowed.", d.first_mode,
+                            d.second_mode),
+                "1 <= first_mode < second_mode <= 100", "write  first_mode = 1  and  second_mode = 5");
+    if (d.mass_coefficient.has_value() != d.stiffness_coefficient.has_value())
+        f.wrong("damping", "damping.mass_coefficient_1_s and damping.stiffness_coefficient_s are not both given.",
+                "both or neither", "add the other, 0 if it is meant to be absent");
+    const auto at_least = [&](const char* key, const std::optional<double>& size, double length, double most,
+                              const char* of) {
+        if (!size || *size * most >= length) return;
+        f.wrong(key,
+                fmt::format("{} makes {:.3g} elements along the {:.4g} m of {}.",
+                            value((std::string(key) + "_m").c_str(), *size), length / *size, length, of),
+                fmt::format("at most {:.0f} elements there: {} m or more", most, shortest(length / most)),
+                "give a larger size, or leave it out");
+    };
+    at_least("mesh.size", s.mesh.size, crest_level(s.section) - heel(s.section).y, 1000.0, "the dam's height");
+    at_least("mesh.contact_size", s.mesh.contact_size, base_length(s.section), 2000.0, "the base");
+    at_least("mesh.rock_contact_size", s.mesh.rock_contact_size, base_length(s.section), 2000.0, "the base");
+    if (s.reservoir)
+        at_least("reservoir.mesh_size", s.reservoir->mesh_size, s.reservoir->level, 400.0, "the water's depth");
+    if (s.mesh.size && s.mesh.contact_size && *s.mesh.contact_size > *s.mesh.size)
+        f.wrong("mesh.contact_size",
+                fmt::format("{} is above {}.", value("mesh.contact_size_m", *s.mesh.contact_size),
+                            value("mesh.size_m", *s.mesh.size)),
+                "at most mesh.size_m", "exchange the two values");
+    if (s.mesh.rock_contact_size && !s.foundation)
+        f.wrong("mesh.rock_contact_size", "mesh.rock_contact_size_m is given without [foundation]: there is no rock.",
+                "both or neither", "add [foundation] or delete rock_contact_size_m");
+    if (s.mesh.rock_contact_size && *s.mesh.rock_contact_size > 0.5 * base_length(s.section))
+        f.wrong("mesh.rock_contact_size",
+                fmt::format("{} leaves less than two elements below the base of {} m.",
+                            value("mesh.rock_contact_size_m", *s.mesh.rock_contact_size),
+                            shortest(base_length(s.section))),
+                "at most half the base; near contact_size_m is usual", "lessen it or leave it out");
+    if (s.time.substeps && (*s.time.substeps < 0 || *s.time.substeps > 10))
+        f.wrong("time.substeps", fmt::format("time.substeps = {} is not allowed.", *s.time.substeps),
+                "0 ... 10: k of the steps dt / 2^k", "write  substeps = 2  for steps of dt / 4");
+    if (f.given("time.substeps") && f.given("time.slip_tolerance"))
+        f.wrong("time.slip_tolerance", "time.slip_tolerance and time.substeps are both given.",
+                "one of them: fixed sub-steps, or sub-steps chosen to a tolerance", "delete one");
+    if (s.time.scheme == TimeScheme::newmark && f.given("time.alpha"))
+        f.wrong("time.alpha", "time.alpha belongs to time.scheme = \"hht\", but the scheme is \"newmark\".",
+                "gamma and beta for newmark", "delete alpha or choose hht");
+    if (s.time.scheme == TimeScheme::hht && (f.given("time.gamma") || f.given("time.beta")))
+        f.wrong(f.given("time.gamma") ? "time.gamma" : "time.beta",
+                "time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.",
+                "alpha for hht", "delete them or choose newmark");
+}
+
+} // namespace damslip::checks

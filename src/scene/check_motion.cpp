@@ -1,0 +1,62 @@
+#include "scene/checks.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace damslip::checks {
+
+void check_motion(const Scene& s, Findings& f, FileCheck files)
+{
+    if (s.motion.polarity != 1 && s.motion.polarity != -1)
+        f.wrong("motion.polarity", fmt::format("motion.polarity = {} is not allowed.", s.motion.polarity), "1 or -1",
+                "write  polarity = -1  to flip the horizontal component");
+    static const std::set<std::string> known{"", "g", "m/s2", "cm/s2", "gal", "mg"};
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.motion.records.size(); ++i) {
+        const RecordFiles& r = s.motion.records[i];
+        const std::string label = fmt::format("motion.record[{}]", i + 1);
+        if (!known.contains(r.unit))
+            f.wrong(label + ".unit", fmt::format("{}.unit = \"{}\" is not allowed.", label, r.unit),
+                    "\"g\", \"m/s2\", \"cm/s2\", \"gal\" or \"mg\"", "write  unit = \"g\"");
+        if (!names.insert(r.name).second)
+            f.wrong(label + ".name", fmt::format("two records are named \"{}\".", r.name), "names that differ",
+                    fmt::format("give one a name of its own in [[motion.record]] number {}", i + 1));
+        if (files == FileCheck::skip) continue;
+        const auto exists = [&](const std::filesystem::path& p, const char* key) {
+            std::error_code error;
+            if (!std::filesystem::is_regular_file(p, error))
+                f.wrong(label + "." + key, fmt::format("{}.{}: there is no file {}.", label, key, p.string()),
+                        "an accelerogram file, named relative to the scene file",
+                        "correct the name, or copy the file there");
+        };
+        exists(r.horizontal, "horizontal");
+        if (r.vertical) exists(*r.vertical, "vertical");
+    }
+}
+
+void check_combinations(const Scene& s, Findings& f)
+{
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.combinations.size(); ++i) {
+        const Combination& c = s.combinations[i];
+        const std::string label = fmt::format("combination[{}]", i + 1);
+        if (!names.insert(c.name).second)
+            f.wrong(label + ".name", fmt::format("two combinations are named \"{}\".", c.name), "names that differ",
+                    "rename one");
+        if (c.ice && !s.ice)
+            f.wrong(label + ".ice", label + ".ice = true, but the scene has no [ice].",
+                    "an [ice] table with force_kN_m", "add [ice] or delete the line");
+        if ((f.given(label + ".reservoir_level") && !s.reservoir) ||
+            (f.given(label + ".tailwater_level") && !s.tailwater))
+            f.wrong(label + ".reservoir_level", label + " changes a water level of a table the scene does not have.",
+                    "[reservoir] for reservoir_level_m, [tailwater] for tailwater_level_m",
+                    "add the table; its level_m may be 0");
+        if (c.required_resultant && *c.required_resultant != "kern" && *c.required_resultant != "middle-half" &&
+            *c.required_resultant != "base")
+            f.wrong(label + ".required_resultant",
+                    fmt::format("{}.required_resultant = \"{}\" is not allowed.", label, *c.required_resultant),
+                    "\"kern\", \"middle-half\" or \"base\"", "write  required_resultant = \"base\"");
+    }
+}
+
+} // namespace damslip::checks

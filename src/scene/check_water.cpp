@@ -1,0 +1,106 @@
+#include "scene/checks.hpp"
+
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::checks {
+
+namespace {
+
+void check_acoustic_water(const Reservoir& water, Findings& f)
+{
+    if (water.bottom_density.has_value() != water.bottom_modulus.has_value())
+        f.wrong(water.bottom_density ? "reservoir.bottom_density" : "reservoir.bottom_modulus",
+                "one of reservoir.bottom_density_kg_m3 and reservoir.bottom_modulus_GPa is missing.",
+                "both: together they give the wave reflection coefficient (Goldgruber 2015, 3-55)",
+                "add the other one, or give bottom_reflection instead");
+    if ((water.bottom_density || water.bottom_modulus) && f.given("reservoir.bottom_reflection"))
+        f.wrong("reservoir.bottom_reflection",
+                "reservoir.bottom_reflection is given together with the density or modulus of the bottom.",
+                "one of the two descriptions", "delete one");
+    if (water.mesh_size && *water.mesh_size > water.level / 4)
+        f.wrong("reservoir.mesh_size",
+                fmt::format("{} leaves fewer than four elements over the depth of {} m.",
+                            value("reservoir.mesh_size_m", *water.mesh_size), shortest(water.level)),
+                "at most a quarter of the depth; a tenth resolves the waves that matter",
+                fmt::format("write  mesh_size_m = {}", shortest(water.level / 20)));
+}
+
+/// Goldgruber & Feldbacher's mass (3-10) is of faces within 30 degrees.
+void check_face_of_added_mass(const Scene& s, Findings& f)
+{
+    if (s.added_mass.formula != AddedMassFormula::goldgruber || !s.reservoir ||
+        s.reservoir->model == ReservoirModel::hydrostatic)
+        return;
+    const Polyline face = upstream_face(s.section);
+    for (std::size_t i = 0; i + 1 < face.size(); ++i) {
+        const double angle = std::atan2(face[i + 1].x - face[i].x, face[i + 1].y - face[i].y) / units::degree;
+        if (face[i].y >= s.reservoir->level || angle <= 30.0 * (1.0 + 1e-12)) continue;
+        f.wrong(
+            "added_mass.formula",
+            fmt::format("added_mass.formula = \"goldgruber\" with a wet face {:.4g} degrees from the vertical.", angle),
+            "a wet upstream face within 0 to 30 degrees of the vertical, the range of (3-10)",
+            "use added_mass.formula = \"zangar\" or \"westergaard\"");
+        return;
+    }
+}
+
+void check_crack_water(const Scene& s, Findings& f)
+{
+    const double depth = upstream_face(s.section).back().y;
+    if (f.given("section.slope_height") && s.reservoir && s.reservoir->level > depth * (1 + 1e-12))
+        f.wrong("reservoir.level",
+                fmt::format("{} does not fit into the tension crack, which is {} m deep.",
+                            value("reservoir.level_m", s.reservoir->level), shortest(depth)),
+                "depth of the water above the foot of the crack, at most the crack's depth", "lower it");
+}
+
+} // namespace
+
+void check_water(const Scene& s, Findings& f)
+{
+    if (s.stages.pore_pressure != PorePressure::none && s.reservoir && s.reservoir->floor_pressure)
+        f.wrong("stages.pore_pressure",
+                "stages.pore_pressure is given together with reservoir.floor_pressure = true: the floor would be "
+                "loaded twice.",
+                "one of the two: the water in the rock brings the pressure on its surface with it",
+                "delete floor_pressure");
+    if (s.silt && s.silt->level > crest_level(s.section))
+        f.wrong("silt.level",
+                fmt::format("{} is above the crest at {} m.", value("silt.level_m", s.silt->level),
+                            shortest(crest_level(s.section))),
+                "at most the crest", "lower it");
+    if (s.reservoir && s.reservoir->level > 3 * crest_level(s.section))
+        f.wrong("reservoir.level",
+                fmt::format("{} is more than three times the height of the crest, {} m.",
+                            value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
+                "metres above the heel", "check datum and unit");
+    check_crack_water(s, f);
+    if (s.reservoir) check_acoustic_water(*s.reservoir, f);
+    check_face_of_added_mass(s, f);
+    if (s.added_mass.period && s.reservoir) {
+        double h = s.reservoir->level; // the highest of all states
+        for (const Combination& state : s.combinations) h = std::max(h, state.reservoir_level.value_or(h));
+        const double c = std::sqrt(s.reservoir->bulk_modulus / s.reservoir->density);
+        if (s.added_mass.formula == AddedMassFormula::westergaard && *s.added_mass.period <= 4 * h / c)
+            f.wrong("added_mass.period",
+                    fmt::format("{} is not above the reservoir's own first period 4 h/c = {:.4g} s.",
+                                value("added_mass.period_s", *s.added_mass.period), 4 * h / c),
+                    "the period of the excitation or of the dam, longer than 4 h/c; Westergaard's series (3-1) has a "
+                    "pole there",
+                    "leave period_s out for incompressible water, or model the reservoir as acoustic");
+    }
+    for (std::size_t i = 1; i < s.added_mass.zangar_table.size(); ++i)
+        if (s.added_mass.zangar_table[i].x <= s.added_mass.zangar_table[i - 1].x) {
+            f.wrong("added_mass.zangar_table", "added_mass.zangar_table_deg has angles that do not increase.",
+                    "angles from the vertical, increasing", "put the pairs in order");
+            break;
+        }
+}
+
+} // namespace damslip::checks

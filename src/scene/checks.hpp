@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/findings.hpp"
+#include "scene/read.hpp"
+
+#include <string>
+
+/// Checks of the scene that involve more than one key, by topic; each names all keys and values concerned.
+namespace damslip::checks {
+
+/// "curtain.depth_m = 12"
+std::string value(const char* key, double x);
+
+/// Curtain, drains, rock box and uplift along the base.
+void check_base(const Scene& s, Findings& f);
+
+/// @param table  "contact" or "lift_joint[1]"
+void check_strength(const Contact& c, const std::string& table, Findings& f);
+void check_lift_joints(const Scene& s, Findings& f);
+
+/// Law and enforcement of the contact.
+void check_joint(const Scene& s, Findings& f);
+void check_water(const Scene& s, Findings& f);
+void check_motion(const Scene& s, Findings& f, FileCheck files);
+void check_combinations(const Scene& s, Findings& f);
+
+/// Mesh, damping and time integration.
+void check_fe(const Scene& s, Findings& f);
+
+} // namespace damslip::checks

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/key_table.hpp"
+
+/// The keys of the scene file by topic, each with its unit, range, default and meaning. keys.cpp puts them in order.
+namespace damslip::keys {
+
+/// @param input  filled instead of a member of the scene: the polygon is made of it afterwards (make_section)
+KeyGroup section_group(SectionInput& input);
+std::vector<KeyGroup> base_groups();
+std::vector<KeyGroup> water_groups();
+std::vector<KeyGroup> motion_groups();
+std::vector<KeyGroup> fe_groups();
+
+/// Load combinations of the limit equilibrium.
+KeyGroup combination_group();
+
+/// Keys of [contact]; those of the strength are keys of every lift joint too.
+std::vector<Key> lift_joint_keys(const std::vector<Key>& contact);
+
+/// How the uplift in a base crack follows from the water: words of uplift.crack and combination.crack.
+const std::vector<std::pair<std::string, CrackRule>>& crack_rules();
+
+} // namespace damslip::keys

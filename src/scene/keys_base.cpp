@@ -1,0 +1,198 @@
+#include "scene/key_parts.hpp"
+#include "scene/keys.hpp"
+
+namespace damslip::keys {
+
+namespace {
+
+Key only_with(ContactEnforcement enforcement, Key key)
+{
+    key.applies = [enforcement](const void* contact) {
+        return static_cast<const Contact*>(contact)->enforcement == enforcement;
+    };
+    return key;
+}
+
+Key only_with(NormalContact normal, Key key)
+{
+    key.applies = [normal](const void* contact) { return static_cast<const Contact*>(contact)->normal == normal; };
+    return key;
+}
+
+Key only_with(JointPath sliding, Key key)
+{
+    key.applies = [sliding](const void* contact) { return static_cast<const Contact*>(contact)->sliding == sliding; };
+    return key;
+}
+
+Key with_residual(Key key)
+{
+    key.applies = [](const void* contact) {
+        return static_cast<const Contact*>(contact)->residual_friction.has_value();
+    };
+    return key;
+}
+
+} // namespace
+
+const std::vector<std::pair<std::string, CrackRule>>& crack_rules()
+{
+    static const std::vector<std::pair<std::string, CrackRule>> words{
+        {"none", CrackRule::none},
+        {"static", CrackRule::fixed_static},
+        {"seismic-zero", CrackRule::seismic_zero},
+        {"seismic-unchanged", CrackRule::seismic_unchanged},
+        {"seismic-full", CrackRule::seismic_full}};
+    return words;
+}
+
+std::vector<KeyGroup> base_groups()
+{
+    std::vector<KeyGroup> groups;
+    groups.push_back(group(
+        "contact", "Strength of the base.", &Scene::contact,
+        {number("friction", friction, Range::between(0, 10), "required",
+                "Coulomb mu, peak; or friction_deg, its angle (a dam on rock: 0.6 to 1.2)", "0.77",
+                at(&Contact::friction)),
+         number("cohesion", stress, Range::at_least(0), "0", "cohesion on the compressed length", "100",
+                at(&Contact::cohesion)),
+         word("cohesion_lost_at_slip", "true", "cohesion is gone from the first slip on", "false",
+              at(&Contact::cohesion_lost_at_slip)),
+         word("sliding", "small",
+              "FE: each dam node stays opposite its rock node (small: slips well below an element), or faces the "
+              "rock it has slid to (finite)",
+              "\"finite\"",
+              choice(&Contact::sliding, std::vector<std::pair<std::string, JointPath>>{{"small", JointPath::small},
+                                                                                       {"finite", JointPath::finite}})),
+         only_with(
+             JointPath::finite,
+             number("max_slip", length, Range::between(0.01, 100), "1",
+                    "FE, sliding finite: largest slip downstream, 1 m upstream; a run that goes further stops and "
+                    "says so",
+                    "5", at(&Contact::max_slip))),
+         number("residual_friction", friction, Range::between(0, 10), "the peak value",
+                "Coulomb mu after residual_slip", "0.65", at(&Contact::residual_friction)),
+         with_residual(number("residual_slip", small_length, Range::at_least(0), "0 (at first slip)",
+                              "accumulated slip at which the residual value is reached", "0.01",
+                              at(&Contact::residual_slip))),
+         word("residual_path", "steps", "between peak and residual: a step at residual_slip, or linear in slip",
+              "\"linear\"",
+              choice(&Contact::residual_path,
+                     std::vector<std::pair<std::string, Interpolation>>{{"steps", Interpolation::steps},
+                                                                        {"linear", Interpolation::linear}})),
+         pairs("friction_table", small_length, none, Range::between(0, 10), "none",
+               "mu over accumulated slip, instead of peak and residual; steps or linear as residual_path says",
+               "[[0, 0.84], [0.01, 0.7]]", at(&Contact::friction_table)),
+         word("separation", "allowed",
+              "FE: the joint opens (allowed), or carries tension without shear (none), which lowers the slip and "
+              "breaks the rigid limit",
+              "\"none\"",
+              choice(&Contact::separation,
+                     std::vector<std::pair<std::string, JointOpening>>{{"allowed", JointOpening::allowed},
+                                                                       {"none", JointOpening::none}})),
+         word("enforcement", "exact",
+              "FE, before slip: rigid (exact), elastic with tangential_stiffness (penalty), or with elastic slip "
+              "up to slip_tolerance x contact element length (slip-tolerance); the last two also run exact and "
+              "state the error of the slip",
+              "\"penalty\"",
+              choice(&Contact::enforcement,
+                     std::vector<std::pair<std::string, ContactEnforcement>>{
+                         {"exact", ContactEnforcement::exact},
+                         {"penalty", ContactEnforcement::penalty},
+                         {"slip-tolerance", ContactEnforcement::slip_tolerance}})),
+         only_with(ContactEnforcement::penalty,
+                   number("tangential_stiffness", subgrade, Range::above(0), "required with penalty",
+                          "enforcement penalty: shear stress per elastic slip", "1e11",
+                          at(&Contact::tangential_stiffness))),
+         only_with(ContactEnforcement::slip_tolerance,
+                   number("slip_tolerance", none, Range::half_open(0, 1), "0.005",
+                          "enforcement slip-tolerance: F_f, elastic slip at the strength over the mean length of "
+                          "the contact elements (4-10)",
+                          "0.005", at(&Contact::slip_tolerance))),
+         word("normal", "hard",
+              "FE, across the joint: no penetration (hard), or a pressure that falls with the clearance g "
+              "(exponential): p = p0/(e - 1) z (exp z - 1), z = 1 - g/c0; it also runs hard contact and states the "
+              "error of the slip",
+              "\"exponential\"",
+              choice(&Contact::normal,
+                     std::vector<std::pair<std::string, NormalContact>>{{"hard", NormalContact::hard},
+                                                                        {"exponential", NormalContact::exponential}})),
+         only_with(NormalContact::exponential,
+                   number("pressure_at_zero_clearance", stress, Range::above(0), "1000", "normal exponential: p0",
+                          "1000", at(&Contact::pressure_at_zero_clearance))),
+         only_with(NormalContact::exponential,
+                   number("clearance_at_zero_pressure", small_length, Range::between(1e-6, 1), "0.001",
+                          "normal exponential: c0, the pressure acts from this clearance on", "0.001",
+                          at(&Contact::clearance_at_zero_pressure)))}));
+    groups.push_back(list_group<LiftJoint>(
+        "lift_joint",
+        "A horizontal joint through the dam that may slide and open, for `fe`: the block above a lift or a crack. Its "
+        "separation, enforcement and slip tolerance are those of [contact].",
+        [](Scene& s) -> std::vector<LiftJoint>& { return s.lift_joints; }, lift_joint_keys(groups.back().keys)));
+    groups.push_back(optional_group(
+        "uplift", "Water pressure in the base. Without this table: seepage where a [curtain] is given, else none.",
+        &Scene::uplift,
+        {word("model", "seepage with [curtain], drains with [drains], else linear",
+              "none; linear (heel to toe, ruptured curtain); curtain (printed 2/3 rule); drains (USACE); points; "
+              "seepage (Darcy solution)",
+              "\"points\"",
+              choice(
+                  &Uplift::model, std::vector<std::pair<std::string, UpliftModel>>{{"none", UpliftModel::none},
+                                                                                   {"linear", UpliftModel::linear},
+                                                                                   {"curtain", UpliftModel::curtain},
+                                                                                   {"drains", UpliftModel::drains},
+                                                                                   {"points", UpliftModel::points},
+                                                                                   {"seepage", UpliftModel::seepage}})),
+         number("curtain_ratio", none, Range::between(0, 1), "0.6666666666666666",
+                "model curtain: pressure behind the curtain over that at the heel, above the toe's", "0.6667",
+                at(&Uplift::curtain_ratio)),
+         pairs("points", length, none, Range::between(0, 2), "none",
+               "model points: distance along the base from the heel, pressure over the pressure at the heel; a "
+               "repeated distance is a jump",
+               "[[0, 1], [7, 0.938], [7, 0.315], [45, 0]]", at(&Uplift::points)),
+         word("crack", "none", "uplift in a base crack: none, static, seismic-zero, seismic-unchanged, seismic-full",
+              "\"static\"", choice(&Uplift::crack, crack_rules()))}));
+    groups.push_back(
+        optional_group("curtain", "Grout curtain below the base.", &Scene::curtain,
+                       {number("distance", length, Range::at_least(0), "required",
+                               "upstream side of the curtain, from the heel", "7", at(&Curtain::distance)),
+                        number("depth", length, Range::above(0), "30", "below the base", "30", at(&Curtain::depth)),
+                        number("thickness", length, Range::above(0), "1", "thickness", "1", at(&Curtain::thickness)),
+                        number("young_modulus", modulus, Range::above(0), "the rock's", "Young's modulus", "27",
+                               at(&Curtain::young_modulus)),
+                        number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.2",
+                               at(&Curtain::poisson_ratio)),
+                        number("permeability", conductivity, Range::above(0), "1e-8", "hydraulic conductivity", "1e-8",
+                               at(&Curtain::permeability)),
+                        word("intact", "true", "false: ruptured, it neither holds water back nor lowers the uplift",
+                             "false", at(&Curtain::intact))}));
+    groups.push_back(optional_group(
+        "drains", "Drain line below the base (USACE EM 1110-2-2200).", &Scene::drains,
+        {number("distance", length, Range::above(0), "required", "from the heel", "10", at(&Drains::distance)),
+         number("efficiency", none, Range::between(0, 1), "0.6666666666666666", "E", "0.5", at(&Drains::efficiency)),
+         number("depth", length, Range::above(0), "half curtain.depth_m, without curtain a quarter of the base",
+                "of the line below the base, for uplift by seepage", "15", at(&Drains::depth)),
+         number("gallery_level", length, Range::any(), "none",
+                "drainage gallery above the heel; takes the place of a lower tailwater", "3",
+                at(&Drains::gallery_level)),
+         number("lost_at_slip", small_length, Range::at_least(0), "never", "slip at which the drains shear off", "0.05",
+                at(&Drains::lost_at_slip))}));
+    Key rock_density = number("density", density, Range::at_least(0), "0 (massless)", "rock density", "0",
+                              [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.density; });
+    groups.push_back(optional_group(
+        "foundation", "Flexible rock. Without this table the FE base is rigid.", &Scene::foundation,
+        {number("young_modulus", modulus, Range::above(0), "required", "Young's modulus of the rock", "30",
+                [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.young_modulus; }),
+         number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.2",
+                [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.poisson_ratio; }),
+         rock_density,
+         number("width", length, Range::above(0), "6.6667 x base", "of the rock box, centred on the base", "300",
+                at(&Foundation::width)),
+         number("depth", length, Range::above(0), "2.2222 x base", "of the rock box below the heel", "100",
+                at(&Foundation::depth)),
+         number("permeability", conductivity, Range::above(0), "1e-4", "hydraulic conductivity", "1e-4",
+                at(&Foundation::permeability))}));
+    return groups;
+}
+
+} // namespace damslip::keys
