@@ -27,6 +27,15 @@ void check_base(const Scene& s, Findings& f)
                 fmt::format("{} is too narrow for a base of {} m.", value("foundation.width_m", s.foundation->width),
                             shortest(base)),
                 "at least 1.2 x base; 5 to 7 x base is usual", "widen the box");
+    if (s.foundation)
+        for (const auto& [key, extent] :
+             {std::pair("width", s.foundation->width), std::pair("depth", s.foundation->depth)})
+            if (extent > 100 * base)
+                f.wrong(fmt::format("foundation.{}", key),
+                        fmt::format("foundation.{}_m = {} is more than a hundred times the base of {} m.", key,
+                                    shortest(extent), shortest(base)),
+                        fmt::format("at most 100 x base, {} m; 2 to 7 x base is usual", shortest(100 * base)),
+                        "check the unit, or lessen the box");
     if (s.drains && s.drains->distance >= base)
         f.wrong("drains.distance",
                 fmt::format("{} is not within the base of {} m.", value("drains.distance_m", s.drains->distance),

@@ -49,6 +49,10 @@ void check_fe(const Scene& s, Findings& f)
     if (s.time.substeps && (*s.time.substeps < 0 || *s.time.substeps > 10))
         f.wrong("time.substeps", fmt::format("time.substeps = {} is not allowed.", *s.time.substeps),
                 "0 ... 10: k of the steps dt / 2^k", "write  substeps = 2  for steps of dt / 4");
+    if (s.time.stepping == Stepping::adaptive && f.given("time.substeps"))
+        f.wrong("time.substeps", "time.substeps is given with time.stepping = \"adaptive\".",
+                "substeps with stepping = \"uniform\"; the adaptive step is chosen by slip_tolerance",
+                "delete substeps, or write  stepping = \"uniform\"");
     if (f.given("time.substeps") && f.given("time.slip_tolerance"))
         f.wrong("time.slip_tolerance", "time.slip_tolerance and time.substeps are both given.",
                 "one of them: fixed sub-steps, or sub-steps chosen to a tolerance", "delete one");

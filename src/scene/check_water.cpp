@@ -23,6 +23,12 @@ void check_acoustic_water(const Reservoir& water, Findings& f)
         f.wrong("reservoir.bottom_reflection",
                 "reservoir.bottom_reflection is given together with the density or modulus of the bottom.",
                 "one of the two descriptions", "delete one");
+    if (f.given("reservoir.length") && water.length > 100 * water.level)
+        f.wrong("reservoir.length",
+                fmt::format("{} is more than a hundred times the depth of {} m.",
+                            value("reservoir.length_m", water.length), shortest(water.level)),
+                fmt::format("at most 100 x level_m, {} m; 1 to 3 x level_m is usual", shortest(100 * water.level)),
+                "check the unit, or lessen the length: far_end = \"absorbing\" needs one depth only");
     if (water.mesh_size && *water.mesh_size > water.level / 4)
         f.wrong("reservoir.mesh_size",
                 fmt::format("{} leaves fewer than four elements over the depth of {} m.",

@@ -87,7 +87,7 @@ std::vector<KeyGroup> fe_groups()
                                                at(&TimeOptions::gamma))),
          only_with(TimeScheme::newmark, number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta", "0.25",
                                                at(&TimeOptions::beta))),
-         number("dt", seconds, Range::above(0), "the record's", "time step", "0.005", at(&TimeOptions::dt)),
+         number("dt", seconds, Range::between(1e-7, 10), "the record's", "time step", "0.005", at(&TimeOptions::dt)),
          word("substeps", "chosen by slip_tolerance",
               "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
               at(&TimeOptions::substeps)),

@@ -34,4 +34,32 @@ TEST(MeshSizeInput, AbsurdlySmallElementsAreRefusedBeforeAnythingIsMeshed)
         EXPECT_EQ(size_message(text), "(accepted)");
 }
 
+TEST(MeshSizeInput, RockAndWaterWithoutEndAreRefused)
+{
+    for (const char* text : {"length_m = 1e9\n", "[foundation]\nwidth_m = 1e9\nyoung_modulus_GPa = 30\n",
+                             "[foundation]\ndepth_m = 1e9\nyoung_modulus_GPa = 30\n"}) {
+        const std::string table = text[0] == '[' ? "" : "[reservoir]\nlevel_m = 60\n";
+        try {
+            parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
+                        "0.77\n" +
+                            table + text,
+                        "dam.toml", FileCheck::skip);
+            ADD_FAILURE() << text << " is accepted";
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(" is more than a hundred times the "), std::string::npos)
+                << error.what();
+        }
+    }
+    EXPECT_EQ(size_message("length_m = 6000\n"), "(accepted)");
+}
+
+TEST(MeshSizeInput, StepsThatNeverEndAndStepsChosenTwiceAreRefused)
+{
+    EXPECT_NE(size_message("[time]\ndt_s = 1e-12\n").find("1e-07"), std::string::npos);
+    EXPECT_EQ(size_message("[time]\nstepping = \"adaptive\"\nsubsteps = 2\n"),
+              "dam.toml:14:1: error: time.substeps is given with time.stepping = \"adaptive\".\n"
+              "  expected: substeps with stepping = \"uniform\"; the adaptive step is chosen by slip_tolerance\n"
+              "  fix:      delete substeps, or write  stepping = \"uniform\"");
+}
+
 } // namespace
