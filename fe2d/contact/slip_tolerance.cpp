@@ -18,11 +18,11 @@ namespace {
 
 constexpr int newton_steps = 30;
 constexpr int renewals = 60;
-constexpr double row_tolerance = 1e-10;   ///< of the residual, relative to the largest stuck force
-constexpr double largest_residual = 1e-7; ///< of a solution, relative to the largest stuck force
-constexpr double edge = 1e-10;            ///< of |e| against γ_e: states do not change within it
-constexpr double least_strength = 1e-6;   ///< of a pair whose stiffness is held, relative to the largest one
-constexpr double renewal_change = 1e-12;  ///< of the strengths, relative to the largest: they repeat themselves
+constexpr double residual_tolerance = 1e-10; ///< of the residual, relative to the largest stuck force
+constexpr double largest_residual = 1e-7;    ///< of a solution, relative to the largest stuck force
+constexpr double edge = 1e-10;               ///< of |e| against γ_e: states do not change within it
+constexpr double least_strength = 1e-6;      ///< of a pair whose stiffness is held, relative to the largest one
+constexpr double renewal_change = 1e-12;     ///< of the strengths, relative to the largest: they repeat themselves
 
 bool is_closed(ContactState state)
 {
@@ -163,7 +163,7 @@ ContactReport SlipTolerance::solve(const VectorXd& stuck_force, const ContactLaw
     const Index m = law.pairs();
     const double scale = stuck_force.cwiseAbs().maxCoeff();
     const VectorXd elastic_start = elastic;
-    const Step step{stuck_force, law, elastic_start, row_tolerance * scale};
+    const Step step{stuck_force, law, elastic_start, residual_tolerance * scale};
     Iterate start = solution;
     if (start.states.size() != static_cast<std::size_t>(m))
         start.states.assign(static_cast<std::size_t>(m), ContactState::stick);

@@ -1,19 +1,17 @@
 #include "fe2d/damping/damping_choice.hpp"
 
-#include <fmt/format.h>
+#include "core/units.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace damslip::fe2d {
 
 namespace {
 
-double hertz(double frequency)
-{
-    return frequency / (2.0 * std::numbers::pi);
-}
+using units::hertz;
 
 /// Index of a mode counted from 1, or of the last there is.
 std::size_t mode_index(int mode, const std::vector<ModalMass>& modes, DampingChoice& choice)

@@ -1,10 +1,11 @@
 #include "fe2d/damping/modified_rayleigh.hpp"
 
-#include <fmt/format.h>
+#include "core/units.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace damslip::fe2d {
@@ -78,10 +79,7 @@ std::vector<double> sign_changes(const Imbalance& f, double from, double to, int
     return roots;
 }
 
-double hertz(double frequency)
-{
-    return frequency / (2.0 * std::numbers::pi);
-}
+using units::hertz;
 
 void warn_of_missing_mass(ModifiedRayleigh& result, const ModifiedRayleighOptions& options, std::size_t modes)
 {

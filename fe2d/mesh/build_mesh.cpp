@@ -16,14 +16,6 @@ namespace damslip::fe2d {
 
 namespace {
 
-[[noreturn]] void refuse(const Scene& scene, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{.file = scene.file.string(),
-                                .problem = std::move(problem),
-                                .expected = std::move(expected),
-                                .fix = std::move(fix)});
-}
-
 /// Mesh lines are laid around a curtain only where its elements differ from the rock's: in stiffness, or in the flow
 /// whose pore pressures this mesh carries.
 bool curtain_is_meshed(const Scene& scene)
@@ -41,7 +33,7 @@ std::vector<double> base_stations(const Scene& scene)
     const Curtain& curtain = *scene.curtain;
     const double end = curtain.distance + curtain.thickness;
     if (!(curtain.distance >= 0.0 && curtain.thickness > 0.0 && end <= length))
-        refuse(scene,
+        refuse(scene.file,
                fmt::format("curtain.distance_m = {:g} with curtain.thickness_m = {:g} is not below the base.",
                            curtain.distance, curtain.thickness),
                fmt::format("distance + thickness within the base of {:g} m", length),
@@ -114,7 +106,7 @@ void place_sides(const Scene& scene, RockLayout& layout, const Grading& grading)
     const double from = cosine * layout.plane.front(), to = cosine * layout.plane.back();
     const double needed = 2.0 * (std::max(middle - from, to - middle) + grading.first);
     if (scene.foundation->width < needed)
-        refuse(scene, fmt::format("foundation.width_m = {:g} is too small.", scene.foundation->width),
+        refuse(scene.file, fmt::format("foundation.width_m = {:g} is too small.", scene.foundation->width),
                fmt::format("at least {:g} m: base, sliding path on both sides and one element", needed),
                "use about 5 base lengths or more");
     for (const double d : graded_positions({0.0, from - (middle - half)}, grading)) layout.left.push_back(from - d);
@@ -128,7 +120,7 @@ void place_rows(const Scene& scene, RockLayout& layout, const Grading& grading)
     const double lowest =
         -std::sin(layout.inclination) * (layout.inclination > 0.0 ? layout.plane.back() : layout.plane.front());
     if (rock.depth <= grading.first - lowest)
-        refuse(scene, fmt::format("foundation.depth_m = {:g} is too small.", rock.depth),
+        refuse(scene.file, fmt::format("foundation.depth_m = {:g} is too small.", rock.depth),
                fmt::format("more than {:g} m below the heel", grading.first - lowest),
                "use about the height of the dam or more");
     std::vector<double> stations{0.0, rock.depth};
@@ -138,7 +130,7 @@ void place_rows(const Scene& scene, RockLayout& layout, const Grading& grading)
         const double depth = scene.curtain->depth;
         const double available = rock.depth - std::sin(layout.inclination) * layout.plane[layout.curtain_begin];
         if (!(depth > 0.0 && depth < available))
-            refuse(scene, fmt::format("curtain.depth_m = {:g} does not end inside the foundation.", depth),
+            refuse(scene.file, fmt::format("curtain.depth_m = {:g} does not end inside the foundation.", depth),
                    fmt::format("more than 0 and less than {:g} m (foundation.depth_m = {:g})", available, rock.depth),
                    "make the foundation deeper");
         stations.insert(stations.begin() + 1, depth / available * rock.depth);

@@ -19,14 +19,6 @@ std::string vertex_text(const Polyline& polygon, std::size_t i)
     return std::to_string(i + 1) + " (" + shortest(polygon[i].x) + ", " + shortest(polygon[i].y) + ")";
 }
 
-[[noreturn]] void refuse(const Scene& scene, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{.file = scene.file.string(),
-                                .problem = std::move(problem),
-                                .expected = std::move(expected),
-                                .fix = std::move(fix)});
-}
-
 double slope(Point a, Point b)
 {
     return std::abs(b.y - a.y) / std::max(std::abs(b.x - a.x), 1e-300);
@@ -61,7 +53,7 @@ void check_rising(const Scene& scene, const std::vector<std::size_t>& chain, con
     const Polyline& polygon = scene.section.polygon;
     for (std::size_t k = 0; k + 1 < chain.size(); ++k)
         if (polygon[chain[k + 1]].y <= polygon[chain[k]].y)
-            refuse(scene,
+            refuse(scene.file,
                    "section.polygon: the " + std::string(face) + " face does not rise between vertex " +
                        vertex_text(polygon, chain[k]) + " and vertex " + vertex_text(polygon, chain[k + 1]) + ".",
                    "both faces rising from the base to the crest",
@@ -117,7 +109,8 @@ Layers joint_layers(const Scene& scene, const Polyline& upstream, const Polyline
     for (const LiftJoint& joint : scene.lift_joints) {
         const double y = joint.elevation;
         if (!(y > low && y < high))
-            refuse(scene, "lift_joint.elevation_m = " + shortest(y) + " is not between base and crest on both faces.",
+            refuse(scene.file,
+                   "lift_joint.elevation_m = " + shortest(y) + " is not between base and crest on both faces.",
                    "above " + shortest(low) + " m and below " + shortest(high) + " m", "move the joint");
         layers.push_back({0.5 * (parameter(upstream, {}, y) + parameter(downstream, {}, y)), y});
     }
@@ -174,17 +167,17 @@ Faces split_faces(const Scene& scene)
 {
     const Polyline& polygon = scene.section.polygon;
     if (polygon.size() < 3)
-        refuse(scene, "section.polygon has " + std::to_string(polygon.size()) + " vertices.", "at least three",
+        refuse(scene.file, "section.polygon has " + std::to_string(polygon.size()) + " vertices.", "at least three",
                "add vertices");
     if (!(area(scene.section) > 0.0))
-        refuse(scene, "section.polygon is not counter-clockwise.",
+        refuse(scene.file, "section.polygon is not counter-clockwise.",
                "heel first, toe second, then up the downstream face", "turn the order of the vertices round");
     const Crest crest = find_crest(polygon);
     std::vector<std::size_t> up{0}, down;
     for (std::size_t i = polygon.size() - 1; i >= crest.upstream; --i) up.push_back(i);
     for (std::size_t i = 1; i <= crest.downstream; ++i) down.push_back(i);
     if (up.size() < 2 || down.size() < 2)
-        refuse(scene,
+        refuse(scene.file,
                "section.polygon: vertex " + vertex_text(polygon, crest.downstream) +
                    " is heel or toe and the highest point.",
                "heel and toe below the crest",

@@ -16,14 +16,6 @@ namespace damslip::fe2d {
 
 namespace {
 
-[[noreturn]] void refuse(const Scene& scene, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{.file = scene.file.string(),
-                                .problem = std::move(problem),
-                                .expected = std::move(expected),
-                                .fix = std::move(fix)});
-}
-
 /// Positions from a to b, fine at both ends.
 std::vector<double> fine_at_both_ends(double a, double b, const Grading& grading)
 {
@@ -79,7 +71,7 @@ struct Flow {
 void check_box(const Flow& flow)
 {
     if (flow.box.width < 1.2 * flow.base || std::min(flow.rock_below(0.0), flow.rock_below(flow.base)) <= 0.0)
-        refuse(flow.scene,
+        refuse(flow.scene.file,
                fmt::format("foundation box of {:g} m x {:g} m is too small for seepage under a base of {:g} m.",
                            flow.box.width, flow.box.depth, flow.base),
                "width at least 1.2 base lengths, bottom below the base",
@@ -89,10 +81,11 @@ void check_box(const Flow& flow)
 void check_line(const Flow& flow, const char* what, double from, double to, double depth)
 {
     if (from < 0.0 || to > flow.base || to < from)
-        refuse(flow.scene, fmt::format("{0}: {1:g} to {2:g} m from the heel is not below the base.", what, from, to),
+        refuse(flow.scene.file,
+               fmt::format("{0}: {1:g} to {2:g} m from the heel is not below the base.", what, from, to),
                fmt::format("between 0 and the base length of {:g} m", flow.base), "move it between heel and toe");
     if (!(depth > 0.0 && depth < flow.rock_below(from)))
-        refuse(flow.scene, fmt::format("{}: depth {:g} m does not end inside the foundation.", what, depth),
+        refuse(flow.scene.file, fmt::format("{}: depth {:g} m does not end inside the foundation.", what, depth),
                fmt::format("more than 0 and less than {:g} m", flow.rock_below(from)), "make the foundation deeper");
 }
 

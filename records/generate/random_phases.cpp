@@ -13,7 +13,7 @@ namespace damslip::records {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double damping = 0.05;
 
 struct Line {

@@ -11,8 +11,8 @@ namespace damslip::records {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double damping = 0.05;
+using std::numbers::pi;
+constexpr double spectrum_damping = 0.05;
 constexpr std::size_t parts =
     4; ///< steps of the oscillator per sample; at T = 0.04 s and dt = 0.01 s sixteen per period
 
@@ -44,7 +44,7 @@ void keep_largest(Response& response)
 Response oscillator_response(std::span<const double> accel, double dt, double period, double wanted)
 {
     const double w = 2.0 * pi / period;
-    const OscillatorStep step(w, damping, dt / parts);
+    const OscillatorStep step(w, spectrum_damping, dt / parts);
     OscillatorState s;
     Response response{period, wanted, {}};
     double before = 0.0, value = 0.0;
@@ -87,9 +87,9 @@ struct Wavelet {
 Wavelet wavelet(double period, const Extreme& extreme, std::size_t n, double dt)
 {
     constexpr double end_taper = 0.5, ground_frequency = 25.0; // [s], [Hz]
-    const double root = std::sqrt(1.0 - damping * damping);
+    const double root = std::sqrt(1.0 - spectrum_damping * spectrum_damping);
     const double w_d = period > 0.0 ? 2.0 * pi / period * root : 2.0 * pi * ground_frequency;
-    const double delay = period > 0.0 ? std::atan(root / damping) / w_d : 0.0;
+    const double delay = period > 0.0 ? std::atan(root / spectrum_damping) / w_d : 0.0;
     const double center = static_cast<double>(extreme.at) * dt / parts - delay;
     const double gamma = 1.178 * std::pow(w_d / (2.0 * pi), -0.93), last = static_cast<double>(n - 1) * dt;
     const double from = std::max(1.0, std::ceil((center - 4.0 * gamma) / dt)); // exp(-16) = 1e-7
@@ -110,7 +110,7 @@ public:
     {
         if (rigid_) return;
         const double w = 2.0 * pi / period;
-        const OscillatorStep step(w, damping, dt / parts);
+        const OscillatorStep step(w, spectrum_damping, dt / parts);
         const auto hat = [](std::size_t j) {
             return std::max(0.0, 1.0 - std::abs(static_cast<double>(j) / parts - 1.0));
         };

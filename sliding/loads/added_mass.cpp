@@ -12,7 +12,7 @@ namespace damslip::sliding {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double right_angle = 0.5 * pi;
 
 /// tau = (T_r/T)^2 of the series; refuses periods at and below the reservoir's own.

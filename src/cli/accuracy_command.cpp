@@ -117,8 +117,9 @@ void write_rung_scenes(const std::filesystem::path& out, const Scene& scene, con
             write_file(out / "rungs" / (file_word(rung_id(r.rung)) + ".toml"), resolved_toml(scene_of(scene, r.rung)));
 }
 
-nlohmann::ordered_json json_of(const AccuracyArguments& a, const Loaded& loaded, const std::vector<RungResult>& results,
-                               const Judgement& j, const std::vector<std::string>& messages)
+nlohmann::ordered_json ladder_json(const AccuracyArguments& a, const Loaded& loaded,
+                                   const std::vector<RungResult>& results, const Judgement& j,
+                                   const std::vector<std::string>& messages)
 {
     auto out = json_header("accuracy");
     out["scene"] = {
@@ -134,11 +135,11 @@ nlohmann::ordered_json json_of(const AccuracyArguments& a, const Loaded& loaded,
     if (j.choice)
         out["choice"] = {{"rung", rung_id(results[*j.choice].rung)},
                          {"command", command_of(a, results[*j.choice].rung)}};
-    out["rungs"] = cli::json_of(rung_table(results, j));
-    out["models"] = cli::json_of(model_table(results, j));
+    out["rungs"] = json_of(rung_table(results, j));
+    out["models"] = json_of(model_table(results, j));
     std::vector<std::string> names;
     for (const RecordPair& pair : loaded.records) names.push_back(pair.files.name);
-    out["slips"] = cli::json_of(slip_table(results, names));
+    out["slips"] = json_of(slip_table(results, names));
     out["messages"] = messages;
     return out;
 }
@@ -166,7 +167,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     if (streams.form == Form::json) {
         auto j = json_header("accuracy");
         j["rung"] = rung_id(rung);
-        j["runs"] = cli::json_of(t);
+        j["runs"] = json_of(t);
         j["remark"] = result.remark;
         streams.out << j.dump(2) << "\n";
     } else {
@@ -223,7 +224,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const Judgement judgement = judge(results, a.tolerance);
     const std::vector<std::string> messages = messages_of(facts, loaded, results, interrupt.interrupted());
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
-    const auto j = json_of(a, loaded, results, judgement, messages);
+    const auto j = ladder_json(a, loaded, results, judgement, messages);
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {

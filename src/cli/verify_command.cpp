@@ -1,7 +1,7 @@
 #include "cli/verify_command.hpp"
 
+#include "cli/select_cases.hpp"
 #include "cli/terminal/progress.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "cli/verify_hard.hpp"
 #include "core/stopwatch.hpp"
 #include "report/table_text.hpp"
@@ -76,13 +76,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
 {
     if (arguments.hard && !arguments.markdown) return verify_hard(arguments.filter, streams);
     const verification::Registry cases = verification::all_cases();
-    std::vector<const Case*> selected;
-    for (const Case& c : cases)
-        if (c.id.find(arguments.filter) != std::string::npos) selected.push_back(&c);
-    if (selected.empty())
-        throw UsageError(Diagnostic{"", 0, 0, fmt::format("verify: no case has \"{}\" in its name.", arguments.filter),
-                                    "part of a case id, such as sliding.block",
-                                    "run  damslip verify  without a filter to see them all"});
+    const auto selected = select_cases(cases, arguments.filter, "verify");
 
     std::vector<Outcome> outcomes;
     std::size_t checks = 0, failed = 0;

@@ -1,7 +1,7 @@
 #include "cli/verify_hard.hpp"
 
+#include "cli/select_cases.hpp"
 #include "cli/terminal/progress.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "core/stopwatch.hpp"
 #include "hard/hard_case.hpp"
 #include "report/table_text.hpp"
@@ -20,14 +20,14 @@ namespace {
 using hard::HardCase;
 using hard::HardResult;
 
-struct Outcome {
+struct HardOutcome {
     const HardCase* subject;
     HardResult result;
     double seconds = 0.0;
     bool passed() const { return hard::passed(*subject, result); }
 };
 
-Table table_of(const std::vector<Outcome>& outcomes)
+Table hard_table(const std::vector<HardOutcome>& outcomes)
 {
     Table table;
     table.columns = {{"case", "case", "", 4},
@@ -45,7 +45,7 @@ Table table_of(const std::vector<Outcome>& outcomes)
                      {"seconds", "s", "", 2},
                      {"passed", "", "", 4}};
     const double none = std::numeric_limits<double>::quiet_NaN();
-    for (const Outcome& o : outcomes) {
+    for (const HardOutcome& o : outcomes) {
         const HardResult& r = o.result;
         table.rows.push_back({o.subject->id, o.subject->quantity, o.subject->unit, o.subject->method_a, r.value_a,
                               o.subject->method_b, r.value_b, std::abs(r.value_a - r.value_b), r.tolerance,
@@ -63,14 +63,8 @@ Table table_of(const std::vector<Outcome>& outcomes)
 int verify_hard(const std::string& filter, const Streams& streams)
 {
     const hard::HardCases cases = hard::all_hard_cases();
-    std::vector<const HardCase*> selected;
-    for (const HardCase& c : cases)
-        if (c.id.find(filter) != std::string::npos) selected.push_back(&c);
-    if (selected.empty())
-        throw UsageError(Diagnostic{"", 0, 0, fmt::format("verify --hard: no case has \"{}\" in its name.", filter),
-                                    "part of a case id, such as hard.friction",
-                                    "run  damslip verify --hard  without a filter to see them all"});
-    std::vector<Outcome> outcomes;
+    const auto selected = select_cases(cases, filter, "verify --hard");
+    std::vector<HardOutcome> outcomes;
     double seconds = 0.0;
     std::size_t failed = 0;
     {
@@ -89,10 +83,10 @@ int verify_hard(const std::string& filter, const Streams& streams)
         j["cases"] = outcomes.size();
         j["failed"] = failed;
         j["seconds"] = seconds;
-        j["results"] = json_of(table_of(outcomes));
+        j["results"] = json_of(hard_table(outcomes));
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << report::text(table_of(outcomes))
+        streams.out << report::text(hard_table(outcomes))
                     << fmt::format("{} hard cases, {} failed, {:.2f} s\n", outcomes.size(), failed, seconds);
     }
     return failed == 0 ? exit_ok : exit_no_convergence;

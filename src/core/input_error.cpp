@@ -50,6 +50,11 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
 {
 }
 
+void refuse(const std::filesystem::path& file, std::string problem, std::string expected, std::string fix)
+{
+    throw InputError(Diagnostic{file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
 std::string_view nearest(std::string_view word, const std::vector<std::string>& candidates)
 {
     std::string_view best;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ public:
 private:
     std::vector<Diagnostic> diagnostics_;
 };
+
+/// A file whose lines are in order one by one, but not what they make together. @throws InputError, naming the file
+[[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string expected, std::string fix);
 
 /// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is
 /// near.

@@ -15,4 +15,10 @@ inline constexpr double kPa = 1e3;  ///< [Pa]
 inline constexpr double GPa = 1e9;  ///< [Pa]
 inline constexpr double degree = std::numbers::pi / 180.0; ///< [rad]
 
+/// Frequency [Hz] of a circular frequency [rad/s].
+constexpr double hertz(double circular)
+{
+    return circular / (2.0 * std::numbers::pi);
+}
+
 } // namespace damslip::units

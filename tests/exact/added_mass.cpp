@@ -8,7 +8,7 @@
 namespace damslip::exact {
 
 namespace {
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double catalan = 0.91596559417721901505;
 constexpr double beta4 = 0.98894455174110533611; // Dirichlet beta(4)
 } // namespace

@@ -8,7 +8,7 @@
 namespace damslip::exact {
 
 namespace {
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Complex = std::complex<double>;
 constexpr Complex i_unit{0.0, 1.0};
 } // namespace

@@ -11,7 +11,7 @@ namespace damslip::exact {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Images of the corners on the real axis.
 struct Corners {

@@ -25,11 +25,11 @@ std::string slope_message(const std::string& section, const std::string& more = 
     return "(accepted)";
 }
 
-const std::string good = "slope_height_m = 12\nface_dip_deg = 60\nplane_dip_deg = 35\ncrack_distance_m = 4\n";
+const std::string good_slope = "slope_height_m = 12\nface_dip_deg = 60\nplane_dip_deg = 35\ncrack_distance_m = 4\n";
 
 TEST(RockSlopeInput, NeedsItsFourFigures)
 {
-    EXPECT_EQ(slope_message(good), "(accepted)");
+    EXPECT_EQ(slope_message(good_slope), "(accepted)");
     EXPECT_EQ(slope_message("slope_height_m = 12\nface_dip_deg = 60\nplane_dip_deg = 35\n"),
               "slope.toml:1:1: error: section.crack_distance_m is missing.\n"
               "  expected: slope_height_m, face_dip_deg, plane_dip_deg and crack_distance_m of a rock slope\n"
@@ -41,9 +41,9 @@ TEST(RockSlopeInput, NeedsItsFourFigures)
 
 TEST(RockSlopeInput, IsOneDescription)
 {
-    EXPECT_NE(slope_message(good + "height_m = 3\n").find("rock slope together with a polygon or dimensions"),
+    EXPECT_NE(slope_message(good_slope + "height_m = 3\n").find("rock slope together with a polygon or dimensions"),
               std::string::npos);
-    EXPECT_NE(slope_message(good + "polygon_m = [[0, 0], [2, 0], [0, 3]]\n")
+    EXPECT_NE(slope_message(good_slope + "polygon_m = [[0, 0], [2, 0], [0, 3]]\n")
                   .find("rock slope together with a polygon or dimensions"),
               std::string::npos);
 }
@@ -54,7 +54,7 @@ TEST(RockSlopeInput, PlaneComesOutInTheFace)
               "slope.toml:4:1: error: section.plane_dip_deg = 35 is not flatter than section.face_dip_deg = 30.\n"
               "  expected: a plane that comes out in the face: plane_dip_deg < face_dip_deg\n"
               "  fix:      exchange them, if mixed up");
-    EXPECT_NE(slope_message(good + "upper_dip_deg = -50\n").find("upper_dip_deg"), std::string::npos);
+    EXPECT_NE(slope_message(good_slope + "upper_dip_deg = -50\n").find("upper_dip_deg"), std::string::npos);
     EXPECT_NE(slope_message("slope_height_m = 12\nface_dip_deg = 60\nplane_dip_deg = 50\ncrack_distance_m = 4\n")
                   .find("plane_dip_deg"),
               std::string::npos);
@@ -76,8 +76,8 @@ TEST(RockSlopeInput, CrackCutsTheBlock)
 
 TEST(RockSlopeInput, WaterFitsIntoTheCrack)
 {
-    EXPECT_EQ(slope_message(good, "[reservoir]\nlevel_m = 4.34\n"), "(accepted)");
-    const std::string message = slope_message(good, "[reservoir]\nlevel_m = 4.4\n");
+    EXPECT_EQ(slope_message(good_slope, "[reservoir]\nlevel_m = 4.34\n"), "(accepted)");
+    const std::string message = slope_message(good_slope, "[reservoir]\nlevel_m = 4.4\n");
     EXPECT_NE(message.find("slope.toml:11:1: error: reservoir.level_m = 4.4 does not fit into the tension crack"),
               std::string::npos)
         << message;
@@ -85,14 +85,14 @@ TEST(RockSlopeInput, WaterFitsIntoTheCrack)
 
 TEST(RockSlopeInput, WaterInTheCrackPressesAndSeepsOut)
 {
-    const Scene scene = parse_scene(slope_scene_text(good, "[reservoir]\n"), "slope.toml", FileCheck::skip);
+    const Scene scene = parse_scene(slope_scene_text(good_slope, "[reservoir]\n"), "slope.toml", FileCheck::skip);
     EXPECT_EQ(scene.reservoir->model, ReservoirModel::hydrostatic);
     EXPECT_DOUBLE_EQ(scene.reservoir->level, upstream_face(scene.section).back().y); // to the rim
     ASSERT_TRUE(scene.uplift);
     EXPECT_EQ(scene.uplift->model, UpliftModel::linear);
     // What the scene says itself stays.
     const Scene own =
-        parse_scene(slope_scene_text(good, "[reservoir]\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"),
+        parse_scene(slope_scene_text(good_slope, "[reservoir]\nmodel = \"added-mass\"\n[uplift]\nmodel = \"none\"\n"),
                     "slope.toml", FileCheck::skip);
     EXPECT_EQ(own.reservoir->model, ReservoirModel::added_mass);
     EXPECT_EQ(own.uplift->model, UpliftModel::none);
@@ -100,7 +100,7 @@ TEST(RockSlopeInput, WaterInTheCrackPressesAndSeepsOut)
 
 TEST(RockSlopeInput, ResolvedSceneIsTheSameBlock)
 {
-    const Scene scene = parse_scene(slope_scene_text(good + "upper_dip_deg = 5\n", "[reservoir]\nlevel_m = 3\n"),
+    const Scene scene = parse_scene(slope_scene_text(good_slope + "upper_dip_deg = 5\n", "[reservoir]\nlevel_m = 3\n"),
                                     "slope.toml", FileCheck::skip);
     const Scene again = parse_scene(resolved_toml(scene), "again.toml", FileCheck::skip);
     EXPECT_EQ(again.section.polygon, scene.section.polygon);

@@ -1,4 +1,5 @@
 // Yield accelerations of the rigid block: closed forms of one vertical face, the 2 x 2 added mass, limits.
+#include "block_motions.hpp"
 #include "core/input_error.hpp"
 #include "sliding/block/yield.hpp"
 
@@ -23,11 +24,6 @@ RigidBlock full_block(double inclination)
     block.friction = 0.8;
     block.base_inclination = inclination;
     return block;
-}
-
-double relative(double a, double b)
-{
-    return std::abs(a - b) / std::abs(b);
 }
 
 /// THEORY of the vertical face, written out as printed there and not through any vector.

@@ -10,26 +10,27 @@
 namespace {
 
 using namespace damslip;
-constexpr double hz = 2.0 * std::numbers::pi;
+constexpr double per_hertz = 2.0 * std::numbers::pi;
 
 /// Absolute acceleration under harmonic ground motion of 1 m/s² and 3 Hz, steady state: a closed spectrum.
 double harmonic_spectrum(double frequency, double ratio)
 {
-    return exact::DampedOscillator{frequency, ratio}.transmissibility(3.0 * hz);
+    return exact::DampedOscillator{frequency, ratio}.transmissibility(3.0 * per_hertz);
 }
 
-const std::vector<fe2d::ModalMass> six_modes = {{3.6 * hz, 800e3},  {8.4 * hz, 450e3},  {10.6 * hz, 60e3},
-                                                {14.9 * hz, 190e3}, {15.9 * hz, 120e3}, {24.0 * hz, 70e3}};
+const std::vector<fe2d::ModalMass> six_modes = {{3.6 * per_hertz, 800e3},  {8.4 * per_hertz, 450e3},
+                                                {10.6 * per_hertz, 60e3},  {14.9 * per_hertz, 190e3},
+                                                {15.9 * per_hertz, 120e3}, {24.0 * per_hertz, 70e3}};
 
 // Two modes: ω_j = ω_2 gives ζ in both, ΔS = 0, and no other does, since S_a falls with ζ in this spectrum above
 // resonance.
 TEST(FeModifiedRayleigh, two_modes_give_ordinary_rayleigh)
 {
-    const std::vector<fe2d::ModalMass> modes = {{5.0 * hz, 7.0}, {12.0 * hz, 2.0}};
+    const std::vector<fe2d::ModalMass> modes = {{5.0 * per_hertz, 7.0}, {12.0 * per_hertz, 2.0}};
     const auto result = fe2d::modified_rayleigh(modes, harmonic_spectrum, {.ratio = 0.05, .total_mass = 10.0});
     EXPECT_EQ(result.status, fe2d::ModifiedRayleighStatus::found);
     ASSERT_EQ(result.sign_changes.size(), 1u);
-    EXPECT_NEAR(result.second_frequency, 12.0 * hz, 1e-9 * hz);
+    EXPECT_NEAR(result.second_frequency, 12.0 * per_hertz, 1e-9 * per_hertz);
     EXPECT_NEAR(result.mass_share, 0.9, 1e-15);
     EXPECT_TRUE(result.warnings.empty());
 }
@@ -40,12 +41,12 @@ TEST(FeModifiedRayleigh, solves_its_equation)
 {
     const auto result = fe2d::modified_rayleigh(six_modes, harmonic_spectrum, {.ratio = 0.05, .total_mass = 2.0e6});
     ASSERT_EQ(result.status, fe2d::ModifiedRayleighStatus::found);
-    const double wi = 3.6 * hz, wj = result.second_frequency;
+    const double wi = 3.6 * per_hertz, wj = result.second_frequency;
     double imbalance = 0.0, wanted = 0.0;
     for (const auto& mode : six_modes) {
         const double w = mode.frequency, ratio = 0.05 * (wi * wj / w + w) / (wi + wj);
         const auto s_a = [&](double z) {
-            const double r = 3.0 * hz / w;
+            const double r = 3.0 * per_hertz / w;
             return std::sqrt((1 + 4 * z * z * r * r) / (std::pow(1 - r * r, 2) + 4 * z * z * r * r));
         };
         imbalance += (s_a(ratio) - s_a(0.05)) * mode.effective_mass_x;
@@ -55,8 +56,8 @@ TEST(FeModifiedRayleigh, solves_its_equation)
     EXPECT_NEAR(result.imbalance, imbalance, 1e-10 * wanted);
     EXPECT_NEAR(result.constants.mass, 0.1 * wi * wj / (wi + wj), 1e-12 * result.constants.mass);
     EXPECT_NEAR(fe2d::damping_ratio(result.constants, wi), 0.05, 1e-15);
-    EXPECT_GT(wj, 8.4 * hz); // a mean of what the higher modes ask for
-    EXPECT_LT(wj, 24.0 * hz);
+    EXPECT_GT(wj, 8.4 * per_hertz); // a mean of what the higher modes ask for
+    EXPECT_LT(wj, 24.0 * per_hertz);
     EXPECT_NEAR(fe2d::shear_imbalance(six_modes, harmonic_spectrum, 0.05, result.constants), imbalance, 1e-10 * wanted);
 }
 
@@ -88,7 +89,7 @@ TEST(FeModifiedRayleigh, lists_all_sign_changes_and_takes_the_smallest)
 // S_a smallest at ζ itself: ΔS > 0 unless every ζ_n = ζ, which three frequencies cannot have.
 TEST(FeModifiedRayleigh, without_a_solution_it_is_ordinary_rayleigh_and_says_so)
 {
-    const std::vector<fe2d::ModalMass> modes = {{2.0 * hz, 3.0}, {5.0 * hz, 1.0}, {9.0 * hz, 1.0}};
+    const std::vector<fe2d::ModalMass> modes = {{2.0 * per_hertz, 3.0}, {5.0 * per_hertz, 1.0}, {9.0 * per_hertz, 1.0}};
     const auto valley = [](double, double ratio) { return 1.0 + std::abs(ratio - 0.05); };
     const auto result = fe2d::modified_rayleigh(modes, valley, {.ratio = 0.05, .total_mass = 100.0});
     EXPECT_EQ(result.status, fe2d::ModifiedRayleighStatus::no_solution);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace damslip;
 using Eigen::VectorXd;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A small model of the reference dam: 6 m elements.
 fe2d::Model small_model(Scene scene)

@@ -17,7 +17,7 @@ namespace {
 
 using namespace damslip;
 using Eigen::VectorXd;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 exact::SchemeParameters parameters(const fe2d::Scheme& s)
 {

@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using verification::uneven_vector;
 
-const fe2d::Scheme schemes[] = {fe2d::average_acceleration(), fe2d::newmark(0.7, 0.4), fe2d::hht(-0.05),
-                                fe2d::hht(-1.0 / 3.0)};
+const fe2d::Scheme implicit_schemes[] = {fe2d::average_acceleration(), fe2d::newmark(0.7, 0.4), fe2d::hht(-0.05),
+                                         fe2d::hht(-1.0 / 3.0)};
 
 fe2d::LowRank some_low_rank(Index size)
 {
@@ -42,7 +42,7 @@ double relative(const VectorXd& a, const VectorXd& b)
 // low-rank damping, at two successive step sizes. Round-off only: forces are of order 1e3.
 TEST(FeTimeSystem, every_step_satisfies_the_equations_of_the_scheme)
 {
-    for (const auto& scheme : schemes) {
+    for (const auto& scheme : implicit_schemes) {
         fe2d::LinearSystem system = verification::lattice({.mass_coefficient = 1.1, .stiffness_coefficient = 0.004});
         const Index n = system.size();
         system.damping_low_rank = some_low_rank(n);
@@ -148,7 +148,7 @@ TEST(FeTimeSystem, interface_forces_that_close_the_gap_reproduce_the_tied_model)
 {
     const Pair pair = dam_on_massless_rock();
     const Index n = pair.apart.size(), n_tied = pair.tied.size();
-    for (const auto& scheme : schemes) {
+    for (const auto& scheme : implicit_schemes) {
         fe2d::LinearIntegrator apart(pair.apart, scheme), tied(pair.tied, scheme);
         const VectorXd shape = pair.apart.mass * uneven_vector(n, 0.4);
         const auto load = [&](double t) { return VectorXd(std::sin(9.0 * t) * shape); };
@@ -205,7 +205,7 @@ TEST(FeTimeSystem, equilibrium_is_kept)
         verification::lattice({.massless_rows = 2, .mass_coefficient = 0.0, .stiffness_coefficient = 0.01});
     const Index n = system.size();
     const VectorXd load = uneven_vector(n, 0.6), still = MatrixXd(system.stiffness).ldlt().solve(load);
-    for (const auto& scheme : schemes) {
+    for (const auto& scheme : implicit_schemes) {
         fe2d::LinearIntegrator integrator(system, scheme);
         fe2d::State before = integrator.start(still, VectorXd::Zero(n), load), after;
         const auto& step = integrator.step_operator(0.01);

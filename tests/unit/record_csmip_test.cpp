@@ -9,11 +9,11 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
-using agency_files::warned;
 using agency_files::Csmip;
 using agency_files::fields;
+using agency_files::warned;
 
-constexpr double g = 9.80665;
+constexpr double one_g = 9.80665;
 
 std::string csmip_error(const std::string& text, const ReadOptions& options = {})
 {
@@ -49,8 +49,8 @@ TEST(RecordCsmip, field_widths)
     const Record r = parse_record(raw.text(), "c").at(0);
     EXPECT_EQ(r.source.format, "CSMIP volume 1");
     ASSERT_EQ(r.acceleration.size(), 9u);
-    EXPECT_DOUBLE_EQ(r.acceleration[1], -2.000002 * g);
-    EXPECT_DOUBLE_EQ(r.acceleration[8], -9.000009 * g);
+    EXPECT_DOUBLE_EQ(r.acceleration[1], -2.000002 * one_g);
+    EXPECT_DOUBLE_EQ(r.acceleration[8], -9.000009 * one_g);
     Csmip named;
     named.data = "    3 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f6.2)\n 10.25-20.50 30.75\n";
     EXPECT_DOUBLE_EQ(parse_record(named.text(), "c").at(0).acceleration[1], -0.205);
@@ -89,7 +89,7 @@ TEST(RecordCsmip, uneven_pairs)
     const Record r = parse_record(film.text(), "c", options).at(0);
     EXPECT_NEAR(r.dt, 0.01, 1e-12); // the smallest step
     ASSERT_EQ(r.acceleration.size(), 8u);
-    const double tenth = 0.1 * g;
+    const double tenth = 0.1 * one_g;
     const double expected[] = {0, 1, 0, -1, 0, 1, 2, 0};
     for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(r.acceleration[k], expected[k] * tenth, 1e-9) << k;
     EXPECT_EQ(r.source.unit, "g/10");
@@ -114,7 +114,7 @@ TEST(RecordCsmip, extra_line_of_text)
     file.data = "ACCELEROGRAM DATA FOLLOW\r\n" + fields(nine, 8, 9, 6);
     const Record r = parse_record(file.text(), "c").at(0);
     EXPECT_DOUBLE_EQ(r.dt, 0.01);
-    EXPECT_DOUBLE_EQ(r.acceleration[8], 9.0 * g);
+    EXPECT_DOUBLE_EQ(r.acceleration[8], 9.0 * one_g);
     file.length_s = 0.0;
     EXPECT_NE(csmip_error(file.text()).find("does not say the time step"), std::string::npos);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using namespace damslip::records;
 using damslip::Record;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Triangle 0 -> A -> 0, each side t_d: I_A = pi/(2g) 2 A^2 t_d/3, CAV = PGV = A t_d, final displacement A t_d^2
 // (centroid at t_d).

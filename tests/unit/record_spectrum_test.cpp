@@ -13,7 +13,7 @@ namespace {
 
 using namespace damslip::records;
 using damslip::exact::RampedOscillator;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<double> jagged()
 {

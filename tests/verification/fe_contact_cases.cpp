@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 using fe2d::EarthquakeRun;
 using fe2d::RunOptions;
 using fe2d::RunResult;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Slip of the dam with all moduli times 1e4 beside the rigid block's, both polarities.
 std::vector<Check> rigid_limit(fe2d::RayleighConstants damping)

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::string fixed(double value, int digits)
 {

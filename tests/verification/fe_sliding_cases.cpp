@@ -18,7 +18,7 @@ namespace {
 using fe2d::EarthquakeRun;
 using fe2d::RunOptions;
 using fe2d::RunResult;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double first_frequency = 3.6, fifth_frequency = 15.0; ///< of the dam, about [Hz]
 
 /// None, or 5 % at modes 1 and 5 wherever these lie for moduli times `stiffness`.

@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 VectorXd scalar(double value)
 {

@@ -18,7 +18,7 @@ namespace damslip::verification {
 namespace {
 
 using namespace damslip::fe2d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A box of water, nx x ny elements, with named sides; which of them are what is the caller's choice.
 ReservoirMesh box(double length, double depth, int nx, int ny)

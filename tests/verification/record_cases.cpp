@@ -15,7 +15,7 @@ namespace damslip::verification {
 namespace {
 
 using namespace records;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Triangle 0 -> A -> 0, each side t_d: integral of a^2 = 2 A^2 t_d/3; integral of |a| = A t_d = final velocity; displacement A t_d^2.
 // Share s <= 1/2 of the integral of a^2 has arrived at t_d (2 s)^(1/3), share 1 - s at t_d (2 - (2 s)^(1/3)).

@@ -16,7 +16,7 @@ std::string step_word(int halvings)
     return halvings == 0 ? "dt" : fmt::format("dt/{}", 1 << halvings);
 }
 
-std::string step_note(const StepChoice& step)
+std::string step_note(const AblationStep& step)
 {
     return fmt::format(
         "time step: {} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs with {} and first "

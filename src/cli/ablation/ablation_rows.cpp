@@ -16,7 +16,7 @@ std::string remark_of(const AblationRow& row, const RecordOutcome& full, const R
     return "";
 }
 
-AblationRow row_of(const std::string& name, const std::optional<StepChoice>& step, const RecordOutcome& full,
+AblationRow row_of(const std::string& name, const std::optional<AblationStep>& step, const RecordOutcome& full,
                    const RecordOutcome& own, bool is_full)
 {
     AblationRow row;

@@ -23,7 +23,7 @@ constexpr std::size_t bar_parts = 1000; ///< of one scene
 
 } // namespace
 
-double difference_error(const StepChoice& step, double at_step, double at_other)
+double difference_error(const AblationStep& step, double at_step, double at_other)
 {
     const double halved = std::exp2(std::abs(step.halvings - step.other));
     const double finer = std::abs(at_step - at_other) / (halved - 1.0);

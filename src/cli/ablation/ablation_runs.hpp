@@ -20,11 +20,11 @@ struct RecordOutcome {
     bool answered = false;                 ///< ended properly; a recognised static failure does
     std::string message;                   ///< one sentence where there is no slip to compare
     std::optional<double> slip;            ///< final, positive downstream, of runs that can be compared [m]
-    std::optional<double> slip_other_step; ///< the same with StepChoice::other [m]
+    std::optional<double> slip_other_step; ///< the same with AblationStep::other [m]
     std::optional<double> crest;           ///< largest |crest - base|, horizontal, since the static state [m]
     std::vector<double> lift_slips;        ///< of the lift joints, final, from bottom to top [m]
     bool still_sliding = false;            ///< when the run-out ended: the slip is a lower bound
-    double seconds = 0.0; ///< of the processor for this run at StepChoice::halvings, without the set-up
+    double seconds = 0.0; ///< of the processor for this run at AblationStep::halvings, without the set-up
 };
 
 /// One scene under all records.
@@ -37,7 +37,7 @@ struct SceneRuns {
 };
 
 /// The one time step of all FE runs of an ablation, so that changes are not those of the step.
-struct StepChoice {
+struct AblationStep {
     int halvings = 0;        ///< steps dt / 2^k of every run
     int other = 0;           ///< k of the runs that tell the error of the step: one less, or 1 beside 0
     bool chosen = false;     ///< by time.slip_tolerance on the full scene; else the scene's time.substeps
@@ -46,11 +46,11 @@ struct StepChoice {
 
 /// Error of a difference that is linear in slips, from the same difference at the other step, by first order, the worst
 /// that contact with moving edges shows [m]. @param at_step, at_other  the difference at both steps [m]
-double difference_error(const StepChoice& step, double at_step, double at_other);
+double difference_error(const AblationStep& step, double at_step, double at_other);
 
 struct AblationRuns {
-    std::vector<SceneRuns> scenes;  ///< the full one, each removal, the simplest if there is one
-    std::optional<StepChoice> step; ///< of FE runs
+    std::vector<SceneRuns> scenes;    ///< the full one, each removal, the simplest if there is one
+    std::optional<AblationStep> step; ///< of FE runs
     int jobs = 1;
 };
 
@@ -75,9 +75,9 @@ ReadyScene ready(const Scene& scene, Method method, const std::vector<RecordPair
 
 SceneRuns run_rigid(const ReadyScene& ready, const InterruptGuard& interrupt);
 /// @param fraction  told how much of the scene's runs is done, 0 ... 1
-SceneRuns run_fe(const ReadyScene& ready, const StepChoice& step, const InterruptGuard& interrupt,
+SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const InterruptGuard& interrupt,
                  const std::function<void(double fraction)>& done);
 /// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
-StepChoice choose_step(const ReadyScene& full, const InterruptGuard& interrupt);
+AblationStep choose_step(const ReadyScene& full, const InterruptGuard& interrupt);
 
 } // namespace damslip::cli

@@ -51,14 +51,14 @@ RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
 }
 
 /// Passes of all records at both steps.
-double whole_work(const StepChoice& step, std::size_t records)
+double whole_work(const AblationStep& step, std::size_t records)
 {
     return static_cast<double>(records) * (std::exp2(step.halvings) + std::exp2(step.other));
 }
 
 } // namespace
 
-SceneRuns run_fe(const ReadyScene& ready, const StepChoice& step, const InterruptGuard& interrupt,
+SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const InterruptGuard& interrupt,
                  const std::function<void(double fraction)>& done)
 {
     SceneRuns runs;
@@ -102,9 +102,9 @@ SceneRuns run_fe(const ReadyScene& ready, const StepChoice& step, const Interrup
     return runs;
 }
 
-StepChoice choose_step(const ReadyScene& full, const InterruptGuard& interrupt)
+AblationStep choose_step(const ReadyScene& full, const InterruptGuard& interrupt)
 {
-    StepChoice step;
+    AblationStep step;
     step.chosen = !full.scene.time.substeps;
     double dt = 0.0;
     for (const RecordPair& pair : full.records)

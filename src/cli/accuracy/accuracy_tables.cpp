@@ -9,7 +9,7 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr double mm = units::mm;
+using units::mm;
 
 Cell millimetres(const std::optional<double>& metres)
 {

@@ -15,7 +15,7 @@ using report::Mark;
 using report::Scale;
 using report::Weight;
 
-constexpr double mm = units::mm;
+using units::mm;
 
 /// Times as multiples of the history's own step, so that all curves share one list.
 std::vector<double> even_times(const std::vector<double>& time)

@@ -3,6 +3,7 @@
 #include "cli/show/base_charts.hpp"
 #include "cli/show/fe_charts.hpp"
 #include "cli/show/fe_page.hpp"
+#include "cli/show/open_records.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -19,8 +20,7 @@ using report::Outcome;
 using report::Section;
 using report::TablePart;
 
-constexpr double mm = units::mm;
-constexpr std::size_t open_records = 3;   ///< further ones are folded
+using units::mm;
 constexpr std::size_t stress_records = 4; ///< whose stresses are shown
 
 const ContactRun& worst_of(const std::vector<ContactRun>& runs)

@@ -3,6 +3,7 @@
 #include "cli/show/fe_charts.hpp"
 #include "cli/show/fe_page.hpp"
 #include "cli/show/fe_report.hpp"
+#include "cli/show/open_records.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -15,8 +16,6 @@ using report::Fold;
 using report::Layout;
 using report::Section;
 using report::TablePart;
-
-constexpr std::size_t open_records = 3; ///< further ones are folded
 
 /// What a reduced run knows, in the form of a full one; the error holds both parts.
 ContactRun as_contact_run(const ReducedRecord& r)

@@ -1,6 +1,7 @@
 #include "cli/show/screen_report.hpp"
 
 #include "cli/show/effect_table.hpp"
+#include "cli/show/open_records.hpp"
 #include "cli/show/record_charts.hpp"
 #include "cli/show/report_provenance.hpp"
 #include "cli/show/screen_tables.hpp"
@@ -28,9 +29,8 @@ using report::Outcome;
 using report::Section;
 using report::TablePart;
 
-constexpr double mm = units::mm;
-constexpr double g = units::standard_gravity;
-constexpr std::size_t open_records = 3; ///< further ones are folded
+using units::mm;
+using units::standard_gravity;
 
 struct CheckCount {
     std::size_t judged = 0, failed = 0;
@@ -102,7 +102,7 @@ std::string standing_sentence(const Screening& s)
 
 std::string metres_per_second2(double a)
 {
-    return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / g);
+    return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / standard_gravity);
 }
 
 Section section_part(const Scene& scene, const Screening& s)

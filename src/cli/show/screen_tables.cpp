@@ -8,8 +8,8 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr double mm = units::mm;
-constexpr double g = units::standard_gravity;
+using units::mm;
+using units::standard_gravity;
 
 Cell cell(const std::optional<double>& value, double unit = 1.0)
 {
@@ -72,7 +72,8 @@ Table yield_table(const Screening& s)
     for (const BaseRow& row : s.bases) {
         const RigidModel& m = row.model;
         t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant,
-                          m.downstream.law.constant / g, m.upstream.law.constant, m.critical_friction, state_word(m)});
+                          m.downstream.law.constant / standard_gravity, m.upstream.law.constant, m.critical_friction,
+                          state_word(m)});
     }
     t.notes.push_back("a_y: ground acceleration at which the dam starts to slide; critical μ: friction that just holds "
                       "it without an earthquake.");

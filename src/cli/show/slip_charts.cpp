@@ -18,7 +18,7 @@ using report::Mark;
 using report::Scale;
 using report::Weight;
 
-constexpr double mm = units::mm;
+using units::mm;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t named_records = 6; ///< so many curves can be told apart
 

@@ -1,5 +1,6 @@
 #include "cli/show/tied_report.hpp"
 
+#include "cli/show/open_records.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -20,8 +21,7 @@ using report::Section;
 using report::TablePart;
 using report::Weight;
 
-constexpr double mm = units::mm;
-constexpr std::size_t open_records = 3; ///< further ones are folded
+using units::mm;
 
 /// One line of a chart: a name and how it is read from a row.
 struct Line {

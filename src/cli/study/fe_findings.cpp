@@ -10,7 +10,6 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr const char* source_method = "fe-goldgruber-2015";
 constexpr double close_share = 0.2, close_mm = 5.0; ///< "not much different": within 20 % or 5 mm
 
 using Judge = std::function<Judged(const StudyRows&, const std::string& method)>;
@@ -18,7 +17,7 @@ using Judge = std::function<Judged(const StudyRows&, const std::string& method)>
 Finding finding(const StudyRows& rows, std::string where, std::string printed, const Judge& judge, std::string why)
 {
     Finding out{std::move(where), std::move(printed), judge(rows, rows.accurate()), {}, std::move(why)};
-    if (rows.has(source_method)) out.as_source = judge(rows, source_method);
+    if (rows.has(chapter_4::source_method)) out.as_source = judge(rows, chapter_4::source_method);
     return out;
 }
 

@@ -18,13 +18,12 @@ using report::Mark;
 using report::Scale;
 using report::Weight;
 
-constexpr double g = units::standard_gravity, mm = units::mm;
+using units::mm, units::standard_gravity;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* block_water = "westergaard-simplified"; ///< of the source's rigid block, (3-4)
 
 RigidModel block_of(const Scene& scene, const std::string& uplift, double level_share, double friction)
 {
-    Scene here = variant(scene, level_share * scene.reservoir->level, uplift, block_water, 1.0);
+    Scene here = variant(scene, level_share * scene.reservoir->level, uplift, chapter_4::block_water, 1.0);
     here = with_friction(std::move(here), friction);
     SeepageSource seepage;
     return make_rigid_model(here, seepage.profile_of(here));
@@ -46,7 +45,7 @@ std::vector<StudyUplift> study_uplifts(const Scene& scene)
 {
     std::vector<StudyUplift> list;
     for (const std::string& model : chapter_4::uplifts) {
-        const Scene here = variant(scene, scene.reservoir->level, model, block_water, 1.0);
+        const Scene here = variant(scene, scene.reservoir->level, model, chapter_4::block_water, 1.0);
         SeepageSource seepage;
         StudyUplift u;
         u.model = model;
@@ -118,7 +117,7 @@ report::Chart yield_by_level(const Scene& scene, const std::string& uplift)
         for (int i = 0; i <= 36; ++i) {
             model.block.friction = 0.6 + 0.025 * i;
             curve.x.push_back(model.block.friction);
-            curve.y.push_back(sliding::yield_acceleration(model.block) / g);
+            curve.y.push_back(sliding::yield_acceleration(model.block) / standard_gravity);
         }
         chart.curves.push_back(std::move(curve));
     }
@@ -151,7 +150,7 @@ RegressionsBeside regressions_beside_block(const Scene& scene, const RecordPair&
 {
     const GroundMotion motion = horizontal_only(ground_motion(scene, record));
     const sliding::SkippingMotion prepared(motion);
-    Scene here = variant(scene, scene.reservoir->level, "seepage", block_water, 1.0);
+    Scene here = variant(scene, scene.reservoir->level, "seepage", chapter_4::block_water, 1.0);
     SeepageSource seepage;
     const RigidModel at_1 = make_rigid_model(with_friction(here, 1.0), seepage.profile_of(here));
     const double per_friction = at_1.downstream.law.constant / (1.0 - at_1.critical_friction); // a_y is linear in mu
@@ -160,9 +159,9 @@ RegressionsBeside regressions_beside_block(const Scene& scene, const RecordPair&
         out.regressions.push_back({id, {}, {}, {}});
     for (int i = 1; i <= 24; ++i) {
         const double a_y = 0.005 * i;
-        here = with_friction(std::move(here), at_1.critical_friction + a_y * g / per_friction);
+        here = with_friction(std::move(here), at_1.critical_friction + a_y * standard_gravity / per_friction);
         const RigidModel model = make_rigid_model(here, seepage.profile_of(here));
-        out.yield.push_back(model.downstream.law.constant / g);
+        out.yield.push_back(model.downstream.law.constant / standard_gravity);
         out.block.push_back(slide_model(here, model, prepared, 1).max_slip / mm);
         const sliding::RegressionInputs inputs = regression_inputs(record, motion, model);
         for (RegressionsBeside::Curve& curve : out.regressions) {

@@ -11,7 +11,7 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr double g = units::standard_gravity;
+using units::standard_gravity;
 
 Finding yield_range(const StudyFacts& f)
 {
@@ -21,7 +21,9 @@ Finding yield_range(const StudyFacts& f)
                 {},
                 {},
                 ""};
-    const auto yield = [&](double level, double friction) { return yield_of(f.scene, "curtain", level, friction) / g; };
+    const auto yield = [&](double level, double friction) {
+        return yield_of(f.scene, "curtain", level, friction) / standard_gravity;
+    };
     const double low = yield(1.0, 1.0), high = yield(0.9, 1.5);
     const bool monotone = yield(1.0, 1.5) > low && yield(0.9, 1.0) > low;
     out.here = Judged{fmt::format("{:.2f} … {:.2f} g with the printed uplift", low, high),
@@ -197,8 +199,8 @@ Table findings_table(const std::vector<Finding>& findings)
     for (const Finding& f : findings) {
         std::vector<Cell> row{f.where, f.printed};
         const auto add = [&row](const std::optional<Judged>& judged) {
-            row.push_back(judged ? judged->numbers : std::string());
-            row.push_back(std::string(judged ? word(judged->holds) : ""));
+            row.emplace_back(judged ? judged->numbers : std::string());
+            row.emplace_back(std::string(judged ? word(judged->holds) : ""));
         };
         add(f.here);
         if (source) add(f.as_source);

@@ -24,9 +24,6 @@ using report::Part;
 using report::Section;
 using report::TablePart;
 
-constexpr const char* source_method = "fe-goldgruber-2015";
-constexpr const char* block_water = "westergaard-simplified";
-
 TablePart rows_of(Table table)
 {
     return {std::move(table), Layout::rows, 1, Fold::open};
@@ -37,7 +34,7 @@ std::vector<std::string> shown_methods(const StudyRows& rows)
 {
     std::vector<std::string> methods;
     if (!rows.accurate().empty()) methods.push_back(rows.accurate());
-    if (rows.has(source_method)) methods.emplace_back(source_method);
+    if (rows.has(chapter_4::source_method)) methods.emplace_back(chapter_4::source_method);
     return methods;
 }
 
@@ -108,11 +105,14 @@ Section rigid_against_fe(const StudyRows& rows)
     for (const std::string& method : shown_methods(rows))
         section.parts.emplace_back(over_friction(
             rows, "Slip by " + method + " and by the rigid block",
-            {{"rigid block", {"seepage", block_water, 1.0, 1.0, "rigid"}, Mark::line_and_points, -1},
-             {"rigid block with vertical", {"seepage", block_water, 1.0, 1.0, "rigid-v"}, Mark::line_and_points, -1},
+            {{"rigid block", {"seepage", chapter_4::block_water, 1.0, 1.0, "rigid"}, Mark::line_and_points, -1},
+             {"rigid block with vertical",
+              {"seepage", chapter_4::block_water, 1.0, 1.0, "rigid-v"},
+              Mark::line_and_points,
+              -1},
              {"FE, acoustic", {"seepage", "acoustic", 1.0, 1.0, method}, Mark::line_and_points, -1},
              {"FE, Westergaard", {"seepage", "westergaard", 1.0, 1.0, method}, Mark::line_and_points, -1},
-             {"FE, Westergaard simplified", {"seepage", block_water, 1.0, 1.0, method}, Mark::dashed, -1}}));
+             {"FE, Westergaard simplified", {"seepage", chapter_4::block_water, 1.0, 1.0, method}, Mark::dashed, -1}}));
     return section;
 }
 
@@ -132,7 +132,7 @@ Section settings_section(const StudyPageInput& in)
         for (const std::string water : {"acoustic", "westergaard"})
             for (const auto& [method, name] :
                  {std::pair{"fe", "step converged"}, std::pair{"fe-whole-steps", "whole steps of the record"},
-                  std::pair{source_method, "source's settings"}})
+                  std::pair{chapter_4::source_method, "source's settings"}})
                 curves.push_back({fmt::format("{}, {}", water, name),
                                   {"seepage", water, size, 1.0, method},
                                   water == "acoustic" ? Mark::line_and_points : Mark::dashed,

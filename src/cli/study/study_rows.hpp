@@ -12,6 +12,8 @@ inline const std::vector<std::string> uplifts{"seepage", "curtain", "linear"};  
 inline const std::vector<std::string> waters{"westergaard-simplified", "westergaard", "acoustic"}; ///< of FE
 inline const std::vector<double> sizes{1.0, 2.0};
 
+inline constexpr const char* block_water = "westergaard-simplified"; ///< of the source's rigid block, (3-4)
+inline constexpr const char* source_method = "fe-goldgruber-2015";   ///< with the settings of the source
 } // namespace chapter_4
 
 /// Where in the grid.

@@ -79,11 +79,6 @@ std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
     return row;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 /// What differs between two heads, in words: "the scene, the grid (friction 0.7; ... here, friction 0.8; ... there)".
 std::string differences(const std::string& mine, const std::string& theirs)
 {

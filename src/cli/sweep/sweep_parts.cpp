@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, std::string problem, std::string expected, std::string fix)
-{
-    throw InputError(Diagnostic{file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 /// A part file as read, checked against its own checksum.
 struct Part {
     fs::path file;

@@ -28,7 +28,7 @@ using report::Outcome;
 using report::Section;
 using report::TablePart;
 
-constexpr double mm = units::mm;
+using units::mm;
 constexpr std::size_t drawn_variants = 12, open_variants = 3; ///< with a chart of their own; of these unfolded
 constexpr std::size_t listed_rows = 400;
 
