@@ -108,7 +108,7 @@ std::size_t chosen_column(const File& f)
     if (number && *number >= 1.0 && *number <= count && *number == std::floor(*number))
         return static_cast<std::size_t>(*number) - 1;
     refuse(f.text, {f.table.heading_line, 0}, fmt::format("there is no column {}.", in_quotes(wanted)),
-           headings.empty() ? fmt::format("1 to {}", f.width) : list_of(headings), "correct --column");
+           headings.empty() ? fmt::format("1 to {}", f.width) : list_of(headings), "correct the column");
 }
 
 /// Unit of a column: its heading's, else the file's or the user's.
@@ -150,7 +150,7 @@ std::vector<Record> read_headed(const File& f)
     if (accelerations.empty() || (time && accelerations[0] == *time))
         refuse(f.text, {f.table.heading_line, 0}, fmt::format("no column of acceleration among {}.", list_of(names)),
                "a heading such as accel_m_s2, accel_g or \"acc [cm/s2]\"",
-               "rename the heading, or choose by --column (for a scene: `damslip record convert --column ...` first)");
+               "rename the heading, or choose by --column (in a scene: motion.record.column, vertical_column)");
     if (!time && !f.stated_dt)
         refuse(f.text, {f.table.heading_line, 0},
                fmt::format("no time column among {}, and no time step is stated.", list_of(names)),

@@ -51,7 +51,7 @@ Record read_record(const std::filesystem::path& path, const ReadOptions& options
         throw InputError(Diagnostic{path.string(), 0, 0,
                                     fmt::format("the file holds {} accelerograms: {}.", records.size(), names),
                                     "one, or a choice among them",
-                                    "choose by --column (for a scene: `damslip record convert --column ...` first)"});
+                                    "choose by --column (in a scene: motion.record.column, vertical_column)"});
     }
     return std::move(records.front());
 }

@@ -63,6 +63,8 @@ std::string command_of(const AccuracyArguments& a, const Rung& rung)
     for (const auto& vertical : a.inputs.verticals) command += " --vertical " + quoted(vertical.string());
     if (!a.inputs.unit.empty()) command += " --units " + quoted(a.inputs.unit);
     if (a.inputs.dt) command += " --dt " + shortest(*a.inputs.dt);
+    if (!a.inputs.column.empty()) command += " --column " + quoted(a.inputs.column);
+    if (!a.inputs.vertical_column.empty()) command += " --vertical-column " + quoted(a.inputs.vertical_column);
     if (a.inputs.scale) command += " --scale " + shortest(*a.inputs.scale);
     if (a.inputs.friction) command += " --friction " + shortest(*a.inputs.friction);
     if (a.all_records) command += " --all-records";

@@ -56,6 +56,9 @@ void add_run_inputs(CLI::App* sub, RunInputs& in)
     sub->add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
         ->group("Ground motion");
     sub->add_option("--dt", in.dt, "time step of one-column record files [s]")->group("Ground motion");
+    sub->add_option("--column", in.column, "heading or number of the horizontal column where files hold several")
+        ->group("Ground motion");
+    sub->add_option("--vertical-column", in.vertical_column, "the same of the vertical files")->group("Ground motion");
 }
 
 void add_screen(Parser& p)

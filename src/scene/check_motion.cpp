@@ -21,6 +21,13 @@ void check_motion(const Scene& s, Findings& f, FileCheck files)
         if (!names.insert(r.name).second)
             f.wrong(label + ".name", fmt::format("two records are named \"{}\".", r.name), "names that differ",
                     fmt::format("give one a name of its own in [[motion.record]] number {}", i + 1));
+        if (!r.vertical_column.empty() && !r.vertical)
+            f.wrong(
+                label + ".vertical_column",
+                fmt::format("{}.vertical_column = \"{}\", but no vertical file is named.", label, r.vertical_column),
+                "vertical with vertical_column",
+                fmt::format("write  vertical = \"{}\"  if the horizontal file holds it",
+                            r.horizontal.filename().string()));
         if (files == FileCheck::skip) continue;
         const auto exists = [&](const std::filesystem::path& p, const char* key) {
             std::error_code error;

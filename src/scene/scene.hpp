@@ -177,8 +177,10 @@ struct RecordFiles {
     std::string name;
     std::filesystem::path horizontal; ///< resolved against the scene's folder
     std::optional<std::filesystem::path> vertical;
-    std::string unit;                ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
-    std::optional<double> dt;        ///< of one-column files [s]
+    std::string unit;         ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
+    std::optional<double> dt; ///< of one-column files [s]
+    std::string column; ///< of `horizontal` where it holds several: heading, or number from 1; empty: the only one
+    std::string vertical_column;     ///< the same of `vertical`
     std::optional<double> magnitude; ///< moment magnitude, for the regressions that ask for it [-]
     double scale = 1.0;              ///< of this pair, on top of motion.scale [-]
 };

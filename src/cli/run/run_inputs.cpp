@@ -62,6 +62,8 @@ Scene read_run_scene(const RunInputs& inputs)
     for (RecordFiles& record : scene.motion.records) {
         if (record.unit.empty()) record.unit = inputs.unit;
         if (!record.dt) record.dt = inputs.dt;
+        if (record.column.empty()) record.column = inputs.column;
+        if (record.vertical && record.vertical_column.empty()) record.vertical_column = inputs.vertical_column;
     }
     if (inputs.friction) {
         if (!(*inputs.friction >= 0 && *inputs.friction <= 10))
@@ -103,8 +105,10 @@ std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
         records::ReadOptions options;
         options.unit = files.unit;
         options.dt = files.dt;
+        options.column = files.column;
         try {
             RecordPair pair{files, records::read_record(files.horizontal, options), std::nullopt};
+            options.column = files.vertical_column;
             if (files.vertical && plan.on(Effect::vertical_motion))
                 pair.vertical = records::read_record(*files.vertical, options);
             pairs.push_back(std::move(pair));

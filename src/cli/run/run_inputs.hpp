@@ -18,6 +18,8 @@ struct RunInputs {
     std::vector<std::filesystem::path> verticals; ///< none, or one for each record, in the same order
     std::string unit;                             ///< of record files that do not say
     std::optional<double> dt;                     ///< of one-column files [s]
+    std::string column;                           ///< of files that hold several, horizontal components
+    std::string vertical_column;                  ///< the same, vertical components
     std::optional<double> friction;
     std::optional<double> scale;
     std::string scheme; ///< "exact" or "slammer"; empty: the scene's

@@ -27,6 +27,8 @@ std::string sweep_command_line(const SweepArguments& a)
     for (const auto& vertical : a.inputs.verticals) add("--vertical", vertical.string());
     add("--units", a.inputs.unit);
     if (a.inputs.dt) add("--dt", shortest(*a.inputs.dt));
+    add("--column", a.inputs.column);
+    add("--vertical-column", a.inputs.vertical_column);
     add("--friction", a.friction);
     add("--friction-deg", a.friction_deg);
     add("--level", a.level);
