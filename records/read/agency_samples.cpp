@@ -91,7 +91,7 @@ std::vector<Record> chosen_channels(const RecordText& text, std::vector<Record> 
         same = {static_cast<std::size_t>(*number) - 1};
     if (same.size() != 1)
         refuse(text, {}, fmt::format("there is no one channel {}.", in_quotes(options.column)), list,
-               "correct the column");
+               "correct --column (in a scene: motion.record.column, vertical_column)");
     return {std::move(records[same.front()])};
 }
 

@@ -108,7 +108,8 @@ std::size_t chosen_column(const File& f)
     if (number && *number >= 1.0 && *number <= count && *number == std::floor(*number))
         return static_cast<std::size_t>(*number) - 1;
     refuse(f.text, {f.table.heading_line, 0}, fmt::format("there is no column {}.", in_quotes(wanted)),
-           headings.empty() ? fmt::format("1 to {}", f.width) : list_of(headings), "correct the column");
+           headings.empty() ? fmt::format("1 to {}", f.width) : list_of(headings),
+           "correct --column (in a scene: motion.record.column, vertical_column)");
 }
 
 /// Unit of a column: its heading's, else the file's or the user's.
