@@ -172,6 +172,7 @@ CheckedRuns check_run(const std::filesystem::path& scene)
     if (fe.code == 3) runs.refusal = json::parse(fe.out)["error"]["diagnostics"][0]["message"];
     const json screened = json::parse(screen.out), ran = json::parse(fe.out);
     if (screened.contains("displacements")) check_screen(check, screened);
+    if (fe.code == 0) check.demand(ran.contains("runs") && !ran["runs"].empty(), "fe: exit code 0 without a run");
     if (ran.contains("runs")) {
         bool proper = true;
         for (const json& row : ran["runs"]) {
