@@ -9,15 +9,15 @@ namespace {
 
 /// Unknowns of an element in the order of its matrix.
 struct ElementDofs {
-    std::array<int, 8> index{};
+    std::array<int, 18> index{};
     int count = 0;
 };
 
 ElementDofs dofs_of(const Element& element, const DofMap& map)
 {
     ElementDofs dofs;
-    for (int i = 0; i < element.size(); ++i)
-        for (int c = 0; c < map.components; ++c) dofs.index[dofs.count++] = map(element.nodes[i], c);
+    for (const int node : element.all())
+        for (int c = 0; c < map.components; ++c) dofs.index[dofs.count++] = map(node, c);
     return dofs;
 }
 
@@ -88,7 +88,8 @@ SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materi
     for (const Region region : {Region::dam, Region::rock, Region::curtain})
         d[static_cast<int>(region)] = plane_strain_matrix(materials.of(region));
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) {
-        return elastic_stiffness(corners, element.size(), d[static_cast<int>(element.region)], materials.kind);
+        return elastic_stiffness(corners, element.size(), d[static_cast<int>(element.region)], materials.kind,
+                                 extra_nodes(element));
     });
 }
 
@@ -97,19 +98,23 @@ SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& 
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {
         const double density = materials.of(element.region).density;
         if (density == 0.0) return {};
-        return elastic_mass(corners, element.size(), density, kind);
+        return elastic_mass(corners, element.size(), density, kind, extra_nodes(element));
     });
 }
 
 Eigen::VectorXd inertia_vector(const Mesh& mesh, const DofMap& dofs, const Materials& materials,
-                               const Eigen::Vector2d& direction)
+                               const Eigen::Vector2d& direction, MassKind kind)
 {
-    // The shape functions sum to one, so M r = integral of rho N^T r: the same for the consistent and the lumped
-    // matrix.
+    // The shape functions sum to one, so M r = integral of rho N^T r: the same for the consistent matrix and row sums.
+    // The lumped mass of quadratic elements is not the row sums.
     return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
         const double density = materials.of(element.region).density;
         if (density == 0.0) return {};
-        return body_force(corners, element.size(), density * direction);
+        const ExtraNodes extra = extra_nodes(element);
+        if (kind == MassKind::lumped && extra.any())
+            return elastic_mass(corners, element.size(), density, kind, extra) *
+                   direction.replicate(element.size() + extra.count(), 1);
+        return body_force(corners, element.size(), density * direction, extra);
     });
 }
 
@@ -119,7 +124,7 @@ Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materia
     return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
         const double density = materials.of(element.region).density;
         if (density == 0.0 || std::find(regions.begin(), regions.end(), element.region) == regions.end()) return {};
-        return body_force(corners, element.size(), {0.0, -density * gravity});
+        return body_force(corners, element.size(), {0.0, -density * gravity}, extra_nodes(element));
     });
 }
 

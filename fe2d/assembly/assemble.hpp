@@ -32,7 +32,7 @@ Eigen::VectorXd assemble_vector(const Mesh& mesh, const DofMap& dofs, const Elem
 /// Material of each region, and how the quadrilaterals are formulated.
 struct Materials {
     ElasticMaterial dam, rock, curtain;
-    Q4Kind kind = Q4Kind::incompatible;
+    Q4Kind kind = Q4Kind::incompatible; ///< of linear quadrilaterals; whether an element is quadratic, its nodes say
 
     const ElasticMaterial& of(Region region) const;
 };
@@ -45,9 +45,9 @@ SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materi
 SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind); ///< M [kg/m]
 
 /// M r for a rigid translation r = `direction` of every node, the fixed ones included [kg/m]: the ground acceleration
-/// a_g along it loads the relative motion with - M r a_g.
+/// a_g along it loads the relative motion with - M r a_g. `kind` is that of M.
 Eigen::VectorXd inertia_vector(const Mesh& mesh, const DofMap& dofs, const Materials& materials,
-                               const Eigen::Vector2d& direction);
+                               const Eigen::Vector2d& direction, MassKind kind = MassKind::consistent);
 
 /// Weight: density times gravity, downwards [N/m], of the given regions.
 Eigen::VectorXd gravity_load(const Mesh& mesh, const DofMap& dofs, const Materials& materials, double gravity,

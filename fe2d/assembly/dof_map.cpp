@@ -23,9 +23,9 @@ DofMap displacement_dofs(const Mesh& mesh, Base base)
     const auto fix = [&](const std::vector<int>& nodes, int component) {
         for (const int node : nodes) map.dofs[2 * node + component] = no_dof;
     };
-    fix(mesh.box_left, 0);
-    fix(mesh.box_right, 0);
-    fix(mesh.box_bottom, 1);
+    fix(with_mid_nodes(mesh, mesh.box_left), 0);
+    fix(with_mid_nodes(mesh, mesh.box_right), 0);
+    fix(with_mid_nodes(mesh, mesh.box_bottom), 1);
     const ContactPlane& plane = mesh.contact;
     assert((base == Base::separate || plane.matching) && "only facing nodes can be tied");
     if (base == Base::tied && !mesh.has_rock())
@@ -68,7 +68,7 @@ DofMap scalar_dofs(const Mesh& mesh, std::span<const Region> regions, std::span<
     DofMap map{.components = 1, .count = 0, .dofs = std::vector<int>(mesh.nodes.size(), no_dof)};
     for (const Element& element : mesh.elements)
         if (std::find(regions.begin(), regions.end(), element.region) != regions.end())
-            for (int i = 0; i < element.size(); ++i) map.dofs[element.nodes[i]] = undecided;
+            for (const int node : element.all()) map.dofs[node] = undecided;
     for (const int node : prescribed) map.dofs[node] = no_dof;
     number(map);
     return map;

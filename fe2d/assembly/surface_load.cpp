@@ -20,9 +20,17 @@ constexpr std::array<LinePoint, 5> five_points{{{0.046910077030668, 0.1184634425
 
 /// The wet part of an edge from node a to node b, as an interval of its parameter t.
 struct Edge {
-    int a, b;
+    int a, b, mid; ///< mid: -1 where the edge is linear
     Point pa, pb;
     double length, from, to;
+
+    int size() const { return mid < 0 ? 2 : 3; }
+    std::array<int, 3> nodes() const { return {a, b, mid}; }
+    std::array<double, 3> shape(double t) const
+    {
+        if (mid < 0) return {1.0 - t, t, 0.0};
+        return {(1.0 - t) * (1.0 - 2.0 * t), t * (2.0 * t - 1.0), 4.0 * t * (1.0 - t)};
+    }
 
     Point at(double t) const { return {pa.x + t * (pb.x - pa.x), pa.y + t * (pb.y - pa.y)}; }
     Eigen::Vector2d outward() const { return {(pb.y - pa.y) / length, (pa.x - pb.x) / length}; }
@@ -48,6 +56,7 @@ void for_each_wet_edge(const Mesh& mesh, const NodeChain& chain, double level, V
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         Edge edge{.a = chain[i],
                   .b = chain[i + 1],
+                  .mid = mid_node(mesh, chain[i], chain[i + 1]),
                   .pa = mesh.nodes[chain[i]],
                   .pb = mesh.nodes[chain[i + 1]],
                   .length = 0,
@@ -66,20 +75,20 @@ void add(Eigen::VectorXd& sum, const DofMap& dofs, int node, const Eigen::Vector
         if (const int dof = dofs(node, c); dof != no_dof) sum[dof] += force[c];
 }
 
-/// Integral of m N_i N_j over the wet part: [aa, ab, bb].
-std::array<double, 3> edge_mass(const Edge& edge, const AddedMassLaw& law)
+/// Integral of m N_i N_j over the wet part; rows and columns as Edge::nodes.
+Eigen::Matrix3d edge_mass(const Edge& edge, const AddedMassLaw& law)
 {
     // The outward normal of a body that widens downwards points up: phi = asin(n_y).
     const double inclination = std::asin(std::clamp(edge.outward()[1], -1.0, 1.0));
-    std::array<double, 3> sum{};
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (const LinePoint& p : five_points) {
         const double t = edge.from + p.t * (edge.to - edge.from);
         const double m = law(edge.at(t), inclination) * p.weight * (edge.to - edge.from) * edge.length;
-        sum[0] += m * (1.0 - t) * (1.0 - t);
-        sum[1] += m * (1.0 - t) * t;
-        sum[2] += m * t * t;
+        const auto n = edge.shape(t);
+        for (int i = 0; i < edge.size(); ++i)
+            for (int j = 0; j <= i; ++j) sum(i, j) += m * n[j] * n[i];
     }
-    return sum;
+    return sum.selfadjointView<Eigen::Lower>();
 }
 
 /// Adds integral of N^T p dS times `direction`, p piecewise linear over the distance along a straight line of nodes.
@@ -112,8 +121,8 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, const NodeCh
             const double t = edge.from + p.t * (edge.to - edge.from);
             const Eigen::Vector2d force =
                 -pressure(edge.at(t)) * p.weight * (edge.to - edge.from) * edge.length * edge.outward();
-            add(sum, dofs, edge.a, (1.0 - t) * force);
-            add(sum, dofs, edge.b, t * force);
+            const auto n = edge.shape(t); // linear pressure times quadratic shape at most: exact
+            for (int i = 0; i < edge.size(); ++i) add(sum, dofs, edge.nodes()[i], n[i] * force);
         }
     });
     return sum;
@@ -124,16 +133,16 @@ SparseMatrix added_mass_matrix(const Mesh& mesh, const DofMap& dofs, const NodeC
 {
     std::vector<Eigen::Triplet<double>> entries;
     for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {
-        const auto m = edge_mass(edge, law);
+        const Eigen::Matrix3d m = edge_mass(edge, law);
         const Eigen::Matrix2d nn = edge.outward() * edge.outward().transpose();
-        const int nodes[2] = {edge.a, edge.b};
-        for (int i = 0; i < 2; ++i)
-            for (int j = 0; j < 2; ++j)
+        const auto nodes = edge.nodes();
+        for (int i = 0; i < edge.size(); ++i)
+            for (int j = 0; j < edge.size(); ++j)
                 for (int c = 0; c < 2; ++c)
                     for (int d = 0; d < 2; ++d)
                         if (const int row = dofs(nodes[i], c), column = dofs(nodes[j], d);
                             row != no_dof && column != no_dof && nn(c, d) != 0.0)
-                            entries.emplace_back(row, column, m[i + j] * nn(c, d));
+                            entries.emplace_back(row, column, m(i, j) * nn(c, d));
     });
     SparseMatrix matrix(dofs.count, dofs.count);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -145,10 +154,9 @@ Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const N
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {
-        const auto m = edge_mass(edge, law);
+        const Eigen::Matrix3d m = edge_mass(edge, law);
         const Eigen::Vector2d normal = edge.outward() * edge.outward().dot(direction);
-        add(sum, dofs, edge.a, (m[0] + m[1]) * normal);
-        add(sum, dofs, edge.b, (m[1] + m[2]) * normal);
+        for (int i = 0; i < edge.size(); ++i) add(sum, dofs, edge.nodes()[i], m.row(i).sum() * normal);
     });
     return sum;
 }

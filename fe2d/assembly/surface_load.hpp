@@ -7,7 +7,8 @@
 #include <optional>
 
 /// Loads and added mass on boundary chains. Integrals are taken below `surface_level` only: an edge that the water
-/// surface cuts is integrated over its wet part, so a level between two nodes costs no accuracy in the resultant.
+/// surface cuts is integrated over its wet part, so a level between two nodes costs no accuracy in the resultant. Chains
+/// are of corners; edges with a node in their middle are integrated with their three shape functions.
 namespace damslip::fe2d {
 
 inline constexpr double everywhere = std::numeric_limits<double>::infinity();

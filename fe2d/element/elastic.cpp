@@ -1,5 +1,7 @@
 #include "fe2d/element/elastic.hpp"
 
+#include "fe2d/element/quadratic.hpp"
+
 #include <Eigen/LU>
 
 #include <numbers>
@@ -122,11 +124,14 @@ ElementVector constant_force(const Points& points, int size, const Eigen::Vector
 
 Q4Kind q4_kind(ElementKind kind)
 {
-    return kind == ElementKind::q4_incompatible ? Q4Kind::incompatible : Q4Kind::plain;
+    const bool plain = kind == ElementKind::q4 || kind == ElementKind::t3 || kind == ElementKind::t6;
+    return plain ? Q4Kind::plain : Q4Kind::incompatible;
 }
 
-ElementMatrix elastic_stiffness(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind)
+ElementMatrix elastic_stiffness(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
+                                const ExtraNodes& extra)
 {
+    if (extra.any()) return quadratic_stiffness(corners, size, extra, d);
     if (size == 3) {
         const auto points = t3_points(corners);
         const Eigen::Matrix<double, 3, 6> b = strain_matrix(points[0].gradient).leftCols<6>();
@@ -145,8 +150,9 @@ ElementMatrix elastic_stiffness(const Corners& corners, int size, const Eigen::M
     return 0.5 * (k + k.transpose());
 }
 
-ElementMatrix elastic_mass(const Corners& corners, int size, double density, MassKind kind)
+ElementMatrix elastic_mass(const Corners& corners, int size, double density, MassKind kind, const ExtraNodes& extra)
 {
+    if (extra.any()) return quadratic_mass(corners, size, extra, density, kind);
     ElementMatrix m =
         size == 3 ? consistent_mass(t3_points(corners), 3, density) : consistent_mass(q4_points(corners), 4, density);
     if (kind == MassKind::lumped) {
@@ -156,15 +162,17 @@ ElementMatrix elastic_mass(const Corners& corners, int size, double density, Mas
     return m;
 }
 
-ElementVector body_force(const Corners& corners, int size, const Eigen::Vector2d& force)
+ElementVector body_force(const Corners& corners, int size, const Eigen::Vector2d& force, const ExtraNodes& extra)
 {
+    if (extra.any()) return quadratic_body_force(corners, size, extra, force);
     return size == 3 ? constant_force(t3_points(corners), 3, force) : constant_force(q4_points(corners), 4, force);
 }
 
-Eigen::Matrix<double, 3, 4> nodal_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
-                                         const ElementVector& u)
+NodalStress nodal_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
+                         const ElementVector& u, const ExtraNodes& extra)
 {
-    if (size == 3) return t3_stress(corners, d, u).replicate<1, 4>();
+    if (extra.any()) return quadratic_nodal_stress(corners, size, extra, d, u);
+    if (size == 3) return t3_stress(corners, d, u).replicate<1, 3>();
     // The Gauss points are a square of half-width 1/sqrt 3: seen from it the nodes are at +-sqrt 3 of the bilinear
     // functions.
     const double a = 1.0 + std::numbers::sqrt3 / 2.0, b = -0.5, c = 1.0 - std::numbers::sqrt3 / 2.0;
@@ -174,8 +182,9 @@ Eigen::Matrix<double, 3, 4> nodal_stress(const Corners& corners, int size, const
 }
 
 Eigen::Vector3d centre_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
-                              const ElementVector& u)
+                              const ElementVector& u, const ExtraNodes& extra)
 {
+    if (extra.any()) return quadratic_centre_stress(corners, size, extra, d, u);
     if (size == 3) return t3_stress(corners, d, u);
     return gauss_stress(corners, d, kind, u).rowwise().mean();
 }

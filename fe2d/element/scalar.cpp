@@ -1,9 +1,34 @@
 #include "fe2d/element/scalar.hpp"
 
+#include "fe2d/element/quadratic.hpp"
+
 namespace damslip::fe2d {
 
-ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double conductivity)
+namespace {
+
+ElementMatrix quadratic_gradient_matrix(const Corners& corners, int size, double conductivity, const ExtraNodes& extra)
 {
+    const int nodes = size + extra.count();
+    ElementMatrix k = ElementMatrix::Zero(nodes, nodes);
+    for (const QuadraticPoint& point : quadratic_points(corners, size, extra))
+        k += conductivity * point.weight * point.gradient.transpose() * point.gradient;
+    return k;
+}
+
+ElementMatrix quadratic_scalar_mass(const Corners& corners, int size, double capacity, const ExtraNodes& extra)
+{
+    const int nodes = size + extra.count();
+    ElementMatrix m = ElementMatrix::Zero(nodes, nodes);
+    for (const QuadraticPoint& point : quadratic_points(corners, size, extra))
+        m += capacity * point.weight * point.shape * point.shape.transpose();
+    return m;
+}
+
+} // namespace
+
+ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double conductivity, const ExtraNodes& extra)
+{
+    if (extra.any()) return quadratic_gradient_matrix(corners, size, conductivity, extra);
     ElementMatrix k = ElementMatrix::Zero(size, size);
     const auto add = [&](const QuadraturePoint& point) {
         const auto gradient = point.gradient.leftCols(size);
@@ -16,8 +41,9 @@ ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double co
     return k;
 }
 
-ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capacity)
+ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capacity, const ExtraNodes& extra)
 {
+    if (extra.any()) return quadratic_scalar_mass(corners, size, capacity, extra);
     ElementMatrix m = ElementMatrix::Zero(size, size);
     const auto add = [&](const QuadraturePoint& point) {
         m += capacity * point.weight * point.shape.head(size) * point.shape.head(size).transpose();

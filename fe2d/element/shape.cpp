@@ -4,6 +4,14 @@
 
 namespace damslip::fe2d {
 
+ExtraNodes extra_nodes(const Element& element)
+{
+    ExtraNodes extra;
+    for (int i = 0; i < 4; ++i) extra.mid[i] = element.mid[i] >= 0;
+    extra.centre = element.centre >= 0;
+    return extra;
+}
+
 QuadraturePoint q4_point(const Corners& corners, double xi, double eta)
 {
     static constexpr double sx[4] = {-1, 1, 1, -1}, sy[4] = {-1, -1, 1, 1};

@@ -1,15 +1,27 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "fe2d/mesh/mesh.hpp"
 
 #include <Eigen/Core>
 
 #include <array>
 
-/// Shape functions and quadrature of the four-node quadrilateral and the three-node triangle.
+/// Shape functions and quadrature of quadrilaterals and triangles with straight edges: linear ones here, those with
+/// nodes in the middle of edges or at the centre in quadratic.hpp.
 namespace damslip::fe2d {
 
 using Corners = std::array<Point, 4>; ///< counter-clockwise; the fourth is not used by triangles
+
+/// Which nodes an element has besides its corners.
+struct ExtraNodes {
+    std::array<bool, 4> mid{}; ///< in the middle of the edge from corner i to the next
+    bool centre = false;       ///< quadrilaterals only
+
+    bool any() const { return mid[0] || mid[1] || mid[2] || mid[3] || centre; }
+    int count() const { return mid[0] + mid[1] + mid[2] + mid[3] + centre; }
+};
+ExtraNodes extra_nodes(const Element& element);
 
 /// One quadrature point of an element in the global axes.
 struct QuadraturePoint {

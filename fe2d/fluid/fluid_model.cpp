@@ -80,10 +80,10 @@ FluidModel build_fluid(ReservoirMesh reservoir, const FluidOptions& options)
     model.mesh_unknowns = model.dofs.count;
 
     const SparseMatrix mass = assemble(r.mesh, model.dofs, [&](const Element& e, const Corners& corners) {
-        return scalar_mass_matrix(corners, e.size(), 1.0 / options.bulk_modulus);
+        return scalar_mass_matrix(corners, e.size(), 1.0 / options.bulk_modulus, extra_nodes(e));
     });
     const SparseMatrix stiffness = assemble(r.mesh, model.dofs, [&](const Element& e, const Corners& corners) {
-        return scalar_gradient_matrix(corners, e.size(), 1.0 / options.density);
+        return scalar_gradient_matrix(corners, e.size(), 1.0 / options.density, extra_nodes(e));
     });
 
     FluidTriplets boundary;

@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/mesh/dam_mesh.hpp"
+#include "fe2d/mesh/quadratic.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "fe2d/mesh/rock_mesh.hpp"
 #include "scene/curtain.hpp"
@@ -186,6 +187,13 @@ void split_quadrilaterals(Mesh& mesh)
 
 } // namespace
 
+void shape_elements(Mesh& mesh, ElementKind kind)
+{
+    if (kind == ElementKind::t3 || kind == ElementKind::t6) split_quadrilaterals(mesh);
+    if (kind == ElementKind::q8 || kind == ElementKind::t6) make_quadratic(mesh, QuadraticKind::serendipity);
+    if (kind == ElementKind::q9) make_quadratic(mesh, QuadraticKind::lagrange);
+}
+
 MeshSizes mesh_sizes(const Scene& scene)
 {
     const double lowest = std::min(heel(scene.section).y, toe(scene.section).y);
@@ -205,7 +213,7 @@ Mesh build_mesh(const Scene& scene, const ContactExtension& extension)
     append_dam(mesh, faces, layout);
     if (scene.foundation) append_rock(mesh, rock_layout(scene, layout, sizes, extension));
     check_quality(mesh, scene);
-    if (scene.mesh.element == ElementKind::t3) split_quadrilaterals(mesh);
+    shape_elements(mesh, scene.mesh.element);
     return mesh;
 }
 

@@ -19,8 +19,12 @@ struct MeshSizes {
 };
 MeshSizes mesh_sizes(const Scene& scene);
 
-/// Meshes the dam and, where the scene has a foundation, the rock box (scene.mesh gives sizes, growth and element kind;
-/// with ElementKind::t3 every quadrilateral is split along its shorter diagonal). A curtain is a zone of its own where
+/// Turns the linear quadrilaterals and triangles of a mesh, whoever made it, into elements of the wanted kind:
+/// quadrilaterals split along their shorter diagonal (t3, t6), middle nodes added (q8, q9, t6; quadratic.hpp).
+void shape_elements(Mesh& mesh, ElementKind kind);
+
+/// Meshes the dam and, where the scene has a foundation, the rock box (scene.mesh gives sizes, growth and element kind,
+/// see shape_elements). A curtain is a zone of its own where
 /// its stiffness differs from the rock's, or its permeability does and scene.stages.pore_pressure puts the flow on this
 /// mesh; any other curtain is rock, and the mesh that of the scene without it. With scene.mesh.rock_contact_size the
 /// rock's nodes on the contact plane are its own. Node places depend on the scene only: same scene, same bits.

@@ -16,12 +16,35 @@ namespace damslip::fe2d {
 enum class Region : unsigned char { dam, rock, curtain, reservoir };
 inline constexpr int region_count = 4;
 
-/// A quadrilateral, or a triangle when the fourth node is -1; nodes counter-clockwise.
-struct Element {
-    std::array<int, 4> nodes{-1, -1, -1, -1};
-    Region region = Region::dam;
+/// The nodes of one element without a heap: corners, then the middles of its edges that have one, then its centre.
+struct ElementNodes {
+    std::array<int, 9> index{};
+    int count = 0;
 
-    int size() const { return nodes[3] < 0 ? 3 : 4; }
+    const int* begin() const { return index.data(); }
+    const int* end() const { return index.data() + count; }
+    int operator[](int i) const { return index[i]; }
+};
+
+/// A quadrilateral, or a triangle when the fourth node is -1; nodes counter-clockwise. Edges are straight, and linear or
+/// quadratic each by itself: an element between a quadratic and a linear edge is a transition element, and the mesh is
+/// conforming wherever the two elements of an edge agree on its middle node (mesh/quadratic.hpp).
+struct Element {
+    std::array<int, 4> nodes{-1, -1, -1, -1}; ///< corners
+    Region region = Region::dam;
+    std::array<int, 4> mid{-1, -1, -1,
+                           -1}; ///< node in the middle of the edge from corner i to the next; -1: linear edge
+    int centre = -1;            ///< node at the centre of a quadrilateral; -1: none
+
+    int size() const { return nodes[3] < 0 ? 3 : 4; } ///< corners
+    bool linear() const { return mid[0] < 0 && mid[1] < 0 && mid[2] < 0 && mid[3] < 0 && centre < 0; }
+    ElementNodes all() const; ///< in the order of the element's matrices
+};
+
+/// The node in the middle of the quadratic edge between two corners.
+struct EdgeNode {
+    int a = 0, b = 0; ///< corners, a < b
+    int mid = 0;
 };
 
 /// Consecutive nodes of a boundary in the counter-clockwise order of the body they belong to: going along the chain the
@@ -55,7 +78,8 @@ struct Mesh {
     int dam_element_count = 0;
 
     ContactPlane contact;
-    std::vector<LiftPlane> lifts;  ///< from the bottom up, in the order of Scene::lift_joints
+    std::vector<LiftPlane> lifts;     ///< from the bottom up, in the order of Scene::lift_joints
+    std::vector<EdgeNode> edge_nodes; ///< of all quadratic edges, by a, then b. Chains and planes below are of corners
     NodeChain upstream_face;       ///< of the dam, crest to heel; at a lift joint through both nodes, upper first: an
                                    ///< edge of no length
     NodeChain downstream_face;     ///< of the dam, toe to crest; at a lift joint through both nodes, lower first
@@ -69,6 +93,12 @@ struct Mesh {
     int element_count() const { return static_cast<int>(elements.size()); }
     bool has_rock() const { return !contact.rock_nodes.empty(); }
 };
+
+/// The node in the middle of the edge between two corners; -1 where the edge is linear or there is none.
+int mid_node(const Mesh& mesh, int a, int b);
+
+/// A chain with the middle nodes of its quadratic edges in between.
+std::vector<int> with_mid_nodes(const Mesh& mesh, const NodeChain& chain);
 
 /// Corner coordinates of one element in node order; unused entries of a triangle are (0, 0).
 std::array<Point, 4> corners(const Mesh& mesh, const Element& element);

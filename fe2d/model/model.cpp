@@ -12,7 +12,8 @@ std::int64_t dam_nonzeros(const Model& model)
     return assemble(model.mesh, model.dofs,
                     [&](const Element& element, const Corners&) -> ElementMatrix {
                         if (element.region != Region::dam) return {};
-                        return ElementMatrix::Ones(2 * element.size(), 2 * element.size());
+                        const int unknowns = 2 * element.all().count;
+                        return ElementMatrix::Ones(unknowns, unknowns);
                     })
         .nonZeros();
 }
@@ -68,9 +69,10 @@ Model build_model(const Scene& scene, const ModelOptions& options)
     model.mesh = build_mesh(options.base == Base::tied ? with_facing_nodes(scene) : scene, options.extension);
     model.dofs = displacement_dofs(model.mesh, options.base);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
+    model.mass_kind = options.mass;
     model.mass = mass_matrix(model.mesh, model.dofs, model.materials, options.mass);
-    model.inertia_x = inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0});
-    model.inertia_y = inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0});
+    model.inertia_x = inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0}, options.mass);
+    model.inertia_y = inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0}, options.mass);
     const Eigen::VectorXd all = inertia_vector(model.mesh, all_dofs(model.mesh, 2), model.materials, {1.0, 0.0});
     model.total_mass.setConstant(all.sum());
     assemble_water(scene, options.added_mass, model);

@@ -23,7 +23,8 @@ struct Model {
     Mesh mesh;
     DofMap dofs;
     Materials materials;
-    SparseMatrix stiffness;  ///< K [N/m per m]
+    SparseMatrix stiffness; ///< K [N/m per m]
+    MassKind mass_kind = MassKind::consistent;
     SparseMatrix mass;       ///< of the structure [kg/m]; rows of massless rock are empty
     SparseMatrix added_mass; ///< of the water on the upstream face [kg/m]
     Eigen::VectorXd inertia_x,

@@ -77,15 +77,38 @@ std::string points(const Mesh& mesh, Appended& data)
     return "<Points>\n" + header("Float64", "points_m", 3, data.add(xyz)) + "</Points>\n";
 }
 
+// VTK_TRIANGLE ... VTK_BIQUADRATIC_QUAD; VTK orders the nodes of these cells as Element::all does.
+constexpr std::uint8_t triangle = 5, polygon = 7, quad = 9, quadratic_triangle = 22, quadratic_quad = 23,
+                       biquadratic_quad = 28;
+
+/// VTK has no cell with some edges linear and some quadratic: transition elements are polygons.
+std::uint8_t cell_type(const Element& e)
+{
+    if (e.linear()) return e.size() == 3 ? triangle : quad;
+    for (int i = 0; i < e.size(); ++i)
+        if (e.mid[i] < 0) return polygon;
+    return e.size() == 3 ? quadratic_triangle : e.centre < 0 ? quadratic_quad : biquadratic_quad;
+}
+
+/// Corners and middle nodes in the order of the outline.
+ElementNodes outline(const Element& e)
+{
+    ElementNodes nodes;
+    for (int i = 0; i < e.size(); ++i) {
+        nodes.index[nodes.count++] = e.nodes[i];
+        if (e.mid[i] >= 0) nodes.index[nodes.count++] = e.mid[i];
+    }
+    return nodes;
+}
+
 std::string cells(const Mesh& mesh, Appended& data)
 {
-    constexpr std::uint8_t triangle = 5, quad = 9; // VTK_TRIANGLE, VTK_QUAD
     std::vector<std::int64_t> connectivity, offsets;
     std::vector<std::uint8_t> types;
     for (const Element& e : mesh.elements) {
-        connectivity.insert(connectivity.end(), e.nodes.begin(), e.nodes.begin() + e.size());
+        types.push_back(cell_type(e));
+        for (const int node : types.back() == polygon ? outline(e) : e.all()) connectivity.push_back(node);
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-        types.push_back(e.size() == 3 ? triangle : quad);
     }
     std::string text = "<Cells>\n";
     text += header("Int64", "connectivity", 1, data.add(connectivity));

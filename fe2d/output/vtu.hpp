@@ -19,7 +19,8 @@ struct VtuArray {
 
 /// Writes nodes, elements and arrays as a VTK unstructured grid (.vtu, VTK file format 1.0: raw appended data, 64-bit
 /// block headers, little endian, float64). The region of every element is added as the cell array "region" (0 dam, 1
-/// rock, 2 curtain, 3 reservoir). The file appears whole or not at all.
+/// rock, 2 curtain, 3 reservoir). Quadratic elements
+/// are written as such, transition elements as polygons of their outline. The file appears whole or not at all.
 /// @throws InputError when the file cannot be written.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal,
                const std::vector<VtuArray>& elemental);

@@ -26,11 +26,11 @@ std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
     for (bool more = true; more;) {
         more = false;
         for (int e = 0; e < mesh.dam_element_count; ++e) {
-            const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+            const ElementNodes nodes = mesh.elements[static_cast<std::size_t>(e)].all();
             int count = 0;
-            for (int i = 0; i < element.size(); ++i) count += reached[static_cast<std::size_t>(element.nodes[i])];
-            if (count == 0 || count == element.size()) continue;
-            for (int i = 0; i < element.size(); ++i) reached[static_cast<std::size_t>(element.nodes[i])] = 1;
+            for (const int node : nodes) count += reached[static_cast<std::size_t>(node)];
+            if (count == 0 || count == nodes.count) continue;
+            for (const int node : nodes) reached[static_cast<std::size_t>(node)] = 1;
             more = true;
         }
     }

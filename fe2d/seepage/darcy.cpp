@@ -27,7 +27,8 @@ ElementMatrixFunction element_conduction(const Permeability& permeability)
 {
     return [permeability](const Element& element, const Corners& corners) -> ElementMatrix {
         if (!in_rock(element)) return {};
-        return scalar_gradient_matrix(corners, element.size(), conductivity(permeability, element));
+        return scalar_gradient_matrix(corners, element.size(), conductivity(permeability, element),
+                                      extra_nodes(element));
     };
 }
 
@@ -83,12 +84,14 @@ double flow_into(const Mesh& mesh, const Permeability& permeability, const Darcy
     for (const Element& element : mesh.elements) {
         const Corners points = corners(mesh, element);
         if (!in_rock(element) || !chosen(element, points)) continue;
-        ElementVector head(element.size());
-        for (int i = 0; i < element.size(); ++i) head[i] = solution.head[element.nodes[i]];
+        const ElementNodes at = element.all();
+        ElementVector head(at.count);
+        for (int i = 0; i < at.count; ++i) head[i] = solution.head[at[i]];
         const ElementVector inflow =
-            scalar_gradient_matrix(points, element.size(), conductivity(permeability, element)) * head;
-        for (int i = 0; i < element.size(); ++i)
-            if (given[element.nodes[i]]) flow += inflow[i];
+            scalar_gradient_matrix(points, element.size(), conductivity(permeability, element), extra_nodes(element)) *
+            head;
+        for (int i = 0; i < at.count; ++i)
+            if (given[at[i]]) flow += inflow[i];
     }
     return flow;
 }

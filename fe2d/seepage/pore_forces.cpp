@@ -1,7 +1,7 @@
 #include "fe2d/seepage/pore_forces.hpp"
 
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/element/shape.hpp"
+#include "fe2d/element/quadratic.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -13,19 +13,23 @@ namespace {
 
 enum class Form { divergence, gradient };
 
-ElementVector element_force(const Corners& corners, int size, const Eigen::Vector4d& pressure, Form form)
+ElementVector element_force(const Corners& corners, int size, const ElementVector& pressure, Form form,
+                            const ExtraNodes& extra)
 {
-    ElementVector force = ElementVector::Zero(2 * size);
-    const auto add = [&](const QuadraturePoint& point) {
-        const double p = point.shape.head(size).dot(pressure.head(size));
-        const Eigen::Vector2d gradient = point.gradient.leftCols(size) * pressure.head(size);
-        for (int i = 0; i < size; ++i) {
+    const int nodes = size + extra.count();
+    ElementVector force = ElementVector::Zero(2 * nodes);
+    const auto add = [&](const auto& point) {
+        const double p = point.shape.head(nodes).dot(pressure.head(nodes));
+        const Eigen::Vector2d gradient = point.gradient.leftCols(nodes) * pressure.head(nodes);
+        for (int i = 0; i < nodes; ++i) {
             const Eigen::Vector2d f = form == Form::divergence ? Eigen::Vector2d(p * point.gradient.col(i))
                                                                : Eigen::Vector2d(-point.shape[i] * gradient);
             force.segment<2>(2 * i) += point.weight * f;
         }
     };
-    if (size == 3)
+    if (extra.any())
+        for (const auto& point : quadratic_points(corners, size, extra)) add(point);
+    else if (size == 3)
         for (const auto& point : t3_points(corners)) add(point);
     else
         for (const auto& point : q4_points(corners)) add(point);
@@ -37,9 +41,10 @@ Eigen::VectorXd rock_force(const Mesh& mesh, const DofMap& dofs, const Eigen::Ve
     assert(pressure.size() == mesh.node_count() && dofs.components == 2);
     return assemble_vector(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementVector {
         if (element.region != Region::rock && element.region != Region::curtain) return {};
-        Eigen::Vector4d p = Eigen::Vector4d::Zero();
-        for (int i = 0; i < element.size(); ++i) p[i] = pressure[element.nodes[i]];
-        return element_force(corners, element.size(), p, form);
+        const ElementNodes nodes = element.all();
+        ElementVector p(nodes.count);
+        for (int i = 0; i < nodes.count; ++i) p[i] = pressure[nodes[i]];
+        return element_force(corners, element.size(), p, form, extra_nodes(element));
     });
 }
 
@@ -72,6 +77,15 @@ Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std
         const int a = chain[i], b = chain[i + 1];
         const Point from = mesh.nodes[a], to = mesh.nodes[b];
         const double inward_x = from.y - to.y, inward_y = to.x - from.x; // -n times length
+        if (const int mid = mid_node(mesh, a, b); mid >= 0) {            // integral of N_i N_j, quadratic
+            const double p = pressure[a], q = pressure[b], r = pressure[mid];
+            const double at_a = (4.0 * p - q + 2.0 * r) / 30.0, at_b = (4.0 * q - p + 2.0 * r) / 30.0,
+                         at_mid = (2.0 * p + 2.0 * q + 16.0 * r) / 30.0;
+            add(a, at_a * inward_x, at_a * inward_y);
+            add(b, at_b * inward_x, at_b * inward_y);
+            add(mid, at_mid * inward_x, at_mid * inward_y);
+            continue;
+        }
         const double at_a = pressure[a] / 3.0 + pressure[b] / 6.0, at_b = pressure[a] / 6.0 + pressure[b] / 3.0;
         add(a, at_a * inward_x, at_a * inward_y);
         add(b, at_b * inward_x, at_b * inward_y);

@@ -15,8 +15,8 @@
 ///     (a) total:      K u = -∫Nᵀ n p dS + ∫Bᵀ m p dV      pressures on floor, ground and both faces of the base joint
 ///     (b) effective:  K u = -∫Nᵀ ∇p dV                    on the rock; nothing on its surface
 ///
-/// Both are the same by the divergence theorem, element by element too: with bilinear p and 2 x 2 Gauss points all
-/// integrals are exact. The dam's face of the joint carries +p in both. p is the excess p_ex = γ_w (H - y_0) over still
+/// Both are the same by the divergence theorem, element by element too: with bilinear p and 2 x 2 Gauss points, and with
+/// quadratic p and 3 x 3, all integrals are exact. The dam's face of the joint carries +p in both. p is the excess p_ex = γ_w (H - y_0) over still
 /// water at the heel's ground level y_0 = 0: the rock was saturated up to there before the impounding, and only the
 /// change strains it. On a horizontal rock surface p_ex is the water pressure itself. Never combine (b) with water
 /// loads on the rock's surface. The incompatible modes of quadrilaterals get no load in either form: a constant p does
@@ -34,7 +34,8 @@ Eigen::VectorXd pore_pressure_force(const Mesh& mesh, const DofMap& dofs, const 
 /// -∫Nᵀ ∇p dV over rock and curtain [N/m].
 Eigen::VectorXd seepage_body_force(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure);
 
-/// -∫Nᵀ n p dS along a chain of nodes, n the outward normal of its body (body on the left), p linear between the nodes
+/// -∫Nᵀ n p dS along a chain of nodes, n the outward normal of its body (body on the left), p linear between the nodes, quadratic
+/// along edges with a node in their middle
 /// [N/m].
 Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std::span<const int> chain,
                                        const Eigen::VectorXd& pressure);

@@ -42,8 +42,10 @@ std::vector<NodeHead> boundary_heads(const Mesh& mesh, const SeepageState& state
     std::vector<NodeHead> heads;
     if (drains)
         for (const int n : nodes_below(mesh, drains->distance, drains->depth)) heads.push_back({n, drains->head});
-    for (const int n : mesh.floor) heads.push_back({n, surface_head(state.reservoir_level, mesh.nodes[n].y)});
-    for (const int n : mesh.ground) heads.push_back({n, surface_head(state.tailwater_level, mesh.nodes[n].y)});
+    for (const int n : with_mid_nodes(mesh, mesh.floor))
+        heads.push_back({n, surface_head(state.reservoir_level, mesh.nodes[n].y)});
+    for (const int n : with_mid_nodes(mesh, mesh.ground))
+        heads.push_back({n, surface_head(state.tailwater_level, mesh.nodes[n].y)});
     return heads;
 }
 
@@ -167,8 +169,8 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState
         return result;
     }
     fill_profile(result);
-    result.inflow = total(result.field.inflow, result.mesh.floor);
-    result.outflow = -total(result.field.inflow, result.mesh.ground);
+    result.inflow = total(result.field.inflow, with_mid_nodes(result.mesh, result.mesh.floor));
+    result.outflow = -total(result.field.inflow, with_mid_nodes(result.mesh, result.mesh.ground));
     if (drains) {
         result.drain_flow = -total(result.field.inflow, nodes_below(result.mesh, drains->distance, drains->depth));
         result.notes.push_back(

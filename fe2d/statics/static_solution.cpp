@@ -45,10 +45,11 @@ Eigen::Matrix2Xd base_forces(const Model& model, const Eigen::VectorXd& displace
     const Eigen::VectorXd internal =
         assemble_vector(model.mesh, all, [&](const Element& element, const Corners& c) -> ElementVector {
             if (element.region != Region::dam) return {};
-            ElementVector ue(2 * element.size());
-            for (int i = 0; i < element.size(); ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * element.nodes[i]);
-            return elastic_stiffness(c, element.size(), plane_strain_matrix(model.materials.dam),
-                                     model.materials.kind) *
+            const ElementNodes nodes = element.all();
+            ElementVector ue(2 * nodes.count);
+            for (int i = 0; i < nodes.count; ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * nodes[i]);
+            return elastic_stiffness(c, element.size(), plane_strain_matrix(model.materials.dam), model.materials.kind,
+                                     extra_nodes(element)) *
                    ue;
         });
     const std::vector<int>& nodes = model.mesh.contact.dam_nodes;

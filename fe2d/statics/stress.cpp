@@ -14,15 +14,17 @@ StressField stress_field(const Mesh& mesh, const DofMap& dofs, const Materials& 
     for (int e = 0; e < mesh.element_count(); ++e) {
         const Element& element = mesh.elements[e];
         const int size = element.size();
-        ElementVector ue(2 * size);
-        for (int i = 0; i < size; ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * element.nodes[i]);
+        const ElementNodes nodes = element.all();
+        const ExtraNodes extra = extra_nodes(element);
+        ElementVector ue(2 * nodes.count);
+        for (int i = 0; i < nodes.count; ++i) ue.segment<2>(2 * i) = u.segment<2>(2 * nodes[i]);
         const Eigen::Matrix3d d = plane_strain_matrix(materials.of(element.region));
         const Corners c = corners(mesh, element);
-        const auto at_nodes = nodal_stress(c, size, d, materials.kind, ue);
-        field.centre.col(e) = centre_stress(c, size, d, materials.kind, ue);
-        for (int i = 0; i < size; ++i) {
-            field.nodal.col(element.nodes[i]) += at_nodes.col(i);
-            ++elements_at[element.nodes[i]];
+        const auto at_nodes = nodal_stress(c, size, d, materials.kind, ue, extra);
+        field.centre.col(e) = centre_stress(c, size, d, materials.kind, ue, extra);
+        for (int i = 0; i < nodes.count; ++i) {
+            field.nodal.col(nodes[i]) += at_nodes.col(i);
+            ++elements_at[nodes[i]];
         }
     }
     for (int n = 0; n < mesh.node_count(); ++n)

@@ -55,8 +55,8 @@ BaseBalance base_balance(const Model& model, Eigen::Index size, double mass_coef
     BaseBalance balance;
     for (const int c : {0, 1}) {
         const Eigen::Vector2d direction = Eigen::Vector2d::Unit(c);
-        const VectorXd structure = inertia_vector(model.mesh, model.dofs, dam_only, direction);
-        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.materials, direction);
+        const VectorXd structure = inertia_vector(model.mesh, model.dofs, dam_only, direction, model.mass_kind);
+        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
         const VectorXd& moving = c == 0 ? model.inertia_x : model.inertia_y;
         // What moves, less the rock's own share.
         (c == 0 ? balance.mass_x : balance.mass_y) = part_of_dam(moving - whole + structure, size);
@@ -163,8 +163,12 @@ bool Run::prepare()
     balance_ = base_balance(model_, n, options_.damping.constants.mass);
     if (total_velocity_) {
         const double a_m = options_.damping.constants.mass;
-        load_.damped_x = a_m * part_of_dam(inertia_vector(model_.mesh, model_.dofs, model_.materials, {1.0, 0.0}), n);
-        load_.damped_y = a_m * part_of_dam(inertia_vector(model_.mesh, model_.dofs, model_.materials, {0.0, 1.0}), n);
+        load_.damped_x =
+            a_m *
+            part_of_dam(inertia_vector(model_.mesh, model_.dofs, model_.materials, {1.0, 0.0}, model_.mass_kind), n);
+        load_.damped_y =
+            a_m *
+            part_of_dam(inertia_vector(model_.mesh, model_.dofs, model_.materials, {0.0, 1.0}, model_.mass_kind), n);
     }
     if (options_.water) add_water();
     if (!integrator_) integrator_.emplace(structure_.system, options_.scheme, options_.solver);

@@ -34,11 +34,15 @@ std::vector<KeyGroup> fe_groups()
                 "1.125", at(&MeshOptions::rock_contact_size)),
          number("growth", none, Range::between(1, 3), "1.15",
                 "ratio of neighbouring element sizes away from the contact plane", "1.2", at(&MeshOptions::growth)),
-         word("element", "q4-incompatible", "element type", "\"q4\"",
+         word("element", "q4-incompatible",
+              "element type of dam and rock; q8, q9 and t6 are quadratic, linear on contact planes", "\"q8\"",
               choice(&MeshOptions::element,
                      std::vector<std::pair<std::string, ElementKind>>{{"q4-incompatible", ElementKind::q4_incompatible},
                                                                       {"q4", ElementKind::q4},
-                                                                      {"t3", ElementKind::t3}}))}));
+                                                                      {"t3", ElementKind::t3},
+                                                                      {"q8", ElementKind::q8},
+                                                                      {"q9", ElementKind::q9},
+                                                                      {"t6", ElementKind::t6}}))}));
     groups.push_back(group(
         "stages", "How the static state before the earthquake comes about.", &Scene::stages,
         {word("gravity", "dam", "what has weight", "\"dam-and-rock\"",

@@ -247,7 +247,7 @@ struct Criteria {
     std::string document;                 ///< name of a shipped criteria file or path of one; empty: no required values
 };
 
-enum class ElementKind { q4_incompatible, q4, t3 };
+enum class ElementKind { q4_incompatible, q4, t3, q8, q9, t6 };
 
 struct MeshOptions {
     std::optional<double> size;              ///< target element size in the dam [m]; default height / 40
