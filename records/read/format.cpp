@@ -9,7 +9,7 @@
 #include "records/read/smc.hpp"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace damslip::records {
 
@@ -29,21 +29,22 @@ bool web_page(const RecordText& text)
            early_line_contains(text, 2, "<?xml");
 }
 
-constexpr std::array<RecordFormat, 8> formats{{
-    {"web page (HTML or XML)", web_page, nullptr},
-    {"COSMOS", looks_like_cosmos, read_cosmos},
-    {"SMC (USGS)", looks_like_smc, read_smc},
-    {"CSMIP/CDMG", looks_like_csmip, read_csmip},
-    {"K-NET/KiK-net", looks_like_k_net, read_k_net},
-    {"ESM/ITACA ASCII", looks_like_esm, read_esm},
-    {"PEER AT2", looks_like_peer_at2, read_peer_at2},
-    {"columns", looks_like_columns, read_columns},
-}};
-
 } // namespace
+
+// A new format is a file with its reader and a function like `RecordFormat acme_format();`, declared here.
 
 std::span<const RecordFormat> record_formats()
 {
+    static const std::vector<RecordFormat> formats{
+        {"web page (HTML or XML)", web_page, nullptr},
+        {"COSMOS", looks_like_cosmos, read_cosmos},
+        {"SMC (USGS)", looks_like_smc, read_smc},
+        {"CSMIP/CDMG", looks_like_csmip, read_csmip},
+        {"K-NET/KiK-net", looks_like_k_net, read_k_net},
+        {"ESM/ITACA ASCII", looks_like_esm, read_esm},
+        {"PEER AT2", looks_like_peer_at2, read_peer_at2},
+        {"columns", looks_like_columns, read_columns}, // any table of numbers: last
+    };
     return formats;
 }
 

@@ -7,8 +7,7 @@
 
 namespace damslip::records {
 
-/// A file format: how its content is known and how it is read. To add one: a file with its two functions and a row in
-/// format.cpp.
+/// A file format: how its content is known and how it is read. To add one: docs/recipes.md.
 struct RecordFormat {
     std::string_view name;
     bool (*recognises)(const RecordText& text);

@@ -2,12 +2,8 @@
 
 #include "sliding/empirical/regression.hpp"
 
-/// The rows of the table by family. A new regression is a new row; nothing else knows their number.
+/// What the files of rows share (regression_list.cpp puts them together).
 namespace damslip::sliding {
-
-std::vector<Regression> rigid_block_rows();    ///< Ambraseys & Menu, Jibson, Saygili & Rathje
-std::vector<Regression> flexible_block_rows(); ///< Rathje & Antonakos, Bray and co-authors
-std::vector<Regression> other_rows(); ///< Hynes-Griffin & Franklin, Yegian, Fotopoulou & Pitilakis, Hsieh & Lee
 
 template <int per_mille>
 double constant_sigma(const RegressionInputs&)

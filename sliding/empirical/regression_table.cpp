@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-// One row per regression. A new one is a new row; nothing else knows their number.
 namespace damslip::sliding {
 namespace {
 
@@ -210,16 +209,6 @@ std::vector<Regression> rigid_block_rows()
          "more than 2,000 strong-motion components",
          rathje_saygili},
     };
-}
-
-std::span<const Regression> regressions()
-{
-    static const std::vector<Regression> table = [] {
-        std::vector<Regression> rows = rigid_block_rows();
-        for (auto more : {flexible_block_rows(), other_rows()}) rows.insert(rows.end(), more.begin(), more.end());
-        return rows;
-    }();
-    return table;
 }
 
 } // namespace damslip::sliding

@@ -2,6 +2,7 @@
 
 #include "core/units.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_row.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/criteria.hpp"
 
@@ -91,6 +92,9 @@ std::vector<UpliftComparison> compare_uplift(const Scene& scene, const SeepagePr
     if (scene.drains) models.push_back(UpliftModel::drains);
     if (!variant.uplift->points.empty()) models.push_back(UpliftModel::points);
     if (seepage) models.push_back(UpliftModel::seepage);
+    for (std::size_t i = 0; i < uplift_rows().size(); ++i)
+        if (const UpliftRow& row = uplift_rows()[i]; row.profile && has_what_it_needs(scene, row))
+            models.push_back(UpliftModel(i));
 
     std::vector<UpliftComparison> out;
     for (const UpliftModel model : models) {

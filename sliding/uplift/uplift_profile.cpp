@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_row.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,15 @@ PressureProfile seepage_profile(const Scene& scene, const UpliftState& state, co
     return checked(scene, seepage(state), "seepage");
 }
 
+PressureProfile row_profile(const Scene& scene, const UpliftRow& row, const Base& base, Side first)
+{
+    WetBase wet{base.length, base.first_pressure(), base.second_pressure()};
+    if (first == Side::toe) std::swap(wet.heel_pressure, wet.toe_pressure);
+    PressureProfile profile;
+    for (const Point& p : row.profile(scene, wet)) profile.points.push_back({p.x, p.y});
+    return checked(scene, std::move(profile), row.word.c_str());
+}
+
 /// Full head in the crack, the given profile beyond it.
 std::vector<ProfilePoint> beyond_tip(const Base& base, PressureProfile profile, const Crack& crack)
 {
@@ -140,6 +150,10 @@ std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& 
     const double heel_pressure = crack.side == Side::heel ? base.first_pressure() : base.second_pressure();
     if (scene.curtain && state.curtain == CurtainState::damaged && scene.uplift->model != UpliftModel::drains)
         return linear(base, crack.length);
+    if (const UpliftRow& row = uplift_row(scene.uplift->model); row.profile) {
+        if (row.by_drains && state.drains == DrainState::ineffective) return linear(base, crack.length);
+        return beyond_tip(base, row_profile(scene, row, base, crack.side), crack);
+    }
     switch (scene.uplift->model) {
     case UpliftModel::none:
     case UpliftModel::linear:

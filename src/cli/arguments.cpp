@@ -13,6 +13,7 @@
 #include "cli/sweep_command.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "cli/verify_command.hpp"
+#include "scene/uplift_row.hpp"
 
 #include <fmt/format.h>
 
@@ -98,13 +99,13 @@ void add_sweep(Parser& p)
         "damslip sweep examples/reference_dam.toml --friction 0.65:1.0:0.05 --uplift curtain,linear --scale 1,2");
     add_run_inputs(sub, p.sweep.inputs);
     sub->get_option("SCENE")->required(false); // --merge has none
-    const auto list = [&](const char* flag, std::string& target, const char* text) {
+    const auto list = [&](const char* flag, std::string& target, const std::string& text) {
         sub->add_option(flag, target, text)->group("Grid");
     };
     list("--friction", p.sweep.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
     list("--friction-deg", p.sweep.friction_deg, "friction angles instead [deg]");
     list("--level", p.sweep.level, "water levels above the heel, at size 1 [m]");
-    list("--uplift", p.sweep.uplift, "none, linear, curtain, drains, points, seepage");
+    list("--uplift", p.sweep.uplift, uplift_words());
     list("--reservoir", p.sweep.reservoir,
          "auto, hydrostatic, acoustic, westergaard, westergaard-simplified, zangar, goldgruber");
     list("--size", p.sweep.size, "factors on all lengths of the scene: dam, rock, water, elements");
@@ -342,9 +343,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments)
     try {
         parser.app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::CallForHelp&) {
-        const CLI::App* app = &parser.app;
-        while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-        throw HelpText{app->help()};
+        throw HelpText{parser.app.help()}; // of the command that was named, with the way to it: "damslip record info"
     } catch (const CLI::CallForVersion& version) {
         throw HelpText{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {

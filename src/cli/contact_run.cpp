@@ -17,6 +17,7 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
+#include "scene/exact_contact.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_row.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -47,14 +48,9 @@ void check_base(const Scene& s, Findings& f)
                             value("foundation.depth_m", s.foundation->depth)),
                 "drains.depth_m below foundation.depth_m", "deepen the box or shorten the drains");
     if (!s.uplift) return;
-    const auto needs = [&](UpliftModel model, bool there, const char* word, const char* table) {
-        if (s.uplift->model == model && !there)
-            f.wrong("uplift.model", fmt::format("uplift.model = \"{}\" needs {}.", word, table), table,
-                    fmt::format("add {} or choose another uplift.model", table));
-    };
-    needs(UpliftModel::curtain, s.curtain.has_value(), "curtain", "a [curtain] with its distance_m");
-    needs(UpliftModel::drains, s.drains.has_value(), "drains", "a [drains] with its distance_m");
-    needs(UpliftModel::points, !s.uplift->points.empty(), "points", "uplift.points_m");
+    if (const UpliftRow& row = uplift_row(s.uplift->model); !has_what_it_needs(s, row))
+        f.wrong("uplift.model", fmt::format("uplift.model = \"{}\" needs {}.", row.word, row.needs), row.needs,
+                fmt::format("add {} or choose another uplift.model", row.needs));
     if (s.uplift->model != UpliftModel::points && !s.uplift->points.empty())
         f.wrong("uplift.points", "uplift.points_m is given, but uplift.model is not \"points\".",
                 "model = \"points\" with points_m", "write  model = \"points\"  or delete points_m");

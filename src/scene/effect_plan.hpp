@@ -7,7 +7,8 @@
 
 namespace damslip {
 
-/// What a computation can take into account beyond weight and friction.
+/// What a computation can take into account beyond weight and friction: the place of its row in effect_rows()
+/// (effect_row.hpp). Named here are those the program asks for by name.
 enum class Effect {
     hydrostatic_thrust,
     tailwater,
@@ -59,7 +60,7 @@ struct PlannedEffect {
 /// assembled or stored.
 struct EffectPlan {
     Method method = Method::rigid_block;
-    std::vector<PlannedEffect> effects; ///< all effects, in the order of Effect
+    std::vector<PlannedEffect> effects; ///< all effects, in the order of effect_rows()
 
     bool on(Effect effect) const;
 };

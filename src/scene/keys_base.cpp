@@ -1,9 +1,25 @@
 #include "scene/key_parts.hpp"
 #include "scene/keys.hpp"
+#include "scene/uplift_row.hpp"
 
 namespace damslip::keys {
 
 namespace {
+
+std::vector<std::pair<std::string, UpliftModel>> uplift_models()
+{
+    std::vector<std::pair<std::string, UpliftModel>> models;
+    for (const UpliftRow& row : uplift_rows()) models.emplace_back(row.word, UpliftModel(models.size()));
+    return models;
+}
+
+std::string uplift_meanings()
+{
+    std::string text;
+    for (const UpliftRow& row : uplift_rows())
+        text += (text.empty() ? "" : "; ") + row.word + (row.meaning.empty() ? "" : " (" + row.meaning + ")");
+    return text;
+}
 
 Key only_with(ContactEnforcement enforcement, Key key)
 {
@@ -132,17 +148,8 @@ std::vector<KeyGroup> base_groups()
     groups.push_back(optional_group(
         "uplift", "Water pressure in the base. Without this table: seepage where a [curtain] is given, else none.",
         &Scene::uplift,
-        {word("model", "seepage with [curtain], drains with [drains], else linear",
-              "none; linear (heel to toe, ruptured curtain); curtain (printed 2/3 rule); drains (USACE); points; "
-              "seepage (Darcy solution)",
-              "\"points\"",
-              choice(
-                  &Uplift::model, std::vector<std::pair<std::string, UpliftModel>>{{"none", UpliftModel::none},
-                                                                                   {"linear", UpliftModel::linear},
-                                                                                   {"curtain", UpliftModel::curtain},
-                                                                                   {"drains", UpliftModel::drains},
-                                                                                   {"points", UpliftModel::points},
-                                                                                   {"seepage", UpliftModel::seepage}})),
+        {word("model", "seepage with [curtain], drains with [drains], else linear", uplift_meanings(), "\"points\"",
+              choice(&Uplift::model, uplift_models())),
          number("curtain_ratio", none, Range::between(0, 1), "0.6666666666666666",
                 "model curtain: pressure behind the curtain over that at the heel, above the toe's", "0.6667",
                 at(&Uplift::curtain_ratio)),

@@ -357,6 +357,18 @@ TEST(Cli, HelpNamesAnExampleForEveryCommand)
     EXPECT_EQ(answer_of({"--version"}).code, 0);
 }
 
+TEST(Cli, HelpShowsTheWholeCommand)
+{
+    using Line = std::vector<std::string>;
+    for (const Line& line : {Line{}, Line{"fe"}, Line{"sweep"}, Line{"man"}, Line{"record"}, Line{"record", "info"}}) {
+        std::string usage = "Usage: damslip";
+        for (const std::string& word : line) usage += " " + word;
+        Line asked = line;
+        asked.push_back("--help");
+        EXPECT_NE(answer_of(asked).out.find(usage + " "), std::string::npos) << usage;
+    }
+}
+
 TEST(Cli, SchemaIsJsonAndClosed)
 {
     const auto j = nlohmann::json::parse(answer_of({"schema"}).out);

@@ -35,7 +35,7 @@ struct AblationPlan {
 
 /// One removal for each effect of the scene's plan that is on; effects that are off do not appear.
 /// @param scene  reservoir.model is not "auto" for the FE method: the removals must not choose another water each
-/// @param seepage_points  see remove_effect()
+/// @param seepage_points  see EffectRow::remove
 AblationPlan make_ablations(const Scene& scene, Method method, const std::vector<Point>& seepage_points);
 
 } // namespace damslip::cli

@@ -3,7 +3,6 @@
 #include "cli/accuracy/peak_memory.hpp"
 #include "cli/accuracy/regression_rungs.hpp"
 #include "cli/accuracy/variant.hpp"
-#include "cli/run/contact_law.hpp"
 #include "cli/run/contact_options.hpp"
 #include "cli/run/fe_inputs.hpp"
 #include "cli/run/reducible.hpp"
@@ -13,6 +12,7 @@
 #include "core/units.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
+#include "scene/exact_contact.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>

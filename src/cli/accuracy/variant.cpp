@@ -1,7 +1,7 @@
 #include "cli/accuracy/variant.hpp"
 
-#include "cli/run/contact_law.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
+#include "scene/exact_contact.hpp"
 
 namespace damslip::cli {
 

@@ -2,17 +2,6 @@
 
 namespace damslip::cli {
 
-std::optional<Scene> with_exact_contact(const Scene& scene)
-{
-    if (scene.contact.enforcement == ContactEnforcement::exact && scene.contact.normal == NormalContact::hard)
-        return std::nullopt;
-    Scene exact = scene;
-    exact.contact.normal = NormalContact::hard;
-    exact.contact.enforcement = ContactEnforcement::exact;
-    exact.contact.tangential_stiffness.reset();
-    return exact;
-}
-
 std::vector<std::string> contact_law_notes(const Scene& scene)
 {
     if (scene.contact.normal == NormalContact::exponential)

@@ -1,6 +1,5 @@
 #include "cli/sweep/fe_sweep.hpp"
 
-#include "cli/run/contact_law.hpp"
 #include "cli/run/contact_options.hpp"
 #include "cli/run/fe_inputs.hpp"
 #include "cli/run/reducible.hpp"
@@ -9,6 +8,7 @@
 #include "cli/sweep/sweep_grid.hpp"
 #include "core/parallel.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
+#include "scene/exact_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,8 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "scene/section.hpp"
+#include "scene/uplift_row.hpp"
+#include "scene/words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +17,6 @@ namespace damslip::cli {
 
 namespace {
 
-const std::vector<std::pair<std::string, UpliftModel>> uplift_words{
-    {"none", UpliftModel::none},     {"linear", UpliftModel::linear}, {"curtain", UpliftModel::curtain},
-    {"drains", UpliftModel::drains}, {"points", UpliftModel::points}, {"seepage", UpliftModel::seepage}};
 const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{
     {"westergaard", AddedMassFormula::westergaard},
     {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
@@ -98,16 +97,14 @@ std::vector<std::string> reservoir_axis_words()
 
 std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene)
 {
-    if (a.uplift.empty()) return {scene.uplift ? word_of(uplift_words, scene.uplift->model) : "none"};
-    std::vector<std::string> words = word_list(a.uplift, "--uplift", keys_of(uplift_words));
-    for (const std::string& u : words) {
-        const bool possible = (u != "curtain" || scene.curtain) && (u != "drains" || scene.drains) &&
-                              (u != "points" || (scene.uplift && !scene.uplift->points.empty()));
-        if (!possible)
-            usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u),
-                  "[curtain] for curtain, [drains] for drains, uplift.points_m for points",
+    if (a.uplift.empty()) return {scene.uplift ? word(scene.uplift->model) : "none"};
+    std::vector<std::string> known;
+    for (const UpliftRow& row : uplift_rows()) known.push_back(row.word);
+    std::vector<std::string> words = word_list(a.uplift, "--uplift", known);
+    for (const std::string& u : words)
+        if (const UpliftRow& row = uplift_row(uplift_model(u)); !has_what_it_needs(scene, row))
+            usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), row.needs,
                   "add it to the scene or leave the profile out");
-    }
     return words;
 }
 
@@ -221,7 +218,7 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
         scene.uplift.reset();
     else {
         if (!scene.uplift) scene.uplift.emplace();
-        scene.uplift->model = value_of(uplift_words, uplift);
+        scene.uplift->model = uplift_model(uplift);
     }
     return sized(std::move(scene), size);
 }

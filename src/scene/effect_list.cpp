@@ -1,0 +1,39 @@
+#include "scene/effect_row.hpp"
+
+#include <cassert>
+
+namespace damslip {
+
+// The files of rows. A new effect is a row of one of them, or a file with a function like these and its lines here; new
+// files come last, so that the places of the named effects stay.
+std::vector<EffectRow> load_effects();
+std::vector<EffectRow> uplift_effects();
+std::vector<EffectRow> water_effects();
+std::vector<EffectRow> strength_effects();
+std::vector<EffectRow> motion_effects();
+std::vector<EffectRow> rock_effects();
+std::vector<EffectRow> contact_effects();
+
+std::span<const EffectRow> effect_rows()
+{
+    static const std::vector<EffectRow> rows = [] {
+        std::vector<EffectRow> all;
+        for (auto* topic : {
+                 load_effects,
+                 uplift_effects,
+                 water_effects,
+                 strength_effects,
+                 motion_effects,
+                 rock_effects,
+                 contact_effects,
+             })
+            for (EffectRow& row : topic()) {
+                assert(!row.named || *row.named == Effect(all.size()));
+                all.push_back(std::move(row));
+            }
+        return all;
+    }();
+    return rows;
+}
+
+} // namespace damslip

@@ -1,0 +1,223 @@
+#include "scene/effect_row.hpp"
+#include "scene/vertical_motion.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+/// Bulk modulus of water that counts as incompressible over the given one: waves a hundred times as fast, so pressures of
+/// frequencies up to the reservoir's first differ from incompressible water's by less than (1/100)^2 [-].
+constexpr double stiff_water_factor = 1e4;
+
+Effect part_of_acoustic_water(const EffectPlan&)
+{
+    return Effect::acoustic_water;
+}
+
+Decision decide_hydrodynamic_mass(const Scene& s, Method method)
+{
+    if (!s.reservoir) return {false, "no [reservoir]", ""};
+    switch (s.reservoir->model) {
+    case ReservoirModel::hydrostatic:
+        return {false, "reservoir.model = \"hydrostatic\"", ""};
+    case ReservoirModel::acoustic:
+        if (method == Method::finite_elements) return {false, "reservoir.model = \"acoustic\" takes its place", ""};
+        return {true, "reservoir.model = \"acoustic\": a rigid block has added mass instead",
+                "one quadrature over the wet face"};
+    case ReservoirModel::automatic:
+        return {true, "reservoir.model = \"auto\": added mass", "one quadrature over the wet face"};
+    case ReservoirModel::added_mass:
+        break;
+    }
+    return {true, "reservoir.model = \"added-mass\"", "one quadrature over the wet face"};
+}
+
+bool is_acoustic(const Scene& s, Method method)
+{
+    return method == Method::finite_elements && s.reservoir && s.reservoir->model == ReservoirModel::acoustic;
+}
+
+/// Effects of acoustic water alone.
+Decision of_acoustic_water(const Scene& s, Method method, bool on, std::string yes, std::string no, std::string cost)
+{
+    if (method == Method::rigid_block) return {false, "rigid block", ""};
+    if (!is_acoustic(s, method)) return {false, "reservoir is not acoustic", ""};
+    return on ? Decision{true, std::move(yes), std::move(cost)} : Decision{false, std::move(no), ""};
+}
+
+Decision decide_acoustic_water(const Scene& s, Method method)
+{
+    return of_acoustic_water(s, method, true, "reservoir.model = \"acoustic\"", "", "one unknown per water node");
+}
+
+Decision decide_water_compressibility(const Scene& s, Method method)
+{
+    if (!s.reservoir) return {false, "no [reservoir]", ""};
+    if (s.reservoir->model == ReservoirModel::hydrostatic) return {false, "reservoir.model = \"hydrostatic\"", ""};
+    if (is_acoustic(s, method))
+        return {true, "reservoir.bulk_modulus_MPa of acoustic water", "part of the water's matrix"};
+    if (s.added_mass.formula == AddedMassFormula::westergaard && (s.added_mass.period || s.added_mass.period_of_dam))
+        return {true, "added_mass.period_s",
+                s.added_mass.period_of_dam ? "modes of the dam until the period agrees" : "none"};
+    return {false, "added mass of incompressible water", ""};
+}
+
+Decision decide_bottom_absorption(const Scene& s, Method method)
+{
+    const bool by_material = s.reservoir && s.reservoir->bottom_density && s.reservoir->bottom_modulus;
+    return of_acoustic_water(s, method, by_material || (s.reservoir && s.reservoir->bottom_reflection < 1.0),
+                             by_material ? "reservoir.bottom_density_kg_m3 and bottom_modulus_GPa"
+                                         : "reservoir.bottom_reflection < 1",
+                             "reservoir.bottom_reflection = 1", "a damper on each node of the bottom");
+}
+
+Decision decide_moving_bottom(const Scene& s, Method method)
+{
+    const bool moves = s.reservoir && s.reservoir->bottom_motion == BottomMotion::ground;
+    const bool vertical = any_vertical_record(s) && s.motion.vertical;
+    return of_acoustic_water(s, method, moves && vertical, "reservoir.bottom_motion = \"ground\", vertical motion",
+                             moves ? "no vertical motion" : "reservoir.bottom_motion = \"still\"",
+                             "one more load on the water");
+}
+
+Decision decide_wave_radiation(const Scene& s, Method method)
+{
+    const FarEnd end = s.reservoir ? s.reservoir->far_end : FarEnd::closed;
+    const bool leaves = end == FarEnd::absorbing || end == FarEnd::damper;
+    return of_acoustic_water(
+        s, method, leaves,
+        end == FarEnd::absorbing ? "reservoir.far_end = \"absorbing\"" : "reservoir.far_end = \"damper\"",
+        end == FarEnd::closed ? "reservoir.far_end = \"closed\"" : "reservoir.far_end = \"open\"",
+        end == FarEnd::absorbing ? "layers at the far end" : "a damper on each node of the far end");
+}
+
+Decision decide_surface_waves(const Scene& s, Method method)
+{
+    return of_acoustic_water(s, method, s.reservoir && s.reservoir->surface == WaterSurface::sloshing,
+                             "reservoir.surface = \"sloshing\"", "reservoir.surface = \"free\": p = 0",
+                             "pressures of the surface");
+}
+
+Decision decide_floor_pressure(const Scene& s, Method method)
+{
+    if (method == Method::rigid_block) return {false, "rigid block", ""};
+    const bool wanted = s.reservoir && s.reservoir->floor_pressure;
+    if (!wanted) return {false, s.reservoir ? "reservoir.floor_pressure = false" : "no [reservoir]", ""};
+    if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
+    return {true, "reservoir.floor_pressure = true", "static nodal forces on the rock"};
+}
+
+const char* formula_name(const AddedMass& mass)
+{
+    switch (mass.formula) {
+    case AddedMassFormula::westergaard:
+        return mass.period || mass.period_of_dam ? "Westergaard's series with its period"
+                                                 : "Westergaard's series, incompressible";
+    case AddedMassFormula::westergaard_simplified:
+        return "Westergaard's parabola";
+    case AddedMassFormula::zangar:
+        return "Zangar's";
+    case AddedMassFormula::goldgruber:
+        return "Goldgruber's";
+    }
+    return "";
+}
+
+RemovalAnswer without_compressibility(Scene s, const SeepagePoints&)
+{
+    if (s.reservoir->model == ReservoirModel::acoustic) {
+        s.reservoir->bulk_modulus *= stiff_water_factor;
+        return Removal{s, fmt::format("reservoir.bulk_modulus times {:.0e}, acoustic water still", stiff_water_factor)};
+    }
+    s.added_mass.period.reset();
+    s.added_mass.period_of_dam = false;
+    return Removal{s, "added mass without its period: incompressible water"};
+}
+
+RemovalAnswer without_bottom_absorption(Scene s, const SeepagePoints&)
+{
+    s.reservoir->bottom_reflection = 1.0;
+    s.reservoir->bottom_density.reset();
+    s.reservoir->bottom_modulus.reset();
+    return Removal{s, "reservoir.bottom_reflection = 1: every wave comes back from the bottom"};
+}
+
+RemovalAnswer without_wave_radiation(Scene s, const SeepagePoints&)
+{
+    s.reservoir->far_end = FarEnd::closed;
+    s.reservoir->length = std::max(s.reservoir->length, 2.4 * s.reservoir->level);
+    return Removal{s, fmt::format("reservoir.far_end = \"closed\", a wall {:.4g} m upstream", s.reservoir->length)};
+}
+
+} // namespace
+
+std::vector<EffectRow> water_effects()
+{
+    return {
+        {.name = "hydrodynamic added mass",
+         .decide = decide_hydrodynamic_mass,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.reservoir->model = ReservoirModel::hydrostatic;
+             return Removal{s, "reservoir.model = \"hydrostatic\": water that does not move"};
+         },
+         .leave_out =
+             [](Scene& s, const EffectPlan& plan) {
+                 if (s.reservoir && !plan.on(Effect::acoustic_water)) s.reservoir->model = ReservoirModel::hydrostatic;
+             },
+         .named = Effect::hydrodynamic_mass},
+        {.name = "acoustic water",
+         .decide = decide_acoustic_water,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.reservoir->model = ReservoirModel::added_mass;
+             return Removal{s, fmt::format("reservoir.model = \"added-mass\": {}", formula_name(s.added_mass))};
+         },
+         .named = Effect::acoustic_water},
+        {.name = "water compressibility",
+         .decide = decide_water_compressibility,
+         .remove = without_compressibility,
+         .part_of =
+             [](const EffectPlan& plan) {
+                 return plan.on(Effect::acoustic_water) ? Effect::acoustic_water : Effect::hydrodynamic_mass;
+             },
+         .named = Effect::water_compressibility},
+        {.name = "bottom absorption",
+         .decide = decide_bottom_absorption,
+         .remove = without_bottom_absorption,
+         .part_of = part_of_acoustic_water,
+         .named = Effect::bottom_absorption},
+        {.name = "moving reservoir bottom",
+         .decide = decide_moving_bottom,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.reservoir->bottom_motion = BottomMotion::still;
+             return Removal{s, "reservoir.bottom_motion = \"still\": no pressure by the floor's vertical motion"};
+         },
+         .part_of = part_of_acoustic_water,
+         .named = Effect::moving_bottom},
+        {.name = "wave radiation upstream",
+         .decide = decide_wave_radiation,
+         .remove = without_wave_radiation,
+         .part_of = part_of_acoustic_water,
+         .named = Effect::wave_radiation},
+        {.name = "surface waves",
+         .decide = decide_surface_waves,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.reservoir->surface = WaterSurface::free;
+             return Removal{s, "reservoir.surface = \"free\": p = 0"};
+         },
+         .part_of = part_of_acoustic_water,
+         .named = Effect::surface_waves},
+        {.name = "floor pressure",
+         .decide = decide_floor_pressure,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.reservoir->floor_pressure = false;
+             return Removal{s, "reservoir.floor_pressure = false"};
+         },
+         .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
+         .named = Effect::floor_pressure},
+    };
+}
+
+} // namespace damslip
