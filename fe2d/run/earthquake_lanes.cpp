@@ -195,8 +195,9 @@ void EarthquakeRun::end_lane(const DynamicContact& dynamics, const Strength& str
     result.slip = result.history.slip.back();
     result.end_time = end.time;
     result.counts = dynamics.counts();
-    result.energy_error =
-        dynamics.energy_scale() > 0.0 ? std::abs(dynamics.energy_imbalance()) / dynamics.energy_scale() : 0.0;
+    // Where nothing but round-off moves, that is no share of itself but of the weight's work over a nanometre.
+    const double least = 1e-9 * dynamics.static_normal_force();
+    result.energy_error = std::abs(dynamics.energy_imbalance()) / std::max({dynamics.energy_scale(), least, std::numeric_limits<double>::min()});
     result.pair_distance = plane.distance;
     result.pair_area = plane.area;
     result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);

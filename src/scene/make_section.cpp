@@ -100,7 +100,12 @@ Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
         findings.wrong(std::string("section.") + key, std::move(problem), "dimensions that make a section",
                        std::move(fix));
     };
-    if (neck >= h)
+    if (neck > 0 && !(crest > 0))
+        wrong("neck",
+              fmt::format("section.neck_m = {} is given without section.crest_m: the crest has no width.",
+                          shortest(neck)),
+              "add  crest_m = 6  or delete neck_m");
+    else if (neck >= h)
         wrong("neck",
               fmt::format("section.neck_m = {} is not below section.height_m = {}.", shortest(neck), shortest(h)),
               "neck_m is the height of the vertical downstream face below the crest");

@@ -1,6 +1,7 @@
 #include "hard/hard_scenes.hpp"
 
 #include "cli/run/contact_options.hpp"
+#include "exact/two_blocks.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "verification/fe_run_scenes.hpp"
 
@@ -83,34 +84,6 @@ HardResult one_mode()
     return result;
 }
 
-struct TwoSlips {
-    double base = 0.0, joint = 0.0;
-};
-
-/// Two rigid blocks on each other: velocities with Coulomb impulses at the end of very short steps (Moreau 1988), each
-/// pair of impulses by projected Gauss-Seidel.
-TwoSlips two_blocks(const GroundMotion& motion, double lower, double upper, double mu_base, double mu_joint)
-{
-    const double dt = 4e-5, end = motion.dt * static_cast<double>(motion.accel_h.size() - 1) + 5.0;
-    double v_lower = 0.0, v_upper = 0.0, p = 0.0, q = 0.0;
-    TwoSlips slip;
-    for (double t = dt; t < end; t += dt) {
-        const double g = 9.81 + interpolated(motion.accel_v, t / motion.dt),
-                     a = interpolated(motion.accel_h, t / motion.dt);
-        const double free_lower = v_lower + dt * a, free_upper = v_upper + dt * a;
-        for (int sweep = 0; sweep < 30; ++sweep) { // p on the lower block by the ground, q on the upper by the lower
-            const double limit_p = mu_base * (lower + upper) * g * dt, limit_q = mu_joint * upper * g * dt;
-            p = std::clamp(-lower * free_lower + q, -limit_p, limit_p);
-            q = std::clamp((free_lower + p / lower - free_upper) / (1.0 / lower + 1.0 / upper), -limit_q, limit_q);
-        }
-        v_lower = free_lower + (p - q) / lower;
-        v_upper = free_upper + q / upper;
-        slip.base += dt * v_lower;
-        slip.joint += dt * (v_upper - v_lower);
-    }
-    return slip;
-}
-
 /// The dam dry on a rigid base, cut at its neck; both planes slide, at times together.
 HardResult two_planes(bool at_the_joint)
 {
@@ -126,7 +99,7 @@ HardResult two_planes(bool at_the_joint)
     for (std::size_t i = 0; i < motion.accel_h.size(); ++i)
         motion.accel_h[i] += 1.5 * std::sin(std::numbers::pi * static_cast<double>(i) / 800.0);
     const double upper = 2500.0 * 12.0 * 11.0, whole = 2500.0 * 1599.75;
-    const TwoSlips rigid = two_blocks(motion, whole - upper, upper, 0.35, 0.30);
+    const exact::TwoSlips rigid = exact::two_blocks(motion, whole - upper, upper, 0.35, 0.30);
     const fe2d::RunResult run = fe_run(scene, motion, 3);
     const double expected = at_the_joint ? rigid.joint : rigid.base;
     HardResult result = compared(run, expected, 0.01 * std::abs(expected));

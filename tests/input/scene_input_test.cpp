@@ -157,6 +157,7 @@ TEST(SceneInput, ChecksBetweenKeysNameBothValues)
     EXPECT_SAYS(message(good + "[time]\nscheme = \"newmark\"\nalpha = -0.1\n"),
                 "time.alpha belongs to time.scheme = \"hht\"");
     EXPECT_SAYS(message(with("crest_m = 12", "crest_m = 50")), "the crest ends at x = 50 m, downstream of the toe");
+    EXPECT_SAYS(message(with("crest_m = 12\n", "")), "section.neck_m = 11 is given without section.crest_m");
     EXPECT_SAYS(message(with("neck_m = 11", "neck_m = 70")),
                 "section.neck_m = 70 is not below section.height_m = 62.5");
 }

@@ -1,4 +1,5 @@
 // Runs with lift joints: further contact planes above the base.
+#include "exact/two_blocks.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "scene/section.hpp"
 #include "verification/fe_run_scenes.hpp"
@@ -105,46 +106,13 @@ TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
     EXPECT_EQ(result.counts.unresolved, 0);
 }
 
-struct TwoSlips {
-    double base = 0.0, joint = 0.0;
-};
-
-/// Two rigid blocks on each other under the ground's acceleration: velocities with Coulomb impulses at the end of very
-/// short steps (Moreau 1988), each pair of impulses by projected Gauss-Seidel. First order in dt.
-TwoSlips two_rigid_blocks(const GroundMotion& motion, double lower, double upper, double mu_base, double mu_joint)
-{
-    const double dt = 2e-5, end = motion.dt * static_cast<double>(motion.accel_h.size() - 1) + 5.0;
-    double v_lower = 0.0, v_upper = 0.0, p = 0.0, q = 0.0;
-    TwoSlips slip;
-    for (double t = dt; t < end; t += dt) {
-        const double at = t / motion.dt;
-        const auto i = static_cast<std::size_t>(at);
-        const auto value = [&](const std::vector<double>& a) {
-            if (i + 1 >= a.size()) return 0.0;
-            return a[i] + (at - static_cast<double>(i)) * (a[i + 1] - a[i]);
-        };
-        const double g = 9.81 + value(motion.accel_v), a = value(motion.accel_h);
-        const double free_lower = v_lower + dt * a, free_upper = v_upper + dt * a;
-        for (int sweep = 0; sweep < 40; ++sweep) { // p on the lower block by the ground, q on the upper by the lower
-            const double limit_p = mu_base * (lower + upper) * g * dt, limit_q = mu_joint * upper * g * dt;
-            p = std::clamp(-lower * free_lower + q, -limit_p, limit_p);
-            q = std::clamp((free_lower + p / lower - free_upper) / (1.0 / lower + 1.0 / upper), -limit_q, limit_q);
-        }
-        v_lower = free_lower + (p - q) / lower;
-        v_upper = free_upper + q / upper;
-        slip.base += dt * v_lower;
-        slip.joint += dt * (v_upper - v_lower);
-    }
-    return slip;
-}
-
 // Both planes slide, at times together: the base under a strong shaking, the joint a little weaker still.
 TEST(FePlanes, BothPlanesOfTwoStiffBlocksSlide)
 {
     const Scene scene = stiff_blocks(0.35, 0.30);
     const GroundMotion motion = leaning();
     const double upper = 2500.0 * 12.0 * 11.0, lower = 2500.0 * area(scene.section) - upper;
-    const TwoSlips rigid = two_rigid_blocks(motion, lower, upper, 0.35, 0.30);
+    const exact::TwoSlips rigid = exact::two_blocks(motion, lower, upper, 0.35, 0.30);
     ASSERT_GT(std::abs(rigid.base), 0.02);
     ASSERT_GT(std::abs(rigid.joint), 0.02);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
