@@ -371,8 +371,9 @@ TEST_F(AblateScene, RowWithoutEquilibriumSaysSo)
         EXPECT_TRUE(r["change_mm"].is_null());
         EXPECT_NE(r["remark"].get<std::string>().find(method == "fe" ? "0.01250" : "0.01389"), std::string::npos)
             << r["remark"]; // critical mu; the FE stage without uplift fails first
-        EXPECT_TRUE(row(nlohmann::json::parse(a.out), "(sum of changes)")["change_mm"].is_null());
-        for (const auto& scene : nlohmann::json::parse(a.out)["ablation"]["seconds"]["scenes"])
+        const auto answer = nlohmann::json::parse(a.out);
+        EXPECT_TRUE(row(answer, "(sum of changes)")["change_mm"].is_null());
+        for (const auto& scene : answer["ablation"]["seconds"]["scenes"])
             EXPECT_EQ(scene["saved_seconds"].is_null(), scene["effect"] == "cohesion" ||
                                                             scene["effect"] == "(all effects)" ||
                                                             scene["effect"] == "(all removed)")
