@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "sliding/block/roots.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,31 +13,10 @@ namespace damslip::sliding {
 
 namespace {
 
-double dot(const Vector3& a, const Vector3& b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 sum(const Vector3& a, double factor, const Vector3& b)
-{
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
-Vector3 unit(const Vector3& a)
-{
-    const double length = std::sqrt(dot(a, a));
-    return length > 0.0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : Vector3{};
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Into the wedge, upwards.
 Vector3 normal_of(const WedgePlane& p)
 {
-    return {std::sin(p.dip) * std::sin(p.dip_direction), std::sin(p.dip) * std::cos(p.dip_direction), std::cos(p.dip)};
+    return plane_normal(p.dip, p.dip_direction);
 }
 
 void check(const Wedge& w)
@@ -54,6 +34,8 @@ void check(const Wedge& w)
         if (bad(p.friction) || bad(p.cohesion) || bad(p.area) || bad(p.water_force))
             wrong.problem = "a strength, area or water force of the wedge is not allowed.";
     }
+    for (const double x : w.force)
+        if (!std::isfinite(x)) wrong.problem = "a force on the wedge is not a number.";
     const Vector3 line = cross(normal_of(w.first), normal_of(w.second));
     if (wrong.problem.empty() && !(dot(line, line) > 1e-12)) wrong.problem = "the planes of the wedge are parallel.";
     if (!wrong.problem.empty()) throw InputError(wrong);
@@ -80,8 +62,8 @@ WedgeState on_both(const Wedge& w, const Vector3& n1, const Vector3& n2, const V
     const double along = dot(force, line);
     s.direction = along >= 0.0 ? line : Vector3{-line[0], -line[1], -line[2]};
     s.drive = std::abs(along);
-    s.resistance = cohesion_force(w.first) + cohesion_force(w.second) + w.first.friction * s.first_normal +
-                   w.second.friction * s.second_normal;
+    s.cohesion = cohesion_force(w.first) + cohesion_force(w.second);
+    s.resistance = s.cohesion + w.first.friction * s.first_normal + w.second.friction * s.second_normal;
     finish(s);
     return s;
 }
@@ -95,18 +77,20 @@ WedgeState on_one(WedgeMode mode, const WedgePlane& plane, const Vector3& n, con
     const Vector3 along = sum(force, pressed, n);
     s.direction = unit(along);
     s.drive = std::sqrt(dot(along, along));
-    s.resistance = cohesion_force(plane) + plane.friction * pressed;
+    s.cohesion = cohesion_force(plane);
+    s.resistance = s.cohesion + plane.friction * pressed;
     finish(s);
     return s;
 }
 
 } // namespace
 
-WedgeState wedge_state(const Wedge& wedge, const Vector3& push, double accel)
+WedgeState wedge_state(const Wedge& wedge, const Vector3& push, double accel, double accel_v)
 {
     check(wedge);
     const Vector3 n1 = normal_of(wedge.first), n2 = normal_of(wedge.second);
-    Vector3 force{0.0, 0.0, -wedge.mass * wedge.gravity};
+    Vector3 force = wedge.force;
+    force[2] -= wedge.mass * (wedge.gravity + accel_v);
     force = sum(force, wedge.mass * accel, push);
     force = sum(force, wedge.first.water_force, n1);
     force = sum(force, wedge.second.water_force, n2);
@@ -123,8 +107,35 @@ WedgeState wedge_state(const Wedge& wedge, const Vector3& push, double accel)
     return lifted;
 }
 
+double critical_friction(const WedgeState& s)
+{
+    const double pressed = s.first_normal + s.second_normal;
+    if (s.mode == WedgeMode::lifts || !(pressed > 0.0)) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, (s.drive - s.cohesion) / pressed);
+}
+
+namespace {
+
+/// What a force adds to the drive of a kept way of sliding less what it adds to the resistance.
+double net_drive(const Wedge& w, const WedgeState& kept, const Vector3& force)
+{
+    const Vector3 n1 = normal_of(w.first), n2 = normal_of(w.second);
+    const double c = dot(n1, n2), f1 = dot(force, n1), f2 = dot(force, n2);
+    double resisted = 0.0;
+    if (kept.mode == WedgeMode::both_planes)
+        resisted = -(w.first.friction * (f1 - c * f2) + w.second.friction * (f2 - c * f1)) / (1.0 - c * c);
+    else if (kept.mode == WedgeMode::first_plane)
+        resisted = -w.first.friction * f1;
+    else if (kept.mode == WedgeMode::second_plane)
+        resisted = -w.second.friction * f2;
+    return dot(force, kept.direction) - resisted;
+}
+
+} // namespace
+
 WedgeYield wedge_yield(const Wedge& wedge, const Vector3& push)
 {
+    const double infinity = std::numeric_limits<double>::infinity();
     const auto excess = [&](double a) {
         const WedgeState s = wedge_state(wedge, push, a);
         return s.drive - s.resistance;
@@ -132,29 +143,40 @@ WedgeYield wedge_yield(const Wedge& wedge, const Vector3& push)
     WedgeYield y;
     const double step = wedge.gravity / 200.0;
     double below = 0.0;
-    if (excess(0.0) <= 0.0) {
+    const bool stands = excess(0.0) <= 0.0;
+    if (stands) {
         int k = 1;
         while (k <= 2000 && excess(k * step) <= 0.0) ++k;
         if (k > 2000) {
-            y.acceleration = std::numeric_limits<double>::infinity();
+            y.acceleration = infinity;
+            y.law = {infinity, 0.0};
             return y;
         }
         below = bracketed_root(excess, (k - 1) * step, k * step);
     }
     y.acceleration = below;
     y.state = wedge_state(wedge, push, below);
-    // The forces are linear in a: what a unit of m a adds along the direction less what it adds to the resistance.
-    const Vector3 n1 = normal_of(wedge.first), n2 = normal_of(wedge.second);
-    const double c = dot(n1, n2), e1 = dot(push, n1), e2 = dot(push, n2);
-    double resisted = 0.0;
-    if (y.state.mode == WedgeMode::both_planes)
-        resisted = -(wedge.first.friction * (e1 - c * e2) + wedge.second.friction * (e2 - c * e1)) / (1.0 - c * c);
-    else if (y.state.mode == WedgeMode::first_plane)
-        resisted = -wedge.first.friction * e1;
-    else if (y.state.mode == WedgeMode::second_plane)
-        resisted = -wedge.second.friction * e2;
-    y.factor = dot(push, y.state.direction) - resisted;
+    // The forces are linear in a and a_v: m e and -m z per unit of each.
+    y.factor = net_drive(wedge, y.state, push);
+    const double per_a_v = -net_drive(wedge, y.state, {0.0, 0.0, 1.0});
+    y.law.constant = stands ? below : -infinity;
+    if (y.factor > 0.0) {
+        y.law.per_a_v = -per_a_v / y.factor;
+        if (!stands) y.law.constant = -(y.state.drive - y.state.resistance) / (wedge.mass * y.factor);
+    }
     return y;
+}
+
+WedgeYield without_cohesion(const Wedge& wedge, WedgeYield yield)
+{
+    WedgeState& s = yield.state;
+    if (std::isfinite(yield.law.constant) && yield.factor > 0.0)
+        yield.law.constant -= s.cohesion / (wedge.mass * yield.factor);
+    yield.acceleration = std::max(0.0, yield.law.constant);
+    s.resistance -= s.cohesion;
+    s.cohesion = 0.0;
+    finish(s);
+    return yield;
 }
 
 SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const FixedYieldOptions& options)

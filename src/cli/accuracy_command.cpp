@@ -82,6 +82,8 @@ Loaded load(const AccuracyArguments& a)
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
     Loaded loaded{read_run_scene(a.inputs), {}, 0.0, 0};
+    need_section(loaded.scene, "damslip accuracy",
+                 "the slip of a wedge is exact for its record: damslip screen SCENE gives it");
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)
         throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",

@@ -102,6 +102,8 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
 {
     if (arguments.ablate) return ablate(arguments, streams);
     Scene scene = read_run_scene(arguments.inputs);
+    if (arguments.method == "fe")
+        need_section(scene, "damslip explain --method fe", "leave --method out: the wedge is rigid");
     const std::string hash = scene_hash(scene);
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
     EffectPlan plan = make_effect_plan(scene, method);

@@ -192,6 +192,7 @@ Table transfer_of(const Scene& scene, const fe2d::Model& model, const fe2d::Flui
 int modes(const ModesArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs);
+    need_section(given, "damslip modes", "a wedge is rigid; damslip screen SCENE gives its slip");
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = called_for(plan, given);
     std::vector<std::string> notes;

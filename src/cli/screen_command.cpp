@@ -4,6 +4,7 @@
 #include "cli/show/lift_joint_table.hpp"
 #include "cli/show/screen_report.hpp"
 #include "cli/show/screen_tables.hpp"
+#include "cli/show/wedge_tables.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "report/table_text.hpp"
@@ -42,13 +43,24 @@ nlohmann::ordered_json summary(const Scene& given, const Scene& scene, const Scr
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["records"] = record_provenance(records);
     j["effects"] = json_of(effect_table(s.plan));
+    if (scene.wedge) {
+        const RigidModel& model = s.bases.front().model;
+        j["wedge"] = json_of(wedge_stability_table(scene, model));
+        j["planes"] = json_of(wedge_plane_table(scene, *model.wedge));
+        j["yield"] = json_of(wedge_yield_table(scene, *model.wedge));
+        j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
+        j["statistics"] = json_of(statistics_table(s));
+        j["regressions"] = json_of(regression_table(s));
+        j["warnings"] = s.warnings;
+        return j;
+    }
     j["limit_equilibrium"] = json_of(sliding::equilibrium_table(s.combinations));
     j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
     j["yield"] = json_of(yield_table(s));
     if (!given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(given));
     j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
-    if (const auto block = flexible_block(scene)) j["flexible_block"] = json_of(flexible_table(s, *block));
+    if (s.flexible) j["flexible_block"] = json_of(flexible_table(s));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s));
     j["warnings"] = s.warnings;
@@ -80,6 +92,17 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out << report::text(table) << "\n";
     };
+    if (scene.wedge) {
+        const RigidModel& model = s.bases.front().model;
+        show(wedge_stability_table(scene, model));
+        show(wedge_plane_table(scene, *model.wedge));
+        show(wedge_yield_table(scene, *model.wedge));
+        show(regression_table(s));
+        show(slip_table(s, scene.criteria.allowable_slip));
+        show(statistics_table(s));
+        for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
+        return;
+    }
     out << report::text_by_columns(sliding::equilibrium_table(s.combinations), 3) << "\n";
     const Table verdicts = judged(sliding::verdict_table(s.combinations));
     if (verdicts.rows.empty())
@@ -90,7 +113,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));
     show(slip_table(s, scene.criteria.allowable_slip));
-    if (const auto block = flexible_block(scene)) show(flexible_table(s, *block));
+    if (s.flexible) show(flexible_table(s));
     show(statistics_table(s));
     for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
 }
@@ -108,7 +131,8 @@ int exit_code(const Screening& s)
 
 int screen(const ScreenArguments& arguments, const Streams& streams)
 {
-    const Scene given = read_run_scene(arguments.inputs);
+    Scene given = read_run_scene(arguments.inputs);
+    const std::string modes = resolve_flexible_modes(given);
     const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
     const Scene scene = called_for(plan, given);
     const std::vector<RecordPair> records = read_records(scene, plan);
@@ -119,6 +143,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                     streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
 
     Screening s = run_screening(scene, plan, records, arguments.jobs);
+    if (!modes.empty()) {
+        s.mass_ratio_words = "of the tied modes";
+        s.warnings.push_back(modes);
+    }
     if (!given.lift_joints.empty())
         s.warnings.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
                                          "[[lift_joint]] is left to `damslip fe`.",

@@ -82,6 +82,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
 {
     // 1. the scene and the grid of the chapter
     Scene scene = read_run_scene(arguments.inputs);
+    need_section(scene, "damslip study", "damslip screen or sweep SCENE for the wedge");
     check_scene(scene);
     scene.motion.records.resize(1);
     const SweepArguments sweep = grid_arguments(arguments);

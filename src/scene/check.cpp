@@ -14,12 +14,18 @@ std::string checks::value(const char* key, double x)
 
 void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
 {
+    if (scene.wedge) {
+        checks::check_wedge(scene, findings);
+        checks::check_motion(scene, findings, files);
+        return;
+    }
     checks::check_base(scene, findings);
     checks::check_strength(scene.contact, "contact", findings);
     checks::check_lift_joints(scene, findings);
     checks::check_joint(scene, findings);
     checks::check_water(scene, findings);
     checks::check_motion(scene, findings, files);
+    checks::check_flexible_block(scene, findings);
     checks::check_combinations(scene, findings);
     checks::check_fe(scene, findings);
 }

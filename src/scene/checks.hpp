@@ -22,6 +22,10 @@ void check_lift_joints(const Scene& s, Findings& f);
 void check_joint(const Scene& s, Findings& f);
 void check_water(const Scene& s, Findings& f);
 void check_motion(const Scene& s, Findings& f, FileCheck files);
+
+/// Planes, shape and water of the wedge. @pre scene.wedge
+void check_wedge(const Scene& s, Findings& f);
+void check_flexible_block(const Scene& s, Findings& f);
 void check_combinations(const Scene& s, Findings& f);
 
 /// Mesh, damping and time integration.

@@ -17,10 +17,24 @@ void fill_crack_water(Scene& scene, const Findings& findings)
     if (!scene.uplift) scene.uplift.emplace().model = UpliftModel::linear;
 }
 
+void name_parts(RockWedge& wedge)
+{
+    for (std::size_t i = 0; i < wedge.planes.size(); ++i)
+        if (wedge.planes[i].name.empty()) wedge.planes[i].name = fmt::format("plane {}", i + 1);
+    for (WedgeForce& force : wedge.forces)
+        if (force.name.empty()) force.name = "force";
+}
+
 } // namespace
 
 void fill_defaults(Scene& scene, const Findings& findings)
 {
+    if (scene.wedge) {
+        name_parts(*scene.wedge);
+        if (!scene.wedge->planes.empty())
+            scene.contact.friction = scene.wedge->planes.front().friction; // see with_friction
+        return;
+    }
     const double base = base_length(scene.section);
     if (scene.reservoir && findings.given("section.slope_height")) fill_crack_water(scene, findings);
     if (scene.reservoir) {

@@ -132,7 +132,7 @@ std::string scene_schema()
     properties["expect"] = {
         {"type", "object"},
         {"additionalProperties", {{"type", "object"}, {"required", {"value", "digits", "source"}}}}};
-    root["required"] = required;
+    root["anyOf"] = {{{"required", {"wedge"}}}, {{"required", required}}}; // a wedge has no section
     root["properties"] = properties;
     return root.dump(2) + "\n";
 }

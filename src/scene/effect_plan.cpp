@@ -1,6 +1,7 @@
 #include "scene/effect_plan.hpp"
 
 #include "scene/effect_row.hpp"
+#include "scene/wedge_effects.hpp"
 
 #include <algorithm>
 
@@ -21,7 +22,8 @@ EffectPlan make_effect_plan(const Scene& scene, Method method)
 {
     EffectPlan plan{method, {}};
     for (const EffectRow& row : effect_rows()) {
-        const Decision d = row.decide(scene, method);
+        const Decision d =
+            scene.wedge ? decide_of_wedge(Effect(plan.effects.size()), scene) : row.decide(scene, method);
         plan.effects.push_back({Effect(plan.effects.size()), row.name, d.on, d.reason, d.on ? d.cost : ""});
     }
     return plan;

@@ -1,5 +1,7 @@
 #include "scene/key_table.hpp"
 
+#include <set>
+
 #include "core/number.hpp"
 
 #include <cmath>
@@ -39,6 +41,15 @@ std::vector<std::string> Key::spellings() const
     std::vector<std::string> names;
     for (const UnitSuffix& unit : units) names.push_back(spelled(name, unit));
     return names;
+}
+
+bool belongs_to_wedge(const std::string& group)
+{
+    static const std::set<std::string> tables{
+        "",        "site",          "wedge",   "wedge.plane", "wedge.force",
+        "motion",  "motion.record", "sliding", "regressions", "regressions.weight",
+        "criteria"};
+    return tables.contains(group);
 }
 
 } // namespace damslip

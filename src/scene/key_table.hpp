@@ -100,4 +100,7 @@ struct SectionInput {
 /// The whole table. `section` receives what [section] says; it must outlive the use of the groups.
 std::vector<KeyGroup> key_groups(SectionInput& section);
 
+/// Tables of a scene whose block is a [wedge]; it has no others.
+bool belongs_to_wedge(const std::string& group);
+
 } // namespace damslip

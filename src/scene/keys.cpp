@@ -23,6 +23,10 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
          [](Scene& s) -> void* { return &s; },
          [](const Scene& s) { return std::vector<const void*>{&s}; }});
     groups.push_back(section_group(section));
+    const auto append = [&groups](std::vector<KeyGroup> more) {
+        for (KeyGroup& g : more) groups.push_back(std::move(g));
+    };
+    append(wedge_groups());
     groups.push_back(
         group("dam", "Concrete of the dam, or rock of the block.", &Scene::dam,
               {number("density", density, Range::above(0), "required", "density", "2500", at(&Material::density)),
@@ -30,9 +34,6 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                       "25", at(&Material::young_modulus)),
                number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.17",
                       at(&Material::poisson_ratio))}));
-    const auto append = [&groups](std::vector<KeyGroup> more) {
-        for (KeyGroup& g : more) groups.push_back(std::move(g));
-    };
     append(base_groups());
     append(water_groups());
     using F = PointForce;
@@ -60,6 +61,7 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
         {word("model", "required", "id of a regression, as listed in docs/regressions.md", "\"jibson-2007-ratio\"",
               at(&W::model)),
          number("weight", none, Range::at_least(0), "1", "relative to the other weights", "2", at(&W::weight))}));
+    groups.push_back(flexible_block_group());
     groups.push_back(group(
         "criteria", "What is allowed.", &Scene::criteria,
         {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0), "none",

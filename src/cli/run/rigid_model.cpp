@@ -8,8 +8,31 @@
 
 namespace damslip::cli {
 
+namespace {
+
+RigidModel make_wedge_model(const Scene& scene)
+{
+    RigidModel model;
+    RigidWedge& w = model.wedge.emplace(make_rigid_wedge(scene));
+    model.block.mass = w.wedge.mass;
+    model.block.gravity = w.wedge.gravity;
+    model.block.friction = w.wedge.first.friction;
+    model.stages = {{0.0, model.block, 0.0}};
+    model.downstream = {w.yields.at_rest.law, w.yields.at_rest.factor};
+    const sliding::WedgeYield back = wedge_yield(w.wedge, sum({}, -1.0, w.push));
+    model.upstream = {back.law, back.factor};
+    model.state = w.still.mode == sliding::WedgeMode::lifts ? sliding::StaticState::lifts_off
+                  : w.still.factor_of_safety < 1.0          ? sliding::StaticState::slides_downstream
+                                                            : sliding::StaticState::at_rest;
+    model.critical_friction = critical_first_friction(w);
+    return model;
+}
+
+} // namespace
+
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
 {
+    if (scene.wedge) return make_wedge_model(scene);
     sliding::BlockOptions options;
     options.crack = crack;
     options.seepage = seepage;
@@ -41,12 +64,15 @@ sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::H
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
                                  int polarity, sliding::HistoryOutput history)
 {
+    if (model.wedge)
+        return sliding::slide_wedge(motion.motion(), model.wedge->yields, slide_options(scene, polarity, history));
     return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
 }
 
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history)
 {
+    if (model.wedge) return sliding::slide_wedge(motion, model.wedge->yields, slide_options(scene, polarity, history));
     return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/run/run_inputs.hpp"
+#include "cli/run/wedge_model.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/skipping_motion.hpp"
 #include "sliding/block/slide.hpp"
@@ -16,7 +17,8 @@ struct RigidModel {
     sliding::SlipStages stages; ///< strength and uplift over slip
     sliding::Yield downstream, upstream;
     sliding::StaticState state = sliding::StaticState::at_rest;
-    double critical_friction = 0.0; ///< [-]
+    double critical_friction = 0.0;  ///< [-]; of a wedge: of its first plane
+    std::optional<RigidWedge> wedge; ///< takes the place of block and stages
 };
 
 /// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models

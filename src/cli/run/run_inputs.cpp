@@ -86,11 +86,26 @@ Scene read_run_scene(const RunInputs& inputs)
     return scene;
 }
 
+void need_section(const Scene& scene, const std::string& command, const std::string& instead)
+{
+    if (!scene.wedge) return;
+    throw InputError(
+        Diagnostic{scene.file.string(), 0, 0,
+                   fmt::format("{} cannot take a [wedge]: it has no section for finite elements.", command),
+                   "a scene with [section], [dam] and [contact]", instead});
+}
+
 Scene with_friction(Scene scene, double friction)
 {
     if (!scene.contact.friction_table.empty())
         usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
               "one of them", "take friction_table_m out of the scene to vary the friction");
+    if (scene.wedge) {
+        std::vector<RockPlane>& planes = scene.wedge->planes;
+        const double old = planes.front().friction;
+        planes.back().friction = old > 0.0 ? planes.back().friction * (friction / old) : friction;
+        planes.front().friction = friction;
+    }
     scene.contact.friction = friction;
     if (scene.contact.residual_friction)
         scene.contact.residual_friction = std::min(*scene.contact.residual_friction, friction);

@@ -35,8 +35,13 @@ struct RecordPair {
 /// The scene with the command line's changes, checked. @throws InputError, UsageError
 Scene read_run_scene(const RunInputs& inputs);
 
-/// The scene with another peak friction; a residual value above it is lowered to it. @throws UsageError for a scene
-/// with a friction table
+/// What the command needs of a scene is a section, not a [wedge]. @param instead  what to do with a wedge
+/// @throws InputError for a scene of a rock wedge
+void need_section(const Scene& scene, const std::string& command, const std::string& instead);
+
+/// The scene with another peak friction; a residual value above it is lowered to it. Of a wedge it is the friction of the first
+/// plane, and the second keeps its share of it (without friction on the first plane: both get it). @throws UsageError for a
+/// scene with a friction table
 Scene with_friction(Scene scene, double friction);
 
 /// Reads the scene's records; verticals only where the plan has vertical motion.

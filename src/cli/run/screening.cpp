@@ -22,9 +22,10 @@ double peak(const std::vector<double>& a)
     return p;
 }
 
-std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, const std::vector<RecordPair>& records,
-                               int jobs, std::vector<std::string>& warnings)
+std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records, int jobs,
+                               std::vector<std::string>& warnings)
 {
+    const RigidModel& model = s.bases.front().model;
     std::vector<GroundMotion> motions;
     std::vector<SlipRow> rows;
     for (const RecordPair& pair : records) {
@@ -45,8 +46,8 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const RigidModel& model, cons
             row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
         else if (task % 3 == 1 && !motion.accel_v.empty())
             row.with_vertical = slide_model(scene, model, motion, row.polarity);
-        else if (task % 3 == 2 && flexible_block(scene))
-            row.flexible = slide_flexible(scene, model, motion, row.polarity);
+        else if (task % 3 == 2 && s.flexible)
+            row.flexible = slide_flexible(scene, *s.flexible, model, motion, row.polarity);
     });
     return rows;
 }
@@ -164,10 +165,12 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
     add("rigid, horizontal", [](const SlipRow& r) { return dynamic_slip(r.horizontal); });
     add("rigid, with vertical",
         [](const SlipRow& r) { return r.with_vertical ? dynamic_slip(*r.with_vertical) : std::nullopt; });
-    add("flexible, decoupled",
-        [](const SlipRow& r) { return r.flexible ? dynamic_slip(r.flexible->decoupled.slide) : std::nullopt; });
-    add("flexible, coupled",
-        [](const SlipRow& r) { return r.flexible ? dynamic_slip(r.flexible->coupled.slide) : std::nullopt; });
+    add("flexible, decoupled", [](const SlipRow& r) {
+        return r.flexible && r.flexible->decoupled ? dynamic_slip(r.flexible->decoupled->slide) : std::nullopt;
+    });
+    add("flexible, coupled", [](const SlipRow& r) {
+        return r.flexible && r.flexible->coupled ? dynamic_slip(r.flexible->coupled->slide) : std::nullopt;
+    });
     return out;
 }
 
@@ -216,24 +219,69 @@ double percentile(std::vector<double> samples, double q)
     return samples[below] + (at - static_cast<double>(below)) * (samples[above] - samples[below]);
 }
 
-std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene)
+FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
+                             const GroundMotion& motion, int polarity, sliding::HistoryOutput history)
 {
-    if (scene.regressions.period <= 0.0) return std::nullopt;
-    sliding::FlexibleBlock block;
-    block.period = scene.regressions.period;
-    return block;
+    const FlexibleMethod method = scene.flexible_block ? scene.flexible_block->method : FlexibleMethod::both;
+    const sliding::SlideOptions options{scene.sliding, polarity, history};
+    FlexibleSlips slips;
+    if (method != FlexibleMethod::coupled)
+        slips.decoupled = sliding::slide_decoupled(motion, model.stages, flexible, options);
+    if (method != FlexibleMethod::decoupled)
+        slips.coupled = sliding::slide_coupled(motion, model.stages, flexible, options);
+    return slips;
 }
 
-FlexibleSlips slide_flexible(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
-                             sliding::HistoryOutput history)
+namespace {
+
+/// The block under all records, without limit equilibrium.
+void add_slips(const Scene& scene, const std::vector<RecordPair>& records, int jobs, Screening& s)
 {
-    const sliding::SlideOptions options{scene.sliding, polarity, history};
-    return {sliding::slide_decoupled(motion, model.stages, *flexible_block(scene), options),
-            sliding::slide_coupled(motion, model.stages, *flexible_block(scene), options)};
+    s.slips = slip_rows(scene, s, records, jobs, s.warnings);
+    for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
 }
+
+/// What the kept way of sliding of a wedge leaves out.
+void add_wedge_warnings(const Scene& scene, const std::vector<RecordPair>& records, Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    const RigidWedge& w = *model.wedge;
+    for (const RecordPair& pair : records) {
+        const GroundMotion motion = ground_motion(scene, pair);
+        double share = 0.0;
+        for (const int polarity : {1, -1})
+            share = std::max(share, share_of_other_modes(w.wedge, w.push, motion, w.yields.at_rest, polarity));
+        if (share > 0.0)
+            s.warnings.push_back(
+                fmt::format("{}: at {:.2g} % of the samples beyond the yield the wedge would start another "
+                            "way than at the yield (other planes, or lifting); the way at the yield is kept.",
+                            motion.name, 100.0 * share));
+    }
+    if (model.upstream.law.constant < s.largest_pga)
+        s.warnings.push_back(
+            fmt::format("Pushed the other way the wedge would start at {:.4g} m/s², below the largest PGA of "
+                        "{:.4g} m/s²: that sliding is not followed.",
+                        std::max(0.0, model.upstream.law.constant), s.largest_pga));
+}
+
+Screening screen_wedge(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+{
+    Screening s;
+    s.plan = plan;
+    s.bases.push_back({"wedge", make_rigid_model(scene, {})});
+    add_slips(scene, records, jobs, s);
+    s.regressions = regression_rows(scene, s.bases.front().model, records);
+    s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
+    add_warnings(scene, s, s.warnings);
+    if (s.bases.front().model.state == sliding::StaticState::at_rest) add_wedge_warnings(scene, records, s);
+    return s;
+}
+
+} // namespace
 
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
 {
+    if (scene.wedge) return screen_wedge(scene, plan, records, jobs);
     Screening s;
     s.plan = plan;
     SeepageSource source;
@@ -244,8 +292,9 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
         s.bases.push_back({"cracked under static loads", make_rigid_model(scene, seepage, CrackRule::fixed_static)});
     else
         s.bases.push_back({"uncracked", make_rigid_model(scene, seepage, CrackRule::none)});
-    s.slips = slip_rows(scene, s.bases.front().model, records, jobs, s.warnings);
-    for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
+    s.flexible = flexible_block(scene);
+    s.mass_ratio_words = mass_ratio_words(scene);
+    add_slips(scene, records, jobs, s);
     add_equilibrium(scene, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);

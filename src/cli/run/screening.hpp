@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/run/flexible_mass.hpp"
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/run_inputs.hpp"
 #include "sliding/equilibrium/combinations.hpp"
@@ -17,9 +18,9 @@ struct BaseRow {
     RigidModel model;
 };
 
-/// Slip of a block that is flexible: regressions.period_s > 0; with the vertical component where the record has one.
+/// Slip of a block that is flexible, by the analyses the scene asks for; with the vertical component where the record has one.
 struct FlexibleSlips {
-    sliding::FlexibleSlide decoupled, coupled;
+    std::optional<sliding::FlexibleSlide> decoupled, coupled;
 };
 
 /// One record with one polarity.
@@ -30,7 +31,7 @@ struct SlipRow {
     sliding::SlideResult horizontal;                   ///< without the vertical component
     std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
 
-    std::optional<FlexibleSlips> flexible; ///< where the scene gives a period of the sliding mass
+    std::optional<FlexibleSlips> flexible; ///< where the sliding mass is flexible
 
     /// The slip to judge by: with the vertical component where there is one.
     const sliding::SlideResult& judged() const { return with_vertical ? *with_vertical : horizontal; }
@@ -57,6 +58,8 @@ struct Screening {
     std::vector<BaseRow> bases;
     std::vector<sliding::Equilibrium> combinations; ///< limit equilibrium per load combination
     std::vector<sliding::UpliftComparison> uplifts; ///< what each uplift profile asks for
+    std::optional<sliding::FlexibleBlock> flexible;
+    std::string mass_ratio_words; ///< where the flexible block's mass ratio comes from
     std::vector<SlipRow> slips;
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
@@ -67,12 +70,8 @@ struct Screening {
 /// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
 
-/// The sliding mass with the scene's regressions.period_s as a uniform shear column with 5 % damping; nothing where the
-/// scene gives no period: rigid.
-std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene);
-
-/// @param scene  one with a flexible block
-FlexibleSlips slide_flexible(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
+                             const GroundMotion& motion, int polarity,
                              sliding::HistoryOutput history = sliding::HistoryOutput::none);
 
 /// Value below which the share q of the sorted samples lies, linear between order statistics (Hyndman & Fan 1996, type 7).

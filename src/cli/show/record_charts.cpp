@@ -168,15 +168,18 @@ report::Chart flexible_chart(const Scene& scene, const Screening& s, const Groun
                              std::size_t records)
 {
     const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    const int polarity = b.flexible->coupled.slide.max_slip > a.flexible->coupled.slide.max_slip ? -1 : 1;
+    const auto largest = [](const SlipRow& row) {
+        return (row.flexible->coupled ? row.flexible->coupled : row.flexible->decoupled)->slide.max_slip;
+    };
+    const int polarity = largest(b) > largest(a) ? -1 : 1;
     const FlexibleSlips slips =
-        slide_flexible(scene, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
+        slide_flexible(scene, *s.flexible, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
     report::Chart chart;
     chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", polarity);
     chart.x = time_axis();
     chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
-    chart.curves.push_back(slip_curve(slips.decoupled.slide.history, "decoupled", 2));
-    chart.curves.push_back(slip_curve(slips.coupled.slide.history, "coupled", 3));
+    if (slips.decoupled) chart.curves.push_back(slip_curve(slips.decoupled->slide.history, "decoupled", 2));
+    if (slips.coupled) chart.curves.push_back(slip_curve(slips.coupled->slide.history, "coupled", 3));
     thin_for(chart, records);
     return chart;
 }
@@ -198,7 +201,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
     report::Chart slip;
     slip.title = motion.name + ": slip";
     slip.x = time_axis();
-    slip.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
     const SlipRow& h = worse_horizontal(s, number);
     const auto horizontal =
         slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
@@ -207,7 +210,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
         slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     const SlipRow* hv = worse_with_vertical(s, number);
     if (h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0))
-        slip.note = "The dam does not slide in this record.";
+        slip.note = scene.wedge ? "The wedge does not slide in this record." : "The dam does not slide in this record.";
     if (!hv) {
         add(std::move(slip));
     } else {
@@ -216,7 +219,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
         add(std::move(slip));
         add(demand_chart(motion, both.history, hv->polarity));
     }
-    if (flexible_block(scene)) parts.emplace_back(flexible_chart(scene, s, motion, number, records));
+    if (s.flexible) parts.emplace_back(flexible_chart(scene, s, motion, number, records));
     if (auto regressions = regressions_beside(s, number)) {
         regressions->title = motion.name + ": " + regressions->title;
         parts.emplace_back(std::move(*regressions));

@@ -7,6 +7,8 @@
 #include "cli/show/screen_tables.hpp"
 #include "cli/show/section_drawing.hpp"
 #include "cli/show/slip_charts.hpp"
+#include "cli/show/wedge_drawing.hpp"
+#include "cli/show/wedge_tables.hpp"
 #include "cli/show/yield_charts.hpp"
 #include "cli/terminal/streams.hpp"
 #include "core/parallel.hpp"
@@ -59,17 +61,23 @@ const SlipRow& largest(const Screening& s)
     });
 }
 
+/// What slides.
+const char* subject(const Scene& scene)
+{
+    return scene.wedge ? "wedge" : "dam";
+}
+
 std::string slip_sentence(const Scene& scene, const Screening& s)
 {
     const SlipRow& worst = largest(s);
     const std::size_t n = s.slips.size() / 2;
     const double slip = worst.judged().max_slip;
-    std::string out = slip > 0
-                          ? fmt::format("The dam slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", slip / mm,
-                                        n > 1 ? fmt::format(" over {} records", n) : "", worst.record, worst.polarity,
-                                        worst.with_vertical ? ", with vertical motion" : "")
-                          : fmt::format("The dam does not slide in {}",
-                                        n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst.record);
+    std::string out =
+        slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", subject(scene),
+                               slip / mm, n > 1 ? fmt::format(" over {} records", n) : "", worst.record, worst.polarity,
+                               worst.with_vertical ? ", with vertical motion" : "")
+                 : fmt::format("The {} does not slide in {}", subject(scene),
+                               n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst.record);
     if (n > 1 && slip > 0) {
         std::vector<double> worse;
         for (std::size_t i = 0; i < n; ++i)
@@ -105,8 +113,19 @@ std::string metres_per_second2(double a)
     return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / standard_gravity);
 }
 
+Section wedge_part(const Scene& scene, const RigidModel& model)
+{
+    Section section{"Wedge", {}, Fold::open};
+    if (auto drawing = wedge_drawing(scene, *model.wedge)) section.parts.push_back(std::move(*drawing));
+    section.parts.push_back(stereonet(scene, *model.wedge));
+    section.parts.push_back(TablePart{wedge_stability_table(scene, model), Layout::rows, 1, Fold::open});
+    section.parts.push_back(TablePart{wedge_plane_table(scene, *model.wedge), Layout::rows, 1, Fold::open});
+    return section;
+}
+
 Section section_part(const Scene& scene, const Screening& s)
 {
+    if (scene.wedge) return wedge_part(scene, s.bases.front().model);
     const Scene solved = with_solved_uplift(scene, s);
     const sliding::BaseState state = sliding::base_state(solved, sliding::scene_static_case(solved));
     return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
@@ -135,6 +154,12 @@ Section equilibrium_section(const Screening& s)
 Section yield_section(const Scene& scene, const Screening& s)
 {
     Section section{"Yield acceleration", {}, Fold::open};
+    if (scene.wedge) {
+        const RigidWedge& wedge = *s.bases.front().model.wedge;
+        section.parts.push_back(TablePart{wedge_yield_table(scene, wedge), Layout::rows, 1, Fold::open});
+        section.parts.push_back(wedge_yield_chart(wedge, s.largest_pga));
+        return section;
+    }
     section.parts.push_back(TablePart{yield_table(s), Layout::rows, 1, Fold::open});
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
@@ -149,8 +174,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
     const bool slides = !s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding;
-    if (const auto block = flexible_block(in.scene))
-        section.parts.push_back(TablePart{flexible_table(s, *block), Layout::rows, 1, Fold::open});
+    if (s.flexible) section.parts.push_back(TablePart{flexible_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
@@ -194,9 +218,14 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
 {
     const RigidModel& model = s.bases.front().model;
     std::vector<std::pair<std::string, std::string>> list{
-        {"Yield acceleration", metres_per_second2(model.downstream.law.constant)},
-        {"Friction μ", fmt::format("{:.4g}", model.block.friction)},
-        {"Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction)}};
+        {"Yield acceleration", metres_per_second2(model.downstream.law.constant)}};
+    if (model.wedge) {
+        list.emplace_back("Factor of safety", fmt::format("{:.4g}", model.wedge->still.factor_of_safety));
+        list.emplace_back("Slides", direction_words(model.wedge->still.direction));
+    } else {
+        list.emplace_back("Friction μ", fmt::format("{:.4g}", model.block.friction));
+        list.emplace_back("Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction));
+    }
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
         list.emplace_back("Largest slip", largest(s).judged().status == sliding::SlideStatus::static_sliding
@@ -221,6 +250,13 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
 {
     const RigidModel& model = s.bases.front().model;
     const CheckCount checks = count_checks(s);
+    if (model.wedge && model.state != sliding::StaticState::at_rest)
+        return {fmt::format("The wedge {} without any earthquake: factor of safety {:.4g}.",
+                            model.state == sliding::StaticState::lifts_off
+                                ? "lifts off"
+                                : "slides on " + mode_words(*scene.wedge, model.wedge->still.mode),
+                            model.wedge->still.factor_of_safety),
+                Outcome::fail, "FAIL"};
     if (model.state == sliding::StaticState::lifts_off)
         return {"The uplift carries more than the weight: the dam floats without any earthquake.", Outcome::fail,
                 "FAIL"};
@@ -229,9 +265,9 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
                             model.block.friction, model.critical_friction),
                 Outcome::fail, "FAIL"};
     if (s.slips.empty()) {
-        const std::string sentence = fmt::format("The dam starts to slide at a ground acceleration of {}; no record is "
+        const std::string sentence = fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
                                                  "given.",
-                                                 metres_per_second2(model.downstream.law.constant)) +
+                                                 subject(scene), metres_per_second2(model.downstream.law.constant)) +
                                      checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
         return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : "PASS"};
@@ -253,15 +289,16 @@ report::Page screen_page(const ScreenReportInput& in)
     for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
     report::Page page;
     page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = "Sliding in an earthquake: screening with the rigid block. " + in.scene.file.filename().string() +
-                    ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.subtitle = std::string("Sliding in an earthquake: screening with the rigid ") +
+                    (in.scene.wedge ? "wedge. " : "block. ") + in.scene.file.filename().string() + ", scene " +
+                    scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
     page.headline = screen_headline(in.scene, in.screening);
     page.key_figures = key_figures(in.scene, in.screening);
     page.warnings = all_warnings(in);
     page.sections.push_back(section_part(in.scene, in.screening));
     if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
     page.sections.push_back(yield_section(in.scene, in.screening));
-    page.sections.push_back(equilibrium_section(in.screening));
+    if (!in.scene.wedge) page.sections.push_back(equilibrium_section(in.screening));
     if (!motions.empty())
         for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
     Table effects = effect_table(in.screening.plan);

@@ -1,5 +1,6 @@
 #include "cli/show/screen_tables.hpp"
 
+#include "cli/show/wedge_tables.hpp"
 #include "core/units.hpp"
 
 #include <fmt/format.h>
@@ -83,7 +84,8 @@ Table yield_table(const Screening& s)
 Table slip_table(const Screening& s, const std::optional<double>& allowable)
 {
     Table t;
-    t.title = "Rigid-block displacement";
+    const bool wedge = s.bases.front().model.wedge.has_value();
+    t.title = wedge ? "Displacement of the wedge" : "Rigid-block displacement";
     t.columns = {{"record", "record", "", 4},
                  {"polarity", "polarity", "", 4},
                  {"pga_m_s2", "PGA", "m/s²", 4},
@@ -105,8 +107,13 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
                           slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
                           static_cast<std::int64_t>(r.lift_offs), status_word(r.status), verdict(r, allowable)});
     }
-    t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
-                      "component where the record has one.");
+    if (wedge)
+        t.notes.push_back("slip: along the way of sliding at the yield, " +
+                          direction_words(s.bases.front().model.wedge->yields.at_rest.state.direction) +
+                          "; one way, nothing upstream; with the vertical component where the record has one.");
+    else
+        t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
+                          "component where the record has one.");
     note_static_sliding(s, t);
     if (allowable)
         t.notes.push_back(
@@ -114,8 +121,9 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     return t;
 }
 
-Table flexible_table(const Screening& s, const sliding::FlexibleBlock& flexible)
+Table flexible_table(const Screening& s)
 {
+    const sliding::FlexibleBlock& flexible = *s.flexible;
     Table t;
     t.title = "Displacement of the flexible block";
     t.columns = {{"record", "record", "", 4},
@@ -130,18 +138,22 @@ Table flexible_table(const Screening& s, const sliding::FlexibleBlock& flexible)
     for (const SlipRow& row : s.slips) {
         if (!row.flexible) continue;
         const auto& [decoupled, coupled] = *row.flexible;
-        const auto over_pga = [&row](double k) { return row.pga > 0 ? Cell(k / row.pga) : Cell(); };
+        const auto largest = [](const std::optional<sliding::FlexibleSlide>& r) {
+            return r ? slip_cell(r->slide, r->slide.max_slip / mm) : Cell();
+        };
+        const auto over_pga = [&row](const std::optional<sliding::FlexibleSlide>& r) {
+            return r && row.pga > 0 ? Cell(r->peak_acceleration / row.pga) : Cell();
+        };
         t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity),
-                          slip_cell(row.judged(), row.judged().max_slip / mm),
-                          slip_cell(decoupled.slide, decoupled.slide.max_slip / mm),
-                          slip_cell(coupled.slide, coupled.slide.max_slip / mm), over_pga(decoupled.peak_acceleration),
-                          over_pga(coupled.peak_acceleration), slip_cell(coupled.slide, coupled.slide.slip / mm),
-                          status_word(coupled.slide.status)});
+                          slip_cell(row.judged(), row.judged().max_slip / mm), largest(decoupled), largest(coupled),
+                          over_pga(decoupled), over_pga(coupled),
+                          coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell(),
+                          status_word((coupled ? coupled : decoupled)->slide.status)});
     }
-    t.notes.push_back(
-        fmt::format("one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g}; largest slips. Average: "
-                    "the horizontal acceleration over the mass. Verdicts are by the rigid block.",
-                    flexible.period, 100.0 * flexible.damping_ratio, flexible.mass_ratio));
+    t.notes.push_back(fmt::format(
+        "one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g} ({}); largest slips. Average: the horizontal "
+        "acceleration over the mass. Verdicts are by the rigid block.",
+        flexible.period, 100.0 * flexible.damping_ratio, flexible.mass_ratio, s.mass_ratio_words));
     return t;
 }
 

@@ -43,6 +43,7 @@ std::vector<double> friction_values(const RigidModel& own)
 /// The model with another peak friction; forces, uplift and what they become with slip stay.
 RigidModel at_friction(const Scene& scene, RigidModel model, double friction)
 {
+    if (scene.wedge) return make_rigid_model(with_friction(scene, friction), {});
     const Contact contact = with_friction(scene, friction).contact;
     const sliding::SlipStage last = model.stages.back();
     model.block.friction = friction;
@@ -143,7 +144,13 @@ std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screen
     const auto grid = slip_grid(scene, own, friction, motions, jobs);
     report::Chart chart;
     chart.title = "Slip over friction";
-    chart.x = {"friction μ", "–", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ",
+               "–",
+               Scale::linear,
+               0.1,
+               {},
+               {},
+               {}};
     chart.y = slip_axis();
     if (motions.size() <= named_records)
         for (std::size_t j = 0; j < motions.size(); ++j)
@@ -159,6 +166,7 @@ std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screen
     if (scene.criteria.allowable_slip) chart.horizontal.push_back({*scene.criteria.allowable_slip / mm, "allowable"});
     chart.note = "Worse polarity of each record, with the vertical component where it has one. Linear near zero, "
                  "logarithmic above.";
+    if (scene.wedge) chart.note += " The friction of the other plane keeps its share of this one.";
     return chart;
 }
 

@@ -165,6 +165,21 @@ std::string joined(const std::vector<double>& values)
     return text;
 }
 
+/// A wedge has friction, records, their scale and polarity to vary, and no finite elements.
+void check_wedge_axes(const SweepArguments& a, const std::vector<SweepMethod>& methods)
+{
+    for (const auto& [flag, text] :
+         {std::pair{"--level", a.level}, {"--uplift", a.uplift}, {"--reservoir", a.reservoir}, {"--size", a.size}})
+        if (!text.empty())
+            usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
+                  "--friction (of the first plane; the other keeps its share), --scale, --polarity, --record",
+                  fmt::format("delete {}", flag));
+    for (const SweepMethod& m : methods)
+        if (m.kind == SweepKind::finite_elements)
+            usage(fmt::format("--method {} cannot take a [wedge]: it has no section for finite elements.", m.id),
+                  "rigid, rigid-v and the regressions", "delete it");
+}
+
 } // namespace
 
 bool Axes::finite_elements() const
@@ -182,8 +197,9 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
             if (!text.empty())
                 usage(fmt::format("{} is given, but the scene has no [reservoir].", flag), "a scene with [reservoir]",
                       "add [reservoir] to the scene");
-    axes.level = checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
-                                 3 * crest_level(scene.section), "water level above the heel at size 1 [m]");
+    axes.level =
+        checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
+                        scene.wedge ? 0.0 : 3 * crest_level(scene.section), "water level above the heel at size 1 [m]");
     axes.size = checked_numbers(a.size, "--size", 1.0, 0.01, 100, "factor on all lengths of the scene, 0.01 ... 100");
     axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
     for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
@@ -195,6 +211,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     axes.reservoir = a.reservoir.empty() ? std::vector<std::string>{reservoir_word(scene)}
                                          : word_list(a.reservoir, "--reservoir", reservoir_axis_words());
     axes.method = method_axis(a, scene);
+    if (scene.wedge) check_wedge_axes(a, axes.method);
     check_repeats(axes);
     return axes;
 }

@@ -6,6 +6,7 @@
 #include "cli/show/record_charts.hpp"
 #include "cli/show/report_provenance.hpp"
 #include "cli/show/section_drawing.hpp"
+#include "cli/show/wedge_drawing.hpp"
 #include "cli/sweep/sweep_charts.hpp"
 #include "cli/terminal/streams.hpp"
 #include "core/units.hpp"
@@ -250,6 +251,13 @@ EffectPlan effect_plan(const Scene& scene, const SweepView& view)
 Section section_of(const Scene& given, const SweepView& view)
 {
     const Scene scene = called_for(effect_plan(given, view), given);
+    if (scene.wedge) {
+        const RigidWedge wedge = make_rigid_wedge(scene);
+        Section section{"Wedge", {}, Fold::open};
+        if (auto drawing = wedge_drawing(scene, wedge)) section.parts.emplace_back(std::move(*drawing));
+        section.parts.emplace_back(stereonet(scene, wedge));
+        return section;
+    }
     SeepageSource seepage;
     sliding::PressureProfile uplift;
     if (scene.uplift)
