@@ -26,7 +26,7 @@ RigidBlock full_block(double inclination)
     return block;
 }
 
-/// THEORY of the vertical face, written out as printed there and not through any vector.
+/// The formulas of the vertical face, written out and not through any vector.
 struct ClosedForm {
     double yield_down, factor_down, yield_up, factor_up;
 };
