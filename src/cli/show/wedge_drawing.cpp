@@ -84,7 +84,7 @@ void legend(Sketch& sketch, int row, const std::string& css, const std::string& 
 report::Drawing stereonet(const Scene& scene, const RigidWedge& w)
 {
     const RockWedge& given = *scene.wedge;
-    Sketch sketch({-1.3, -1.25}, {3.15, 1.25}, wedge_drawing_width);
+    Sketch sketch({-1.3, -1.25}, {3.35, 1.25}, wedge_drawing_width);
     draw_net(sketch);
     int row = 0;
     const auto plane = [&](const std::string& name, double dip, double direction, const char* css) {
