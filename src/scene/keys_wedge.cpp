@@ -40,8 +40,8 @@ KeyGroup wedge_group()
         "belongs to "
         "them. Its shape: `height_m` with face and upper ground, or `volume_m3` with the planes' areas.",
         &Scene::wedge,
-        {number("density", density, Range::above(0), "required", "of the rock", "2600", at(&W::density)),
-         number("height", length, Range::above(0), "required without volume_m3",
+        {number("density", density, Range::half_open(0, 1e5), "required", "of the rock", "2600", at(&W::density)),
+         number("height", length, Range::half_open(0, 1e4), "required without volume_m3",
                 "vertical distance between the ends of the line of intersection, in the face and in the upper ground",
                 "40", at(&W::height)),
          number("face_dip", angle, Range::half_open(0, 90), "required with height_m", "dip of the slope's face", "65",
@@ -52,8 +52,8 @@ KeyGroup wedge_group()
                 at(&W::upper_dip)),
          number("upper_dip_direction", angle, azimuth_range, "the face's", "azimuth it dips to", "195",
                 at(&W::upper_dip_direction)),
-         number("volume", volume, Range::above(0), "from the shape", "of the wedge, in place of height and surfaces",
-                "6700", at(&W::volume)),
+         number("volume", volume, Range::half_open(0, 1e12), "from the shape",
+                "of the wedge, in place of height and surfaces", "6700", at(&W::volume)),
          word("water", "dry",
               "dry, or full: both planes are full of water that seeps out of the face, mean pressure γ_w H/6 on each",
               "\"full\"",
@@ -82,18 +82,19 @@ std::vector<KeyGroup> wedge_groups()
              number("dip_direction", angle, azimuth_range, "required", "azimuth it dips to, clockwise from north",
                     "105", at(&P::dip_direction)),
              number("friction", friction, Range::between(0, 10), "required", "Coulomb mu", "0.58", at(&P::friction)),
-             number("cohesion", stress, Range::at_least(0), "0", "on the whole plane", "24", at(&P::cohesion)),
-             number("area", area, Range::at_least(0), "from the shape; required with volume_m3",
+             number("cohesion", stress, Range::between(0, 1e6), "0", "on the whole plane", "24", at(&P::cohesion)),
+             number("area", area, Range::between(0, 1e9), "from the shape; required with volume_m3",
                     "of the wedge on the plane", "885", at(&P::area)),
-             number("water_pressure", stress, Range::at_least(0), "by wedge.water",
+             number("water_pressure", stress, Range::between(0, 1e6), "by wedge.water",
                     "mean over the plane, lifts the wedge", "65", at(&P::water_pressure))}),
-        wedge_list<F>("wedge.force", "A steady force on the wedge: an anchor, a surcharge, water in a tension crack.",
-                      &RockWedge::forces,
-                      {word("name", "force", "name in the tables", "\"anchors\"", at(&F::name)),
-                       number("force", point_force, Range::above(0), "required", "its size", "5000", at(&F::force)),
-                       number("trend", angle, azimuth_range, "required", "azimuth it pushes to", "355", at(&F::trend)),
-                       number("plunge", angle, Range::between(-90, 90), "required",
-                              "below the horizontal, positive down", "5", at(&F::plunge))})};
+        wedge_list<F>(
+            "wedge.force", "A steady force on the wedge: an anchor, a surcharge, water in a tension crack.",
+            &RockWedge::forces,
+            {word("name", "force", "name in the tables", "\"anchors\"", at(&F::name)),
+             number("force", point_force, Range::half_open(0, 1e9), "required", "its size", "5000", at(&F::force)),
+             number("trend", angle, azimuth_range, "required", "azimuth it pushes to", "355", at(&F::trend)),
+             number("plunge", angle, Range::between(-90, 90), "required", "below the horizontal, positive down", "5",
+                    at(&F::plunge))})};
 }
 
 } // namespace damslip::keys
