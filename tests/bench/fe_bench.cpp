@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -197,10 +198,78 @@ void stepping_case(const GroundMotion& motion, double friction)
     }
 }
 
+/// Kinds of elements on meshes of halved sizes (base, dam), steps of dt/4: unknowns, seconds, slip, and how far it is from
+/// Q4 of the two finest meshes extrapolated with first order.
+void element_table(double friction)
+{
+    struct Row {
+        const char* name;
+        ElementKind kind;
+        double contact;
+    };
+    const std::vector<Row> rows{{"Q4 incompatible", ElementKind::q4_incompatible, 5.0},
+                                {"Q4 incompatible", ElementKind::q4_incompatible, 2.5},
+                                {"Q4 incompatible", ElementKind::q4_incompatible, 1.25},
+                                {"Q4 incompatible", ElementKind::q4_incompatible, 0.625},
+                                {"Q4 incompatible", ElementKind::q4_incompatible, 0.3125},
+                                {"Q8", ElementKind::q8, 5.0},
+                                {"Q8", ElementKind::q8, 2.5},
+                                {"Q8", ElementKind::q8, 1.25},
+                                {"Q9", ElementKind::q9, 5.0},
+                                {"Q9", ElementKind::q9, 2.5},
+                                {"Q9", ElementKind::q9, 1.25},
+                                {"T6", ElementKind::t6, 5.0},
+                                {"T6", ElementKind::t6, 2.5},
+                                {"T6", ElementKind::t6, 1.25}};
+    struct Measure {
+        int unknowns = 0;
+        double set_up = 1e9, run = 1e9, slip = 0.0;
+    };
+    std::vector<Measure> measures;
+    const GroundMotion motion = fe2d::test::sines(1.0);
+    for (const Row& row : rows) {
+        Scene scene = fe2d::test::sliding_dam(friction, 1.0, row.contact);
+        scene.mesh.size = 1.6 * row.contact;
+        scene.mesh.element = row.kind;
+        fe2d::RunOptions options = fe2d::test::options_of(scene);
+        options.halvings = 2;
+        Measure best;
+        for (int repeat = 0; repeat < 3; ++repeat) {
+            const double start = processor_seconds();
+            const fe2d::EarthquakeRun run(scene, options);
+            const double ready = processor_seconds();
+            best.slip = run.run(motion).slip;
+            best.run = std::min(best.run, processor_seconds() - ready);
+            best.set_up = std::min(best.set_up, ready - start);
+            best.unknowns = run.model().dofs.count;
+        }
+        measures.push_back(best);
+    }
+    const double limit = 2.0 * measures[4].slip - measures[3].slip;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Measure& m = measures[i];
+        std::printf("%-22s %5.2f %7.4f %6d | %8.3f %8.3f %8.3f | %9.2f mm %8.3f %%\n", rows[i].name, friction,
+                    rows[i].contact, m.unknowns, m.set_up, m.run, m.set_up + m.run, 1e3 * m.slip,
+                    100.0 * (m.slip / limit - 1.0));
+    }
+}
+
+void all_element_tables()
+{
+    std::printf("\nkinds of elements, steps of dt/4; off: from Q4 of 0.625 and 0.3125 m extrapolated\n"
+                "%-22s %5s %7s %6s | %8s %8s %8s | %12s %10s\n",
+                "element", "mu", "base/m", "dofs", "set-up", "run", "all", "slip", "off");
+    for (const double friction : {0.77, 0.70}) element_table(friction);
+}
+
 } // namespace
 
-int main()
+int main(int count, char** words)
 {
+    if (count > 1 && std::string_view(words[1]) == "elements") {
+        all_element_tables();
+        return 0;
+    }
     std::printf("processor seconds; contact is wall time within the run\n");
     std::printf("%-22s %6s %6s %5s %5s %6s | %8s %8s %8s %8s | %9s %5s %3s %4s | %s\n", "case", "dofs", "dam", "pairs",
                 "mu", "steps", "set-up", "run", "contact", "all", "a step", "iter", "max", "unr.", "slip");
@@ -229,5 +298,6 @@ int main()
     for (const double friction : {1.0, 0.77, 0.70, 0.66})
         for (const int modes : {fe2d::default_modes, 4 * fe2d::default_modes})
             reduced_case("7000 unknowns", 0.5, 2.0, 1.3, friction, modes);
+    all_element_tables();
     return 0;
 }

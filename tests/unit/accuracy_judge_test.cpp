@@ -37,6 +37,7 @@ RungResult made_up(const Rung& rung)
         r.set_up_seconds = 0.1;
         r.seconds = 0.1 + 0.2 * std::exp2(rung.halvings) * std::pow(rung.mesh, -2.0);
         if (rung.modes) r.seconds *= 0.2;
+        if (!rung.element.empty()) r.seconds *= 3.5;
         r.time_step = 0.01 / std::exp2(rung.halvings);
     } else {
         r.slip = {rung.family == RungFamily::rigid ? 0.03 : 0.02};
@@ -54,6 +55,7 @@ LadderFacts facts_of_a_dam()
     facts.reducible = true;
     facts.alphas = {0.0, -0.3};
     facts.coarsest = 4.0;
+    facts.quadratic = true;
     return facts;
 }
 
@@ -116,6 +118,25 @@ TEST(AccuracyRung, NamesReadBack)
          {"", "rigid", "rigid:v", "fe:dt", "fe-acoustic:dt/3", "fe-acoustic:dt/-2", "fe-acoustic:h/0",
           "fe-acoustic:dt,h", "fe-acoustic:dt,alpha=0.5", "fe-acoustic:dt,modes=1"})
         EXPECT_FALSE(parse_rung(wrong)) << wrong;
+}
+
+TEST(AccuracyLadder, QuadraticElementsStandBesideLinearOnesOfTheSameStep)
+{
+    const std::vector<RungResult> results = climbed();
+    int found = 0;
+    for (const RungResult& r : results) {
+        if (r.rung.element.empty()) continue;
+        ++found;
+        EXPECT_EQ(r.rung.water, RungWater::acoustic);
+        EXPECT_FALSE(r.rung.plain());
+        Rung linear = r.rung;
+        linear.element.clear();
+        EXPECT_TRUE(rung(results, rung_id(linear))) << rung_id(linear);
+        linear.mesh *= 0.5;
+        EXPECT_TRUE(rung(results, rung_id(linear))) << rung_id(linear);
+        EXPECT_GT(*expected_seconds(r.rung, results), 0.0);
+    }
+    EXPECT_EQ(found, 2);
 }
 
 TEST(AccuracyLadder, HasOnlyRungsThatDifferForTheScene)

@@ -37,7 +37,8 @@ Fields fields(const Scene& scene)
 // dam on the rock follow: the same to round-off of the solution (condition about 1e6).
 TEST(FeSeepageForces, total_and_effective_form_give_the_same_field)
 {
-    for (const ElementKind kind : {ElementKind::q4_incompatible, ElementKind::q4, ElementKind::t3}) {
+    for (const ElementKind kind : {ElementKind::q4_incompatible, ElementKind::q4, ElementKind::t3, ElementKind::q8,
+                                   ElementKind::q9, ElementKind::t6}) {
         const Scene scene = wet_dam(kind);
         const Fields f = fields(scene);
         for (const fe2d::Base base : {fe2d::Base::tied, fe2d::Base::separate}) {

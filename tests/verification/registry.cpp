@@ -36,6 +36,7 @@ Registry all_cases()
     add_neighbour_cases(registry);
     add_wedge_cases(registry);
     add_fe_core_cases(registry);
+    add_fe_quadratic_cases(registry);
     add_fe_modes_cases(registry);
     add_fe_fluid_cases(registry);
     add_fe_time_cases(registry);

@@ -106,7 +106,8 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
         "resident memory to its peak during the first run.",
         "dt/4: a quarter of the record's step; dt=auto: chosen by time.slip_tolerance, the default of `fe`; "
         "dt=adaptive: the same with time.stepping = \"adaptive\"; 2h, h/2: "
-        "elements of twice and half the scene's size; stick: penalty in N/m³."};
+        "elements of twice and half the scene's size; q8: quadratic elements of the size before it; stick: penalty in "
+        "N/m³."};
     if (j.top && results[*j.top].slip.size() > 1)
         t.notes.push_back("slips and millimetres: of the record that slides the top rung furthest.");
     return t;

@@ -12,8 +12,9 @@ namespace damslip::cli {
 namespace {
 
 constexpr double width = 880, height = 560, left = 74, right = 20, top = 78, bottom = 54;
-constexpr std::array<RungKind, 6> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
-                                        RungKind::variant,    RungKind::finite_elements, RungKind::acoustic};
+constexpr std::array<RungKind, 7> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
+                                        RungKind::variant,    RungKind::finite_elements, RungKind::acoustic,
+                                        RungKind::quadratic};
 
 const char* const standalone_style = R"(<style>
 svg { --paper: #ffffff; --ink: #1c2227; --muted: #59656f; --grid: #e4e8eb; --axis: #3c464e; --mark: #6b4fa0;
@@ -237,16 +238,18 @@ private:
     void draw_legend(const std::string& title)
     {
         text(left, 22, title, "start", "font-size:16px;font-weight:600");
-        double at = left + 6;
+        double at = left + 6, row = 40;
         for (const RungKind kind : kinds) {
             const bool there = std::any_of(shown_.begin(), shown_.end(),
                                            [&](std::size_t i) { return kind_of(results_[i].rung) == kind; });
             if (!there) continue;
-            dot(at, 42, kind, true, 5);
-            body_ += "</circle>\n";
             const std::string words = kind_name(kind, results_);
-            text(at + 10, 46, words, "start");
-            at += 33 + 6.6 * static_cast<double>(words.size());
+            const double size = 6.6 * static_cast<double>(words.size());
+            if (at + 10 + size > width - right) at = left + 6, row += 17; // a second row, above the axis' words
+            dot(at, row, kind, true, 5);
+            body_ += "</circle>\n";
+            text(at + 10, row + 4, words, "start");
+            at += 33 + size;
         }
     }
 
@@ -273,6 +276,7 @@ RungKind kind_of(const Rung& rung)
     if (rung.family == RungFamily::rigid) return RungKind::rigid;
     if (rung.modes) return RungKind::reduced;
     if (rung.tangential_stiffness || rung.alpha || rung.step == StepChoice::as_the_scene) return RungKind::variant;
+    if (!rung.element.empty()) return RungKind::quadratic;
     return rung.water == RungWater::acoustic ? RungKind::acoustic : RungKind::finite_elements;
 }
 
@@ -289,6 +293,8 @@ std::string kind_name(RungKind kind, const std::vector<RungResult>& results)
         return "FE, penalty or scheme";
     case RungKind::acoustic:
         return "FE, acoustic water";
+    case RungKind::quadratic:
+        return "FE, quadratic elements";
     case RungKind::finite_elements:
         break;
     }

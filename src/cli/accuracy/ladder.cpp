@@ -13,6 +13,7 @@ constexpr int reduced_modes[] = {6, 12, 24};
 constexpr double penalties[] = {2e8, 1e10, 1e11}; // [N/m^3]; the first is about Abaqus' slip tolerance of 0.005
 constexpr int finest_step = 7;                    // halvings
 constexpr double finest_mesh = 0.125;             // element sizes over the scene's
+constexpr double quadratic_unknowns = 3.0;        // of Q8 over those of Q4 of the same size
 constexpr double settled_slip = 1e-4;             // [m]: changes below the tolerance's share of it do not matter
 
 const RungResult* find(const std::vector<RungResult>& results, const Rung& rung)
@@ -81,6 +82,17 @@ void add_variants(const LadderFacts& facts, RungWater water, int halvings, std::
     for (const double alpha : facts.alphas) variant([&](Rung& r) { r.alpha = alpha; });
 }
 
+/// Quadratic elements of the scene's size and, where it leaves enough of them, of twice that: about as many unknowns as
+/// linear ones of half and of the same size, which are rungs with the same step.
+void add_elements(const LadderFacts& facts, RungWater water, int halvings, std::vector<Rung>& rungs)
+{
+    for (const double mesh : {2.0, 1.0}) {
+        if (mesh > facts.coarsest) continue;
+        rungs.push_back(fe_rung(water, halvings, mesh));
+        rungs.back().element = "q8";
+    }
+}
+
 void add_cheap(const LadderFacts& facts, std::vector<Rung>& rungs)
 {
     for (const std::string& id : facts.regressions) {
@@ -120,6 +132,8 @@ std::vector<Rung> ladder(const LadderFacts& facts, const LadderOptions& options,
         chosen.step = StepChoice::as_the_scene;
         if (facts.own_settings) rungs.push_back(chosen);
         for (double mesh = facts.coarsest; mesh > 1.0; mesh /= 2.0) rungs.push_back(fe_rung(water, row.last - 1, mesh));
+        if (water == facts.waters.back() && facts.quadratic && options.effort == Effort::full)
+            add_elements(facts, water, row.last - 1, rungs);
         if (water == facts.waters.front() && options.effort == Effort::full)
             add_variants(facts, water, row.last - 1, rungs);
         else if (water == facts.waters.front() && facts.reducible) {
@@ -244,7 +258,8 @@ std::optional<double> expected_seconds(const Rung& rung, const std::vector<RungR
             (!nearest || distance(r) < distance(*nearest)))
             nearest = &r;
     if (!nearest) return std::nullopt;
-    const double unknowns = std::pow(nearest->rung.mesh / rung.mesh, 2.5);
+    const double more = rung.element.empty() ? 1.0 : std::pow(quadratic_unknowns, 1.25);
+    const double unknowns = more * std::pow(nearest->rung.mesh / rung.mesh, 2.5);
     const bool chosen = rung.step == StepChoice::by_tolerance || rung.step == StepChoice::adaptive;
     const double steps = chosen ? 16.0 : std::exp2(rung.halvings); // 16: passes with whole steps to eighths
     const double run = nearest->seconds - nearest->set_up_seconds;

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -25,6 +26,8 @@ std::string mesh_word(double mesh)
 {
     return mesh > 1.0 ? fmt::format("{:g}h", mesh) : fmt::format("h/{:g}", 1.0 / mesh);
 }
+
+constexpr std::array<std::string_view, 3> quadratic_elements{"q8", "q9", "t6"}; ///< words of mesh.element
 
 std::vector<std::string_view> split(std::string_view text, char at)
 {
@@ -56,6 +59,8 @@ bool apply_word(std::string_view word, Rung& rung)
         return *parts >= 1 && rung.halvings <= 10 && *parts == std::exp2(rung.halvings);
     }
     if (const auto finer = number_after(word, "h/")) return rung.mesh = 1.0 / *finer, *finer >= 1 && *finer <= 64;
+    if (std::find(quadratic_elements.begin(), quadratic_elements.end(), word) != quadratic_elements.end())
+        return rung.element = word, true;
     if (const auto modes = number_after(word, "modes="))
         return rung.modes = static_cast<int>(*modes), *modes >= 2 && *modes <= 1000;
     if (const auto k = number_after(word, "stick=")) return rung.tangential_stiffness = *k, *k > 0;
@@ -95,6 +100,7 @@ std::string rung_id(const Rung& rung)
     }
     std::string id = model_of(rung) + ":" + step_word(rung);
     if (rung.mesh != 1.0) id += "," + mesh_word(rung.mesh);
+    if (!rung.element.empty()) id += "," + rung.element;
     if (rung.modes) id += fmt::format(",modes={}", *rung.modes);
     if (rung.tangential_stiffness) id += ",stick=" + shortest(*rung.tangential_stiffness);
     if (rung.alpha) id += ",alpha=" + shortest(*rung.alpha);

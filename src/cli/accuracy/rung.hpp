@@ -31,16 +31,21 @@ struct Rung {
     StepChoice step = StepChoice::fixed;
     int halvings = 0;
     double mesh = 1.0;                          ///< element sizes over the scene's [-]: 2, 0.5
+    std::string element;                        ///< mesh.element in place of the scene's: "q8"; empty: the scene's
     std::optional<int> modes;                   ///< reduced run: elastic modes kept
     std::optional<double> tangential_stiffness; ///< penalty [N/m^3]
     std::optional<double> alpha;                ///< of HHT, in place of the scene's scheme [-]
 
-    /// Neither modes, penalty nor another scheme: a point of the model's own row of steps and column of meshes.
-    bool plain() const { return !modes && !tangential_stiffness && !alpha && step == StepChoice::fixed; }
+    /// Neither other elements, modes, penalty nor scheme: a point of the model's own row of steps and column of meshes.
+    bool plain() const
+    {
+        return element.empty() && !modes && !tangential_stiffness && !alpha && step == StepChoice::fixed;
+    }
     bool operator==(const Rung&) const = default;
 };
 
-/// One word without blanks: "regression:jibson-1998", "rigid:h+v", "fe-acoustic:dt/4,h/2", "fe-added-mass:dt/4,modes=12".
+/// One word without blanks: "regression:jibson-1998", "rigid:h+v", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
+/// "fe-added-mass:dt/4,modes=12".
 std::string rung_id(const Rung& rung);
 /// The inverse; nothing for a word that is no id.
 std::optional<Rung> parse_rung(std::string_view id);

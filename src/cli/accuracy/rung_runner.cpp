@@ -87,6 +87,11 @@ std::vector<double> other_alphas(const TimeOptions& time)
     return alphas;
 }
 
+bool linear_elements(ElementKind kind)
+{
+    return kind == ElementKind::q4_incompatible || kind == ElementKind::q4 || kind == ElementKind::t3;
+}
+
 double coarsest_mesh(const Scene& scene)
 {
     const double elements = base_length(scene.section) / fe2d::mesh_sizes(scene).contact;
@@ -215,6 +220,10 @@ LadderFacts RungRunner::facts() const
     facts.reducible = can_reduce(scene_of(scene_, parse_rung("fe-added-mass:dt").value()), facts.left_out);
     facts.alphas = other_alphas(scene_.time);
     facts.own_settings = scene_.time.substeps || with_exact_contact(scene_);
+    facts.quadratic = linear_elements(scene_.mesh.element);
+    if (!facts.quadratic)
+        facts.left_out.push_back(
+            "Quadratic elements are not tried beside the scene's, which are quadratic themselves.");
     facts.coarsest = coarsest_mesh(scene_);
     return facts;
 }

@@ -19,6 +19,13 @@ void scale_mesh(double factor, Scene& scene)
         scene.reservoir->mesh_size = factor * scene.reservoir->mesh_size.value_or(scene.reservoir->level / 20.0);
 }
 
+void set_element(std::string_view word, Scene& scene)
+{
+    if (word == "q8") scene.mesh.element = ElementKind::q8;
+    if (word == "q9") scene.mesh.element = ElementKind::q9;
+    if (word == "t6") scene.mesh.element = ElementKind::t6;
+}
+
 void set_water(RungWater water, Scene& scene)
 {
     if (!scene.reservoir) return;
@@ -55,6 +62,7 @@ Scene scene_of(const Scene& given, const Rung& rung)
     scene.time.stepping = rung.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
     if (rung.step == StepChoice::fixed) scene.time.substeps = rung.halvings;
     if (rung.mesh != 1.0) scale_mesh(rung.mesh, scene);
+    set_element(rung.element, scene);
     if (rung.tangential_stiffness) {
         scene.contact.enforcement = ContactEnforcement::penalty;
         scene.contact.tangential_stiffness = rung.tangential_stiffness;
