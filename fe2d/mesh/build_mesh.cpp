@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/mesh/dam_mesh.hpp"
+#include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/quadratic.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "fe2d/mesh/rock_mesh.hpp"
@@ -16,15 +17,6 @@
 namespace damslip::fe2d {
 
 namespace {
-
-/// Mesh lines are laid around a curtain only where its elements differ from the rock's: in stiffness, or in the flow
-/// whose pore pressures this mesh carries.
-bool curtain_is_meshed(const Scene& scene)
-{
-    if (!scene.foundation || !scene.curtain) return false;
-    return curtain_changes_stiffness(scene) ||
-           (scene.stages.pore_pressure != PorePressure::none && curtain_changes_flow(scene));
-}
 
 /// Stations of the base: heel, curtain sides (they must be node columns of the rock), toe.
 std::vector<double> base_stations(const Scene& scene)
@@ -185,6 +177,18 @@ void split_quadrilaterals(Mesh& mesh)
     mesh.elements = std::move(triangles);
 }
 
+Mesh own_mesh(const Scene& scene, const ContactExtension& extension)
+{
+    const Faces faces = split_faces(scene);
+    const MeshSizes sizes = mesh_sizes(scene);
+    const DamLayout layout = dam_layout(scene, faces, sizes);
+    Mesh mesh;
+    append_dam(mesh, faces, layout);
+    if (scene.foundation) append_rock(mesh, rock_layout(scene, layout, sizes, extension));
+    check_quality(mesh, scene);
+    return mesh;
+}
+
 } // namespace
 
 void shape_elements(Mesh& mesh, ElementKind kind)
@@ -192,6 +196,15 @@ void shape_elements(Mesh& mesh, ElementKind kind)
     if (kind == ElementKind::t3 || kind == ElementKind::t6) split_quadrilaterals(mesh);
     if (kind == ElementKind::q8 || kind == ElementKind::t6) make_quadratic(mesh, QuadraticKind::serendipity);
     if (kind == ElementKind::q9) make_quadratic(mesh, QuadraticKind::lagrange);
+}
+
+// Mesh lines are laid around a curtain only where its elements differ from the rock's: in stiffness, or in the flow
+// whose pore pressures this mesh carries.
+bool curtain_is_meshed(const Scene& scene)
+{
+    if (!scene.foundation || !scene.curtain) return false;
+    return curtain_changes_stiffness(scene) ||
+           (scene.stages.pore_pressure != PorePressure::none && curtain_changes_flow(scene));
 }
 
 MeshSizes mesh_sizes(const Scene& scene)
@@ -206,13 +219,7 @@ MeshSizes mesh_sizes(const Scene& scene)
 
 Mesh build_mesh(const Scene& scene, const ContactExtension& extension)
 {
-    const Faces faces = split_faces(scene);
-    const MeshSizes sizes = mesh_sizes(scene);
-    const DamLayout layout = dam_layout(scene, faces, sizes);
-    Mesh mesh;
-    append_dam(mesh, faces, layout);
-    if (scene.foundation) append_rock(mesh, rock_layout(scene, layout, sizes, extension));
-    check_quality(mesh, scene);
+    Mesh mesh = scene.mesh.file ? import_mesh(scene, extension).mesh : own_mesh(scene, extension);
     shape_elements(mesh, scene.mesh.element);
     return mesh;
 }

@@ -163,6 +163,12 @@ bool Faces::ends_in_point() const
     return upstream.back() == downstream.back();
 }
 
+std::pair<Point, Point> crest_ends(const Section& section)
+{
+    const Crest crest = find_crest(section.polygon);
+    return {section.polygon[crest.downstream], section.polygon[crest.upstream]};
+}
+
 Faces split_faces(const Scene& scene)
 {
     const Polyline& polygon = scene.section.polygon;

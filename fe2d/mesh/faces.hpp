@@ -2,6 +2,7 @@
 
 #include "scene/scene.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace damslip::fe2d {
@@ -30,6 +31,9 @@ struct Faces {
     double parameter_of_level(double y) const; ///< s at which the upstream face reaches the level y [m]
     bool ends_in_point() const;                ///< the crest is a single point
 };
+
+/// Where the crest ends (see split_faces): its downstream and its upstream end, equal where the section ends in a point.
+std::pair<Point, Point> crest_ends(const Section& section);
 
 /// Splits the section into its faces. The crest is the horizontal edge at the top; without one, the edge at the highest
 /// vertex that is flatter than 35 degrees; without that, the highest vertex itself.

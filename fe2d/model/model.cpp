@@ -1,5 +1,9 @@
 #include "fe2d/model/model.hpp"
 
+#include "core/input_error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace damslip::fe2d {
@@ -53,6 +57,20 @@ void assemble_water(const Scene& scene, const AddedMassLaw& law, Model& model)
     }
 }
 
+/// Imported sides have the nodes they have.
+void check_facing(const Scene& scene, const Model& model, Base base)
+{
+    const ContactPlane& plane = model.mesh.contact;
+    if (base != Base::tied || plane.matching) return;
+    throw InputError(Diagnostic{
+        .file = scene.mesh.file ? scene.mesh.file->string() : scene.file.string(),
+        .problem = fmt::format("the {} nodes of the dam's base and the {} of the rock's do not face each other.",
+                               plane.dam_nodes.size(), plane.rock_nodes.size()),
+        .expected = "the same nodes on both sides for a tied base, which natural modes and damping by modes have",
+        .fix = "let dam and rock share the curve from heel to toe; or give damping.mass_coefficient_1_s and "
+               "damping.stiffness_coefficient_s and run with contact"});
+}
+
 /// A tied base shares the unknowns of facing nodes.
 Scene with_facing_nodes(Scene scene)
 {
@@ -64,9 +82,16 @@ Scene with_facing_nodes(Scene scene)
 
 Model build_model(const Scene& scene, const ModelOptions& options)
 {
+    return build_model_on(build_mesh(options.base == Base::tied ? with_facing_nodes(scene) : scene, options.extension),
+                          scene, options);
+}
+
+Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options)
+{
     Model model;
     model.materials = materials_of(scene);
-    model.mesh = build_mesh(options.base == Base::tied ? with_facing_nodes(scene) : scene, options.extension);
+    model.mesh = std::move(mesh);
+    check_facing(scene, model, options.base);
     model.dofs = displacement_dofs(model.mesh, options.base);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
     model.mass_kind = options.mass;

@@ -41,4 +41,7 @@ struct Model {
 /// @throws InputError when the section cannot be meshed or a Young's modulus is missing.
 Model build_model(const Scene& scene, const ModelOptions& options = {});
 
+/// The same on a mesh that is there already.
+Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options = {});
+
 } // namespace damslip::fe2d

@@ -1,5 +1,6 @@
 #include "fe2d/reduction/reduced_run.hpp"
 
+#include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
 
 #include <fmt/format.h>
@@ -48,6 +49,11 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
       coarse_(full.structure().plane(), coarse_pairs)
 {
     const Stopwatch start;
+    if (!full.model().mesh.contact.matching)
+        refuse(scene.mesh.file.value_or(scene.file),
+               "the nodes of dam and rock do not face each other along the base, as a reduced run needs them to.",
+               "the same nodes on both sides",
+               "let dam and rock share the curve from heel to toe, or run without --reduced");
     if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;
     const int wanted = std::max(modes, 1);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));

@@ -84,6 +84,10 @@ Loaded load(const AccuracyArguments& a)
     Loaded loaded{read_run_scene(a.inputs), {}, 0.0, 0};
     need_section(loaded.scene, "damslip accuracy",
                  "the slip of a wedge is exact for its record: damslip screen SCENE gives it");
+    if (loaded.scene.mesh.file)
+        throw UsageError(Diagnostic{loaded.scene.file.string(), 0, 0, "accuracy with mesh.file.",
+                                    "the program's own mesh: the ladder changes the size of its elements",
+                                    "delete mesh.file, or compare meshes of your own with  damslip fe"});
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)
         throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",

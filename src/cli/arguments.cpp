@@ -5,6 +5,7 @@
 #include "cli/explain_command.hpp"
 #include "cli/fe_command.hpp"
 #include "cli/man_command.hpp"
+#include "cli/mesh_command.hpp"
 #include "cli/modes_command.hpp"
 #include "cli/parser.hpp"
 #include "cli/schema_command.hpp"
@@ -34,6 +35,7 @@ struct Parser : ParserBase {
     ExplainArguments explain;
     AccuracyArguments accuracy;
     VerifyArguments verify;
+    MeshArguments mesh;
     ModesArguments modes;
     FeArguments fe;
     RecordArguments record;
@@ -206,6 +208,21 @@ void add_modes(Parser& p)
     sub->callback([&p] { p.chosen = [a = p.modes](const Streams& s) { return modes(a, s); }; });
 }
 
+void add_mesh(Parser& p)
+{
+    CLI::App* sub = command(p, "mesh", "the finite-element mesh of a scene: sizes and shapes; written for Gmsh",
+                            "damslip mesh examples/reference_dam.toml --out dam.msh");
+    sub->add_option("SCENE", p.mesh.inputs.scene, "scene file (TOML)")->required();
+    sub->add_option("--out", p.mesh.out, "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it");
+    sub->add_option("--format", p.mesh.format, "version of the Gmsh file")
+        ->check(CLI::IsMember({"2.2", "4.1"}))
+        ->capture_default_str();
+    sub->add_option("--base", p.mesh.base, "nodes between dam and rock in the Gmsh file: twice, or shared by both")
+        ->check(CLI::IsMember({"twice", "shared"}))
+        ->capture_default_str();
+    sub->callback([&p] { p.chosen = [a = p.mesh](const Streams& s) { return mesh(a, s); }; });
+}
+
 void add_accuracy(Parser& p)
 {
     CLI::App* sub = command(p, "accuracy", "what accuracy costs: every method on this scene, its error and its seconds",
@@ -268,6 +285,7 @@ void build(Parser& p)
     add_study(p);
     add_fe(p);
     add_modes(p);
+    add_mesh(p);
     add_explain(p);
     add_accuracy(p);
     add_record_commands(p.app, p, p.record);

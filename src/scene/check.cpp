@@ -28,6 +28,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
     checks::check_flexible_block(scene, findings);
     checks::check_combinations(scene, findings);
     checks::check_fe(scene, findings);
+    checks::check_mesh_file(scene, findings, files);
 }
 
 } // namespace damslip

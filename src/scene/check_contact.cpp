@@ -73,7 +73,8 @@ void check_strength(const Contact& c, const std::string& table, Findings& f)
 void check_lift_joints(const Scene& s, Findings& f)
 {
     const double low = std::max(heel(s.section).y, toe(s.section).y), high = crest_level(s.section);
-    const double size = s.mesh.size.value_or((high - std::min(heel(s.section).y, toe(s.section).y)) / 40.0);
+    const double own = s.mesh.size.value_or((high - std::min(heel(s.section).y, toe(s.section).y)) / 40.0);
+    const double size = s.mesh.file ? 0.0 : own; // an imported mesh has lines where it has them
     std::vector<Neighbour> below{{low, "the base"}, {high, "the crest"}};
     std::set<std::string> names;
     for (std::size_t i = 0; i < s.lift_joints.size(); ++i) {

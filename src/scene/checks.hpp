@@ -28,6 +28,9 @@ void check_wedge(const Scene& s, Findings& f);
 void check_flexible_block(const Scene& s, Findings& f);
 void check_combinations(const Scene& s, Findings& f);
 
+/// Keys of an imported mesh against those of the program's own; the file itself is read where it is meshed.
+void check_mesh_file(const Scene& s, Findings& f, FileCheck files);
+
 /// Mesh, damping and time integration.
 void check_fe(const Scene& s, Findings& f);
 

@@ -17,6 +17,16 @@ Key without_substeps(Key key)
     return key;
 }
 
+enum class MeshFrom { scene, file };
+
+Key only_with(MeshFrom from, Key key)
+{
+    key.applies = [from](const void* options) {
+        return static_cast<const MeshOptions*>(options)->file.has_value() == (from == MeshFrom::file);
+    };
+    return key;
+}
+
 } // namespace
 
 std::vector<KeyGroup> fe_groups()
@@ -32,8 +42,9 @@ std::vector<KeyGroup> fe_groups()
                 "element size on the rock's side of the contact plane, whose nodes then need not face the dam's; runs "
                 "with a tied base have facing nodes always",
                 "1.125", at(&MeshOptions::rock_contact_size)),
-         number("growth", none, Range::between(1, 3), "1.15",
-                "ratio of neighbouring element sizes away from the contact plane", "1.2", at(&MeshOptions::growth)),
+         only_with(MeshFrom::scene, number("growth", none, Range::between(1, 3), "1.15",
+                                           "ratio of neighbouring element sizes away from the contact plane", "1.2",
+                                           at(&MeshOptions::growth))),
          word("element", "q4-incompatible",
               "element type of dam and rock; q8, q9 and t6 are quadratic, linear on contact planes", "\"q8\"",
               choice(&MeshOptions::element,
@@ -42,7 +53,13 @@ std::vector<KeyGroup> fe_groups()
                                                                       {"t3", ElementKind::t3},
                                                                       {"q8", ElementKind::q8},
                                                                       {"q9", ElementKind::q9},
-                                                                      {"t6", ElementKind::t6}}))}));
+                                                                      {"t6", ElementKind::t6}})),
+         word("file", "none",
+              "Gmsh mesh (ASCII, version 2.2 or 4.1) of dam and rock, relative to the scene file, in place of the "
+              "program's own; without size, contact_size, rock_contact_size and growth",
+              "\"dam.msh\"", at(&MeshOptions::file)),
+         only_with(MeshFrom::file, number("file_unit", length, Range::above(0), "1", "unit of the coordinates in file",
+                                          "0.001", at(&MeshOptions::file_unit)))}));
     groups.push_back(group(
         "stages", "How the static state before the earthquake comes about.", &Scene::stages,
         {word("gravity", "dam", "what has weight", "\"dam-and-rock\"",

@@ -389,6 +389,7 @@ void resolve_paths(Scene& scene)
         if (!record.horizontal.empty()) record.horizontal = folder / record.horizontal;
         if (record.vertical) record.vertical = folder / *record.vertical;
     }
+    if (scene.mesh.file) scene.mesh.file = folder / *scene.mesh.file;
 }
 
 } // namespace

@@ -270,6 +270,9 @@ struct MeshOptions {
     std::optional<double> rock_contact_size; ///< on the rock's side of it [m]; none: the dam's nodes, face to face
     double growth = 1.15;                    ///< ratio of neighbouring sizes away from the contact plane [-]
     ElementKind element = ElementKind::q4_incompatible;
+    std::optional<std::filesystem::path>
+        file;                ///< Gmsh file in place of the program's own mesh; resolved against the scene's folder
+    double file_unit = 1.0;  ///< of the file's coordinates [m]
 };
 
 enum class GravityStage { dam, dam_and_rock };

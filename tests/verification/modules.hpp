@@ -14,6 +14,7 @@ void add_neighbour_cases(Registry& registry);
 void add_wedge_cases(Registry& registry);
 void add_fe_core_cases(Registry& registry);
 void add_fe_quadratic_cases(Registry& registry);
+void add_fe_import_cases(Registry& registry);
 void add_fe_modes_cases(Registry& registry);
 void add_fe_fluid_cases(Registry& registry);
 void add_fe_time_cases(Registry& registry);

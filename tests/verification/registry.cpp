@@ -37,6 +37,7 @@ Registry all_cases()
     add_wedge_cases(registry);
     add_fe_core_cases(registry);
     add_fe_quadratic_cases(registry);
+    add_fe_import_cases(registry);
     add_fe_modes_cases(registry);
     add_fe_fluid_cases(registry);
     add_fe_time_cases(registry);

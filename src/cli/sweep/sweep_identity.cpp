@@ -20,6 +20,7 @@ SweepIdentity sweep_identity(const SweepArguments& arguments, const Scene& scene
         contents += sha256(read_file(files.horizontal)) + "\n";
         contents += (files.vertical ? sha256(read_file(*files.vertical)) : "none") + "\n";
     }
+    if (scene.mesh.file) contents += sha256(read_file(*scene.mesh.file)) + "\n";
     identity.records = sha256(contents);
     identity.grid = text_of(axes);
     if (arguments.modes) identity.grid += fmt::format("; modes {}", *arguments.modes);

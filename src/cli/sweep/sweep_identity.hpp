@@ -9,7 +9,7 @@ namespace damslip::cli {
 struct SweepIdentity {
     std::string version; ///< of the program
     std::string scene;   ///< scene_hash after the command line's changes
-    std::string records; ///< SHA-256 over the contents of all record files
+    std::string records; ///< SHA-256 over the contents of all record files and the imported mesh
     std::string grid;    ///< axes and options in words
     std::size_t rows = 0;
 
