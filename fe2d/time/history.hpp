@@ -28,6 +28,18 @@ struct HistoryRow {
     double imbalance = 0.0;   ///< of the energies since the start [J/m]
 };
 
+/// What a superposition of modes leaves out. The modes left out follow the ground statically; the errors are estimates of
+/// the dynamic part of them, see integrate_modal().
+struct ModalTruncation {
+    int modes = 0;
+    double highest_frequency = 0.0;                             ///< of the modes kept [Hz]
+    Eigen::Vector2d mass_share = Eigen::Vector2d::Zero();       ///< effective mass kept, in x and in y [-]
+    double damping_coupling = 0.0; ///< largest |φ_iᵀCφ_j| over the root of φ_iᵀCφ_i φ_jᵀCφ_j, i ≠ j; 0: classical [-]
+    double crest_x_error = 0.0;       ///< [m]
+    double crest_accel_x_error = 0.0; ///< [m/s^2]
+    double base_shear_error = 0.0;    ///< [N/m]
+};
+
 /// What a run gives, and how it ended.
 struct History {
     TiedRunStatus status = TiedRunStatus::complete;
@@ -38,6 +50,9 @@ struct History {
     std::int64_t steps = 0;       ///< made
     std::size_t factorisations = 0;
     std::int64_t unknowns = 0;       ///< of the system stepped
+    std::string method;              ///< "HHT", "central difference", "24 modes" ...
+    double step_limit = 0.0;         ///< of an explicit scheme [s]; 0: none
+    ModalTruncation modal;           ///< of a superposition of modes; modes = 0: none
     double energy_scale = 0.0;       ///< largest energy of the run [J/m]
     double largest_imbalance = 0.0;  ///< over the steps, over energy_scale [-]
     double peak_crest_x = 0.0;       ///< largest |crest displacement - the one at the start| in x [m]

@@ -54,7 +54,7 @@ Scheme linear_acceleration()
 
 Scheme scheme_of(const TimeOptions& options)
 {
-    return options.scheme == TimeScheme::hht ? hht(options.alpha) : newmark(options.gamma, options.beta);
+    return options.scheme == TimeScheme::newmark ? newmark(options.gamma, options.beta) : hht(options.alpha);
 }
 
 double stability_limit(const Scheme& scheme)

@@ -31,7 +31,8 @@ Scheme newmark(double gamma, double beta);
 Scheme average_acceleration(); ///< γ = ½, β = ¼: no numerical damping at all
 Scheme linear_acceleration();  ///< γ = ½, β = 1/6: stable for Δt/T <= √12/2π = 0.551 only
 
-/// The scheme a scene asks for. @throws InputError naming the key that is out of range.
+/// The implicit scheme of a scene: Newmark's where it says so, else HHT (what "auto" takes where it takes no modes;
+/// "central-difference" and "modal" are no members of this family). @throws InputError naming the key that is out of range.
 Scheme scheme_of(const TimeOptions& options);
 
 /// Largest stable ω Δt [-] for every damping ratio, 1/√(γ/2 - β) (undamped, γ = ½; Hughes 1987, eq. 9.1.20; damping

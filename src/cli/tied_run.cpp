@@ -12,7 +12,9 @@
 #include "core/stopwatch.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/explicit_run.hpp"
 #include "fe2d/time/integrate.hpp"
+#include "fe2d/time/modal_run.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
@@ -59,6 +61,7 @@ Table run_table(const std::vector<TiedRun>& runs)
     t.title = "Earthquake runs, tied base";
     t.columns = {{"record", "record", "", 4},
                  {"status", "status", "", 4},
+                 {"method", "method", "", 4},
                  {"steps", "steps", "", 4},
                  {"dt_s", "step", "s", 4},
                  {"peak_crest_x_mm", "peak crest x", "mm", 5},
@@ -72,12 +75,35 @@ Table run_table(const std::vector<TiedRun>& runs)
         t.rows.push_back(
             {r.record,
              r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text,
-             static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x,
+             r.history.method, static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x,
              r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, radiated_share(r.history),
              r.history.largest_imbalance, static_cast<std::int64_t>(r.history.factorisations), r.seconds});
     t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance "
                       "over the largest energy of the run.");
     return t;
+}
+
+/// The run by the scheme of the scene; `reason` says why where "auto" chose.
+fe2d::History integrate_by(const TimeOptions& time, const fe2d::Model& model, const GroundMotion& motion,
+                           const fe2d::TiedRunOptions& options, std::string& reason)
+{
+    if (time.scheme == TimeScheme::central_difference) return fe2d::integrate_explicit(model, motion, options);
+    if (time.scheme == TimeScheme::modal) return fe2d::integrate_modal(model, motion, options);
+    if (time.scheme == TimeScheme::automatic) {
+        const double steps = motion.dt / options.dt.value_or(motion.dt) * static_cast<double>(motion.accel_h.size() - 1);
+        const std::string obstacle = fe2d::modal_obstacle(options);
+        if (!obstacle.empty())
+            reason = "time.scheme = \"auto\": HHT, since there is " + obstacle;
+        else if (steps < fe2d::modal_break_even)
+            reason = fmt::format("time.scheme = \"auto\": HHT, since {:.0f} steps cost less than finding modes", steps);
+        else {
+            reason = fmt::format("time.scheme = \"auto\": superposition of modes, since a bonded base makes the model linear and "
+                                 "{:.0f} direct steps cost more",
+                                 steps);
+            return fe2d::integrate_modal(model, motion, options);
+        }
+    }
+    return fe2d::integrate(model, motion, options);
 }
 
 TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::FluidModel* water,
@@ -101,8 +127,10 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::Flu
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;
-    run.history = fe2d::integrate(model, motion, options);
+    std::string reason;
+    run.history = integrate_by(scene.time, model, motion, options, reason);
     run.seconds = start.seconds();
+    if (!reason.empty()) run.notes.push_back(std::move(reason));
     run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
     return run;
 }

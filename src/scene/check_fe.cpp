@@ -7,6 +7,50 @@
 
 namespace damslip::checks {
 
+namespace {
+
+const char* written(TimeScheme scheme)
+{
+    switch (scheme) {
+    case TimeScheme::automatic:
+        return "auto";
+    case TimeScheme::hht:
+        return "hht";
+    case TimeScheme::newmark:
+        return "newmark";
+    case TimeScheme::central_difference:
+        return "central-difference";
+    case TimeScheme::modal:
+        break;
+    }
+    return "modal";
+}
+
+/// Keys that belong to another scheme than the chosen one.
+void check_scheme(const Scene& s, Findings& f)
+{
+    const TimeScheme scheme = s.time.scheme;
+    const bool hht = scheme == TimeScheme::hht || scheme == TimeScheme::automatic;
+    if (!hht && f.given("time.alpha"))
+        f.wrong("time.alpha",
+                fmt::format("time.alpha belongs to time.scheme = \"hht\", but the scheme is \"{}\".", written(scheme)),
+                scheme == TimeScheme::newmark ? "gamma and beta for newmark" : "no alpha, gamma or beta",
+                "delete alpha or choose hht");
+    if (scheme != TimeScheme::newmark && (f.given("time.gamma") || f.given("time.beta")))
+        f.wrong(f.given("time.gamma") ? "time.gamma" : "time.beta",
+                hht ? std::string("time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.")
+                    : fmt::format("time.gamma and time.beta belong to time.scheme = \"newmark\", but the scheme is "
+                                  "\"{}\".",
+                                  written(scheme)),
+                hht ? "alpha for hht" : "no alpha, gamma or beta", "delete them or choose newmark");
+    if (s.time.stepping == Stepping::adaptive && !hht && scheme != TimeScheme::newmark)
+        f.wrong("time.stepping",
+                fmt::format("time.stepping = \"adaptive\" with time.scheme = \"{}\".", written(scheme)),
+                "adaptive steps of the implicit schemes hht and newmark", "delete stepping or choose hht");
+}
+
+} // namespace
+
 void check_fe(const Scene& s, Findings& f)
 {
     const Damping& d = s.damping;
@@ -56,13 +100,7 @@ void check_fe(const Scene& s, Findings& f)
     if (f.given("time.substeps") && f.given("time.slip_tolerance"))
         f.wrong("time.slip_tolerance", "time.slip_tolerance and time.substeps are both given.",
                 "one of them: fixed sub-steps, or sub-steps chosen to a tolerance", "delete one");
-    if (s.time.scheme == TimeScheme::newmark && f.given("time.alpha"))
-        f.wrong("time.alpha", "time.alpha belongs to time.scheme = \"hht\", but the scheme is \"newmark\".",
-                "gamma and beta for newmark", "delete alpha or choose hht");
-    if (s.time.scheme == TimeScheme::hht && (f.given("time.gamma") || f.given("time.beta")))
-        f.wrong(f.given("time.gamma") ? "time.gamma" : "time.beta",
-                "time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.",
-                "alpha for hht", "delete them or choose newmark");
+    check_scheme(s, f);
 }
 
 } // namespace damslip::checks

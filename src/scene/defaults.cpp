@@ -46,6 +46,7 @@ void fill_defaults(Scene& scene, const Findings& findings)
     }
     if (scene.ice && !findings.given("ice.level"))
         scene.ice->level = scene.reservoir ? scene.reservoir->level : crest_level(scene.section);
+    if (findings.given("time.alpha") && !findings.given("time.scheme")) scene.time.scheme = TimeScheme::hht;
     if (scene.foundation) {
         if (!findings.given("foundation.width")) scene.foundation->width = base * 20.0 / 3.0;
         if (!findings.given("foundation.depth"))

@@ -11,6 +11,16 @@ Key only_with(TimeScheme scheme, Key key)
     return key;
 }
 
+/// A key of HHT, which "auto" takes where it does not take modes.
+Key with_hht(Key key)
+{
+    key.applies = [](const void* options) {
+        const TimeScheme scheme = static_cast<const TimeOptions*>(options)->scheme;
+        return scheme == TimeScheme::hht || scheme == TimeScheme::automatic;
+    };
+    return key;
+}
+
 Key without_substeps(Key key)
 {
     key.applies = [](const void* options) { return !static_cast<const TimeOptions*>(options)->substeps; };
@@ -98,17 +108,24 @@ std::vector<KeyGroup> fe_groups()
                                                {"total", MassDamping::total}}))}));
     groups.push_back(group(
         "time", "Time integration of the FE model.", &Scene::time,
-        {word("scheme", "hht", "integrator", "\"newmark\"",
-              choice(&TimeOptions::scheme,
-                     std::vector<std::pair<std::string, TimeScheme>>{{"hht", TimeScheme::hht},
-                                                                     {"newmark", TimeScheme::newmark}})),
-         only_with(TimeScheme::hht, number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha", "-0.05",
-                                           at(&TimeOptions::alpha))),
+        {word("scheme", "auto; hht where alpha is given",
+              "integrator. auto: superposition of modes on a bonded base (fe --base tied) where it costs less, else hht; "
+              "central-difference: explicit, steps below its limit; modal: bonded base only",
+              "\"central-difference\"",
+              choice(&TimeOptions::scheme, std::vector<std::pair<std::string, TimeScheme>>{
+                                               {"auto", TimeScheme::automatic},
+                                               {"hht", TimeScheme::hht},
+                                               {"newmark", TimeScheme::newmark},
+                                               {"central-difference", TimeScheme::central_difference},
+                                               {"modal", TimeScheme::modal}})),
+         with_hht(number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha", "-0.05",
+                         at(&TimeOptions::alpha))),
          only_with(TimeScheme::newmark, number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma", "0.5",
                                                at(&TimeOptions::gamma))),
          only_with(TimeScheme::newmark, number("beta", none, Range::half_open(0, 1), "0.25", "Newmark beta", "0.25",
                                                at(&TimeOptions::beta))),
-         number("dt", seconds, Range::between(1e-7, 10), "the record's", "time step", "0.005", at(&TimeOptions::dt)),
+         number("dt", seconds, Range::between(1e-7, 10), "the record's; central-difference: 0.9 of its limit or less",
+                "time step", "0.005", at(&TimeOptions::dt)),
          word("substeps", "chosen by slip_tolerance",
               "k of the steps dt / 2^k of FE runs with contact, 0 ... 10; fixed, without an estimate of the error", "2",
               at(&TimeOptions::substeps)),

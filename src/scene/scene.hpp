@@ -295,12 +295,18 @@ struct Damping {
     MassDamping mass = MassDamping::deformation_only;
 };
 
-enum class TimeScheme { hht, newmark };
+enum class TimeScheme {
+    automatic, ///< modes where the model is linear (tied base) and they cost less, else HHT
+    hht,
+    newmark,
+    central_difference, ///< explicit
+    modal               ///< superposition of modes: linear models only
+};
 /// How chosen sub-steps are spread: all alike, or small ones where the slip changes its course (StepControl).
 enum class Stepping { uniform, adaptive };
 
 struct TimeOptions {
-    TimeScheme scheme = TimeScheme::hht;
+    TimeScheme scheme = TimeScheme::automatic;
     double alpha = -0.05;            ///< HHT, -1/3 ... 0 [-]
     double gamma = 0.5, beta = 0.25; ///< Newmark [-]
     std::optional<double> dt;        ///< [s]; default: the record's

@@ -1,0 +1,201 @@
+#include "fe2d/time/explicit_run.hpp"
+
+#include "core/input_error.hpp"
+#include "core/number.hpp"
+#include "fe2d/time/central_difference.hpp"
+#include "fe2d/time/tied_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace damslip::fe2d {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+[[noreturn]] void refuse(std::string problem, std::string expected, std::string fix)
+{
+    Diagnostic diagnostic;
+    diagnostic.problem = std::move(problem);
+    diagnostic.expected = std::move(expected);
+    diagnostic.fix = std::move(fix);
+    throw InputError(std::move(diagnostic));
+}
+
+void check(const TiedProblem& problem)
+{
+    if (problem.options.water)
+        refuse("time.scheme = \"central-difference\" with acoustic water.",
+               "no acoustic water: its coupling with the dam is not diagonal, so no step would be explicit",
+               "use  scheme = \"hht\"  in [time], or  model = \"added-mass\"  in [reservoir]");
+    if (problem.other_damping() > 1e-9)
+        refuse("time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",
+               "Rayleigh damping", "use  scheme = \"hht\"  in [time]");
+}
+
+/// Rock without mass is infinitely fast: no step would be small enough. By the mass of its unknowns, not by a key.
+void check_mass(const SparseMatrix& lumped)
+{
+    const VectorXd diagonal = lumped.diagonal();
+    const auto massless = (diagonal.array() <= 0.0).count();
+    if (massless == 0) return;
+    refuse(fmt::format("time.scheme = \"central-difference\" with {} unknowns without mass.", massless),
+           "mass on every unknown: without it the highest frequency is infinite and no step is stable",
+           "give the rock a density, or use  scheme = \"hht\"  in [time]");
+}
+
+class ExplicitRun {
+public:
+    ExplicitRun(const Model& model, const GroundMotion& motion, const TiedRunOptions& options)
+        : problem_(model, motion, options), options_(options), motion_(motion)
+    {
+    }
+    History go();
+
+private:
+    ExplicitSystem system() const;
+    HistoryRow row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const;
+    void shake(CentralDifference& scheme, HistoryWriter& writer, std::int64_t steps);
+
+    TiedProblem problem_;
+    const TiedRunOptions& options_;
+    const GroundMotion& motion_;
+    History history_;
+};
+
+ExplicitSystem ExplicitRun::system() const
+{
+    const Model& model = problem_.model;
+    const RayleighConstants& damping = options_.damping.constants;
+    const Index n = problem_.structure.system.size();
+    ExplicitSystem system;
+    system.mass = lumped_mass(model.dofs, model.inertia_x, model.inertia_y, n);
+    system.mass_damping =
+        damping.mass * lumped_mass(model.dofs, inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0}),
+                                   inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0}), n);
+    system.stiffness = problem_.structure.system.stiffness;
+    system.stiffness_damping = damping.stiffness;
+    return system;
+}
+
+HistoryRow ExplicitRun::row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const
+{
+    const Index x = problem_.crest_x, y = problem_.crest_y;
+    TiedSums sums;
+    sums.crest = {state.displacement[x], state.displacement[y]};
+    sums.crest_accel = {state.acceleration[x], state.acceleration[y]};
+    sums.inertia = {problem_.mass_x.dot(state.acceleration), problem_.mass_y.dot(state.acceleration)};
+    sums.damping = {problem_.damped_x.dot(state.velocity), problem_.damped_y.dot(state.velocity)};
+    HistoryRow row = problem_.row(state.time, ground, sums);
+    row.energy = ledger.energy();
+    row.imbalance = ledger.imbalance();
+    return row;
+}
+
+void ExplicitRun::shake(CentralDifference& scheme, HistoryWriter& writer, std::int64_t steps)
+{
+    VectorXd load;
+    problem_.load.evaluate(problem_.ground.at(0.0), load);
+    State before = scheme.start(problem_.start, VectorXd::Zero(problem_.start.size()), load), after;
+    EnergyLedger ledger(before);
+    writer.enter(row(before, problem_.ground.at(0.0), ledger), 0);
+    const StepConstants constants = scheme.constants();
+    for (std::int64_t n = 1; n <= steps; ++n) {
+        const double time = scheme.dt() * static_cast<double>(n);
+        const GroundState ground = problem_.ground.at(time);
+        problem_.load.evaluate(ground, load);
+        scheme.step(before, load, after);
+        after.time = time; // not summed up
+        ledger.add_step(before, after, constants);
+        if (!std::isfinite(ledger.imbalance())) {
+            history_.status = TiedRunStatus::diverged;
+            history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
+            break;
+        }
+        std::swap(before, after);
+        writer.enter(row(before, ground, ledger), n);
+        if (writer.stopped(n, time)) break;
+    }
+    writer.finish(ledger.largest_scale());
+    history_.displacement = problem_.all_displacements(before.displacement);
+}
+
+History ExplicitRun::go()
+{
+    history_.method = "central difference";
+    check(problem_);
+    if (!problem_.prepare()) {
+        history_.status = TiedRunStatus::solver_failed;
+        history_.status_text = problem_.structure.solver.text();
+        return std::move(history_);
+    }
+    ExplicitSystem parts = system();
+    check_mass(parts.mass);
+    const ExplicitLimit limit = explicit_limit(parts.mass, parts.stiffness, parts.stiffness_damping);
+    const double dt = explicit_step(motion_.dt, options_.dt, limit);
+    const std::int64_t steps = step_count(problem_.ground, options_, dt);
+    const int keep = options_.keep_every * static_cast<int>(std::lround(motion_.dt / dt));
+    HistoryWriter writer(history_, options_, dt, steps, keep);
+    history_.unknowns = parts.stiffness.rows();
+    history_.step_limit = limit.dt;
+    history_.notes.push_back(limit.text() + fmt::format("; steps of {:.4g} s, rows of the history every {:g} s", dt,
+                                                        keep * dt));
+    CentralDifference scheme(std::move(parts), dt);
+    shake(scheme, writer, steps);
+    return std::move(history_);
+}
+
+} // namespace
+
+std::string ExplicitLimit::text() const
+{
+    std::string damped;
+    if (dt < dt_undamped)
+        damped = fmt::format(" ({:.4g} s without stiffness damping, which acts half a step late)", dt_undamped);
+    return fmt::format("central difference, lumped mass: stable up to {:.5g} s{}, highest frequency {:.5g} Hz", dt, damped,
+                       highest_frequency / (2.0 * std::numbers::pi));
+}
+
+ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& stiffness, double stiffness_damping)
+{
+    ExplicitLimit limit;
+    LinearSystem system;
+    system.mass = lumped;
+    system.stiffness = stiffness;
+    limit.highest_frequency = highest_frequency(system);
+    limit.dt = central_difference_limit(limit.highest_frequency, stiffness_damping);
+    limit.dt_undamped = central_difference_limit(limit.highest_frequency, 0.0);
+    return limit;
+}
+
+double explicit_step(double motion_dt, std::optional<double> asked, const ExplicitLimit& limit)
+{
+    if (!asked) return motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt));
+    const double parts = std::round(motion_dt / *asked);
+    const double fits = motion_dt / std::ceil(motion_dt / std::min(*asked, explicit_step_share * limit.dt));
+    const std::string fix =
+        fmt::format("leave dt_s out for {} s, or use  scheme = \"hht\"  in [time], stable at any step",
+                    shortest(motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt))));
+    if (*asked > limit.dt)
+        refuse("time.dt_s = " + shortest(*asked) + " is above the limit of the central difference, " +
+                   fmt::format("{:.6g} s.", limit.dt),
+               "at most " + fmt::format("{:.6g} s: ", limit.dt) + limit.text(), fix);
+    if (!(*asked > 0.0) || parts < 1.0 || std::abs(parts * *asked - motion_dt) > 1e-9 * motion_dt)
+        refuse("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " + shortest(motion_dt) +
+                   " s.",
+               shortest(motion_dt) + " s divided by 1, 2, 3, ...", "write  dt_s = " + shortest(fits));
+    return motion_dt / parts;
+}
+
+History integrate_explicit(const Model& model, const GroundMotion& motion, const TiedRunOptions& options)
+{
+    return ExplicitRun(model, motion, options).go();
+}
+
+} // namespace damslip::fe2d

@@ -1,0 +1,316 @@
+#include "fe2d/time/modal_run.hpp"
+
+#include "core/input_error.hpp"
+#include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/time/modal_recurrence.hpp"
+#include "fe2d/time/tied_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace damslip::fe2d {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+Vector2d amplitudes(const GroundState& ground)
+{
+    return {ground.accel_h, -ground.accel_v};
+}
+
+/// The modes kept, and what rows of the history take from them.
+struct ModalBasis {
+    MatrixXd shape;        ///< Φ, n x N
+    MatrixXd participation; ///< Γ, N x 2
+    MatrixXd residual;     ///< w, n x 2 [s^2]
+    VectorXd omega;        ///< [rad/s]
+    MatrixXd damping;      ///< ΦᵀCΦ [1/s]
+    MatrixXd crest, inertia, drag; ///< rows of Φ at the crest; M_dam r and a_M M_s r times Φ; 2 x N
+    VectorXd still;        ///< Φᵀ R_static
+    Vector2d mass_share;   ///< effective mass kept [-]
+};
+
+ModalBasis basis_of(const TiedProblem& problem, const NaturalModes& modes, const MatrixXd& rigid_response)
+{
+    const LinearSystem& system = problem.structure.system;
+    const Index n = system.size(), count = modes.frequency.size();
+    ModalBasis basis;
+    basis.shape = modes.shape.topRows(n);
+    basis.omega = 2.0 * std::numbers::pi * modes.frequency;
+    basis.participation = modes.participation.transpose();
+    basis.mass_share = modes.effective_share.rowwise().sum();
+    const VectorXd flexibility = basis.omega.cwiseAbs2().cwiseInverse();
+    basis.residual = rigid_response - basis.shape * (flexibility.asDiagonal() * basis.participation);
+    basis.damping = basis.shape.transpose() * (system.damping * basis.shape);
+    basis.damping = (0.5 * (basis.damping + basis.damping.transpose())).eval();
+    basis.crest.resize(2, count);
+    basis.crest << basis.shape.row(problem.crest_x), basis.shape.row(problem.crest_y);
+    basis.inertia.resize(2, count);
+    basis.inertia << problem.mass_x.transpose() * basis.shape, problem.mass_y.transpose() * basis.shape;
+    basis.drag.resize(2, count);
+    basis.drag << problem.damped_x.transpose() * basis.shape, problem.damped_y.transpose() * basis.shape;
+    basis.still = basis.shape.transpose() * problem.load.still;
+    return basis;
+}
+
+/// Largest |φ_iᵀCφ_j| over the root of the diagonal ones.
+double coupling_of(const MatrixXd& damping)
+{
+    const VectorXd root = damping.diagonal().cwiseMax(0.0).cwiseSqrt();
+    double largest = 0.0;
+    for (Index i = 0; i < damping.rows(); ++i)
+        for (Index j = 0; j < i; ++j)
+            if (root[i] * root[j] > 0.0) largest = std::max(largest, std::abs(damping(i, j)) / (root[i] * root[j]));
+    return largest < 1e-9 ? 0.0 : largest;
+}
+
+/// Oscillators of the highest mode kept under the two amplitudes: how far they depart from following the ground statically.
+class HighestMode {
+public:
+    HighestMode(double omega, double damping, double dt)
+        : recurrence_(VectorXd::Constant(2, omega), Vector2d::Constant(damping).asDiagonal(), MatrixXd::Identity(2, 2),
+                      dt)
+    {
+    }
+    void step(const Vector2d& before, const Vector2d& after)
+    {
+        recurrence_.step(q_, rate_, before, after);
+        const Vector2d static_part = recurrence_.omega().cwiseAbs2().cwiseProduct(q_);
+        departure = departure.cwiseMax((static_part - after).cwiseAbs());
+        acceleration = acceleration.cwiseMax(recurrence_.acceleration(q_, rate_, after).cwiseAbs());
+    }
+    Vector2d departure = Vector2d::Zero();    ///< largest |ω²q - a| [m/s^2]
+    Vector2d acceleration = Vector2d::Zero(); ///< largest |q̈| [m/s^2]
+
+private:
+    ModalRecurrence recurrence_;
+    VectorXd q_ = VectorXd::Zero(2), rate_ = VectorXd::Zero(2);
+};
+
+/// Energies of the modes on top of those of the static state.
+class ModalLedger {
+public:
+    ModalLedger(const ModalBasis& basis, double static_strain) : basis_(basis)
+    {
+        energy_.strain = start_.strain = static_strain;
+        scale_ = energy_.scale();
+    }
+    struct Instant {
+        VectorXd q, rate, acceleration, load; ///< load: Γ a
+    };
+    void step(const Instant& a, const Instant& b, double dt);
+    const Energy& energy() const { return energy_; }
+    double imbalance() const { return energy_.imbalance(start_); }
+    double scale() const { return scale_; }
+
+private:
+    const ModalBasis& basis_;
+    Energy start_, energy_;
+    double scale_ = 0.0;
+};
+
+/// ∫ pᵀq̇ dt = [pᵀq] - (Δp/Δt)ᵀ ∫ q dt with Ω² ∫ q dt = ∫ p dt - Δq̇ - C Δq from the equation of motion: exact.
+void ModalLedger::step(const Instant& a, const Instant& b, double dt)
+{
+    const VectorXd squares = basis_.omega.cwiseAbs2();
+    const VectorXd integral = (0.5 * dt * (a.load + b.load) - (b.rate - a.rate) - basis_.damping * (b.q - a.q))
+                                  .cwiseQuotient(squares);
+    energy_.external += b.load.dot(b.q) - a.load.dot(a.q) - (b.load - a.load).dot(integral) / dt +
+                        basis_.still.dot(b.q - a.q);
+    const VectorXd drag_a = basis_.damping * a.rate, drag_b = basis_.damping * b.rate;
+    energy_.damping += 0.5 * dt * (a.rate.dot(drag_a) + b.rate.dot(drag_b)) +
+                       dt * dt / 6.0 * (a.acceleration.dot(drag_a) - b.acceleration.dot(drag_b));
+    energy_.kinetic = 0.5 * b.rate.squaredNorm();
+    energy_.strain = start_.strain + basis_.still.dot(b.q) + 0.5 * squares.dot(b.q.cwiseAbs2());
+    scale_ = std::max(scale_, energy_.scale());
+}
+
+class ModalRun {
+public:
+    ModalRun(TiedProblem& problem, const ModalBasis& basis, double dt)
+        : problem_(problem), basis_(basis), dt_(dt), steps_(step_count(problem.ground, problem.options, dt)),
+          recurrence_(basis.omega, basis.damping, basis.participation, dt)
+    {
+    }
+    History go();
+
+private:
+    HistoryRow row(double time, const GroundState& ground, const ModalLedger::Instant& now,
+                   const ModalLedger& ledger) const;
+    void estimate(const HighestMode& highest, History& history) const;
+
+    TiedProblem& problem_;
+    const ModalBasis& basis_;
+    double dt_;
+    std::int64_t steps_;
+    ModalRecurrence recurrence_;
+};
+
+HistoryRow ModalRun::row(double time, const GroundState& ground, const ModalLedger::Instant& now,
+                         const ModalLedger& ledger) const
+{
+    const Vector2d a = amplitudes(ground);
+    const Index x = problem_.crest_x, y = problem_.crest_y;
+    TiedSums sums;
+    sums.crest = Vector2d(problem_.start[x] + basis_.residual.row(x).dot(a),
+                          problem_.start[y] + basis_.residual.row(y).dot(a)) +
+                 basis_.crest * now.q;
+    sums.crest_accel = basis_.crest * now.acceleration;
+    sums.inertia = basis_.inertia * now.acceleration;
+    sums.damping = basis_.drag * now.rate;
+    HistoryRow row = problem_.row(time, ground, sums);
+    row.energy = ledger.energy();
+    row.imbalance = ledger.imbalance();
+    return row;
+}
+
+void ModalRun::estimate(const HighestMode& highest, History& history) const
+{
+    ModalTruncation& t = history.modal;
+    t.modes = static_cast<int>(basis_.omega.size());
+    t.highest_frequency = basis_.omega.maxCoeff() / (2.0 * std::numbers::pi);
+    t.mass_share = basis_.mass_share;
+    t.damping_coupling = coupling_of(basis_.damping);
+    const Eigen::RowVector2d crest = basis_.crest.row(0) * basis_.participation;
+    const Eigen::RowVector2d shear = basis_.inertia.row(0) * basis_.participation;
+    const Eigen::RowVector2d rigid_crest(1.0, 0.0), rigid_shear(problem_.mass_x.dot(problem_.rigid_x()),
+                                                                problem_.mass_x.dot(problem_.rigid_y()));
+    t.crest_x_error = basis_.residual.row(problem_.crest_x).cwiseAbs().dot(highest.departure);
+    t.crest_accel_x_error = (rigid_crest - crest).cwiseAbs().dot(highest.acceleration);
+    t.base_shear_error = (rigid_shear - shear).cwiseAbs().dot(highest.acceleration);
+}
+
+History ModalRun::go()
+{
+    History history;
+    history.method = fmt::format("{} modes", basis_.omega.size());
+    history.unknowns = basis_.omega.size();
+    HistoryWriter writer(history, problem_.options, dt_, steps_, problem_.options.keep_every);
+    const Index count = basis_.omega.size(), top = count - 1;
+    HighestMode highest(basis_.omega[top], basis_.damping(top, top), dt_);
+    GroundState ground = problem_.ground.at(0.0);
+    ModalLedger::Instant before{VectorXd::Zero(count), VectorXd::Zero(count), {}, basis_.participation * amplitudes(ground)},
+        after;
+    before.acceleration = before.load;
+    ModalLedger ledger(basis_, 0.5 * problem_.start.dot(problem_.structure.system.stiffness * problem_.start));
+    writer.enter(row(0.0, ground, before, ledger), 0);
+    for (std::int64_t n = 1; n <= steps_; ++n) {
+        const double time = dt_ * static_cast<double>(n);
+        const Vector2d a0 = amplitudes(ground);
+        ground = problem_.ground.at(time);
+        const Vector2d a1 = amplitudes(ground);
+        after.q = before.q;
+        after.rate = before.rate;
+        recurrence_.step(after.q, after.rate, a0, a1);
+        after.acceleration = recurrence_.acceleration(after.q, after.rate, a1);
+        after.load = basis_.participation * a1;
+        ledger.step(before, after, dt_);
+        highest.step(a0, a1);
+        if (!std::isfinite(ledger.imbalance())) {
+            history.status = TiedRunStatus::diverged;
+            history.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);
+            break;
+        }
+        std::swap(before, after);
+        writer.enter(row(time, ground, before, ledger), n);
+        if (writer.stopped(n, time)) break;
+    }
+    writer.finish(ledger.scale());
+    estimate(highest, history);
+    history.displacement = problem_.all_displacements(problem_.start + basis_.shape * before.q +
+                                                      basis_.residual * amplitudes(ground));
+    return history;
+}
+
+[[noreturn]] void refuse(const std::string& obstacle)
+{
+    Diagnostic diagnostic;
+    diagnostic.problem = "time.scheme = \"modal\" with " + obstacle + ".";
+    diagnostic.expected = "a linear model with Rayleigh damping";
+    diagnostic.fix = "use  scheme = \"hht\"  in [time]";
+    throw InputError(std::move(diagnostic));
+}
+
+bool accurate(const History& history, const ModalOptions& modal)
+{
+    const ModalTruncation& t = history.modal;
+    return t.crest_x_error <= modal.crest_tolerance * history.peak_crest_x &&
+           t.crest_accel_x_error <= modal.force_tolerance * history.peak_crest_accel_x &&
+           t.base_shear_error <= modal.force_tolerance * std::abs(history.peak_base_shear);
+}
+
+double percent(double part, double whole)
+{
+    return whole > 0.0 ? 100.0 * part / whole : 0.0;
+}
+
+void note(History& history)
+{
+    const ModalTruncation& t = history.modal;
+    history.notes.push_back(fmt::format(
+        "superposition of {} modes up to {:.4g} Hz with {:.4g} % (x) and {:.4g} % (y) of the mass, exact in time{}",
+        t.modes, t.highest_frequency, 100.0 * t.mass_share.x(), 100.0 * t.mass_share.y(),
+        t.damping_coupling > 0.0 ? fmt::format("; the undamped added mass couples them (largest {:.2g}), solved together",
+                                               t.damping_coupling)
+                                 : ""));
+    history.notes.push_back(fmt::format(
+        "modes left out follow the ground statically; their motion is estimated at {:.2g} % of the peak crest x, {:.2g} % of "
+        "its acceleration, {:.2g} % of the base shear",
+        percent(t.crest_x_error, history.peak_crest_x), percent(t.crest_accel_x_error, history.peak_crest_accel_x),
+        percent(t.base_shear_error, std::abs(history.peak_base_shear))));
+}
+
+} // namespace
+
+std::string modal_obstacle(const TiedRunOptions& options)
+{
+    if (options.water)
+        return "acoustic water: it radiates and is not damped like the dam, so real modes do not separate the equations";
+    if (options.damping.mass == MassDamping::total && options.damping.constants.mass != 0.0)
+        return "mass damping of the total velocity: its load, a_M times the ground's velocity, is not linear between samples";
+    return {};
+}
+
+History integrate_modal(const Model& model, const GroundMotion& motion, const TiedRunOptions& options,
+                        const ModalOptions& modal)
+{
+    if (const std::string obstacle = modal_obstacle(options); !obstacle.empty()) refuse(obstacle);
+    const double dt = step_of(motion, options);
+    TiedProblem problem(model, motion, options);
+    if (problem.other_damping() > 1e-9)
+        refuse("damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
+    History history;
+    const auto failed = [&history](std::string text) {
+        history.status = TiedRunStatus::solver_failed;
+        history.status_text = std::move(text);
+        return std::move(history);
+    };
+    if (!problem.prepare()) return failed(problem.structure.solver.text());
+    MatrixXd rigid_loads(problem.load.mass_x.size(), 2);
+    rigid_loads << problem.load.mass_x, problem.load.mass_y;
+    const MatrixXd rigid_response = problem.static_response(rigid_loads);
+    if (!problem.structure.solver.ok()) return failed(problem.structure.solver.text());
+    for (int count = modal.modes.value_or(modal.first);; count = std::min(2 * count, modal.most)) {
+        const NaturalModes modes = natural_modes(model, count, options.solver);
+        if (modes.frequency.size() == 0) return failed("no natural mode was found; " + modes.solver.text());
+        const ModalBasis basis = basis_of(problem, modes, rigid_response);
+        history = ModalRun(problem, basis, dt).go();
+        const bool all = modes.frequency.size() < count;
+        if (modal.modes || all || count >= modal.most || history.status != TiedRunStatus::complete ||
+            accurate(history, modal))
+            break;
+    }
+    history.factorisations = 1;
+    note(history);
+    return history;
+}
+
+} // namespace damslip::fe2d

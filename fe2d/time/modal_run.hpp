@@ -1,0 +1,45 @@
+#pragma once
+
+#include "fe2d/time/integrate.hpp"
+
+namespace damslip::fe2d {
+
+/// How many modes a superposition takes. The number is doubled from `first` until the estimates of ModalTruncation are below
+/// the tolerances, or `most` is reached.
+struct ModalOptions {
+    std::optional<int> modes;       ///< this many, >= 1, whatever the estimates; default: chosen
+    int first = 12;                 ///< >= 1
+    int most = 192;                 ///< >= first
+    double crest_tolerance = 1e-3;  ///< of the crest's peak displacement [-]
+    double force_tolerance = 1e-2;  ///< of the peaks of the crest's acceleration and of the base shear [-]
+};
+
+/// Why a run with these options cannot be made by superposition of modes; empty: it can.
+std::string modal_obstacle(const TiedRunOptions& options);
+
+/// Steps of a direct run from which on a superposition costs less. Both are solves with one factor: a step is one, and the modes of
+/// a dam took 60 to 130 (measured, with those for the choice of their number).
+inline constexpr int modal_break_even = 130;
+
+/// The run of integrate() by superposition of modes: motion relative to the ground from the static state, u = u₀ + Φ q + w a,
+///
+///     q̈ + ΦᵀCΦ q̇ + Ω² q = Γ a(t),   w = K⁻¹ M r - Φ Ω⁻² Γ,   a = (a_h, -a_v)                       (2-37)...(2-51)
+///
+/// exact in time for the piecewise-linear record (ModalRecurrence), so there is no time-step error: `options.dt` only sets how
+/// often rows are made. Modes left out follow the ground statically (w, "static correction", Hansteen & Bell 1979).
+/// `options.scheme` is not used.
+///
+/// What their dynamic part would add is estimated with an oscillator of the highest mode's frequency and damping: its largest
+/// departure from the static response, and its largest relative acceleration, times the static displacement and the share of
+/// the rigid motion that the modes kept do not give at the crest (of the mass, for the base shear). Modes left out lie higher
+/// and depart less.
+///
+/// Damping: Rayleigh's. Added mass is not damped, so with water C is not diagonal in the modes; the modes kept are then solved
+/// coupled, exactly as well, and the coupling to those left out is neglected.
+/// Energies are those of the modes and the static state. External work is exact; the damping's is integrated by the corrected
+/// trapezoid rule from states and their rates, so the ledger closes with order 4 in the step, not to round-off.
+/// @throws InputError where modal_obstacle() says so, and for damping that is not Rayleigh's
+History integrate_modal(const Model& model, const GroundMotion& motion, const TiedRunOptions& options,
+                        const ModalOptions& modal = {});
+
+} // namespace damslip::fe2d
