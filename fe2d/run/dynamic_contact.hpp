@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/run/static_contact.hpp"
+#include "fe2d/run/contact_motion.hpp"
 #include "fe2d/run/step_operators.hpp"
 #include "fe2d/run/water_ledger.hpp"
 #include "fe2d/time/energy.hpp"
@@ -11,39 +11,6 @@
 #include <span>
 
 namespace damslip::fe2d {
-
-/// Ground acceleration of one instant, as records have it.
-struct GroundAcceleration {
-    double h = 0.0; ///< positive upstream: drives the dam downstream [m/s²]
-    double v = 0.0; ///< positive up [m/s²]
-    double velocity_h = 0.0, velocity_v = 0.0,
-           displacement_v = 0.0;       ///< integrals, felt by acoustic water [m/s, m/s, m]
-    double drag_h = 0.0, drag_v = 0.0; ///< a_M times the velocities, where mass damping resists the total one [m/s²]
-};
-
-/// Motion relative to the ground and contact at one instant.
-struct DynamicState {
-    double time = 0.0;                    ///< [s]
-    Eigen::VectorXd u, v, a;              ///< of the dam, in its node order [m, m/s, m/s²]
-    Eigen::VectorXd rock, rock_v, rock_a; ///< of the rock's contact nodes, plane; zero for a rigid base
-    ContactMemory contact;
-    GroundAcceleration ground;
-};
-
-/// Figures of a run so far.
-struct DynamicCounts {
-    int steps = 0, contact_iterations = 0, largest_iterations = 0, unresolved = 0;
-    int by_path[5] = {0, 0, 0, 0, 0}; ///< steps by ContactPath
-    int landings = 0;                 ///< steps in which some gap came to be held: shut or stuck
-    int halved = 0;                   ///< steps cut in two because their contact was not resolved otherwise
-    int refined = 0;                  ///< steps cut in two because of their local error (StepControl)
-    double largest_residual = 0.0;    ///< complementarity residual over the static normal force N' [-]
-    int factorisations = 0;           ///< step sizes used
-    double contact_seconds = 0.0;     ///< in the contact solver
-
-    /// A step that was made. @param residual  of its contact over the static normal force [-]
-    void add(const ContactReport& report, double residual);
-};
 
 /// When a step's contact is not resolved, nothing of it is kept and it is made in two halves, these in halves again,
 /// down to this share of it.
@@ -67,7 +34,7 @@ struct StepControl {
 /// Where the structure slides far, the opening is what the displacements and the present slip make it at the start of
 /// each step, so the dam follows the bent surface of the rock; forces pass through the P of the last place where the
 /// operators were made, at most `update_share` of an element away, so that a step's work is exact.
-class DynamicContact {
+class DynamicContact final : public ContactMotion {
 public:
     /// @param operators  shared with the other runs of this structure, damping and scheme
     /// @param load  static loads, constant during the motion
@@ -94,16 +61,16 @@ public:
     /// advance() of each lane, with the same bits, in common passes over the factor.
     static void advance(std::span<Lane> lanes, double dt, const GroundAcceleration& ground);
 
-    const DynamicState& state() const { return state_; }
+    const DynamicState& state() const override { return state_; }
     /// False where the dam would leave the meshed plane: the step was not made (ContactStructure::slides_far()).
     bool within_reach() const;
-    const Energy& energy() const { return energy_; }
-    double energy_imbalance() const { return energy_.imbalance(energy_start_); } ///< [J/m]
-    double energy_scale() const { return energy_scale_; }                        ///< largest term so far [J/m]
-    const DynamicCounts& counts() const { return counts_; }
-    double static_normal_force() const { return normal_force_; } ///< N' before the motion [N/m]
-    const ContactStructure& structure() const { return structure_; }
-    std::size_t bytes() const; ///< shared operators included
+    const Energy& energy() const override { return energy_; }
+    double energy_imbalance() const override { return energy_.imbalance(energy_start_); }
+    double energy_scale() const override { return energy_scale_; }
+    const DynamicCounts& counts() const override { return counts_; }
+    double static_normal_force() const override { return normal_force_; }
+    const ContactStructure& structure() const override { return structure_; }
+    std::size_t bytes() const override; ///< shared operators included
 
 private:
     /// What the equation of motion's forces at one instant need for their work, see add_energy().

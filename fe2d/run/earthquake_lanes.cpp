@@ -1,6 +1,5 @@
-#include "fe2d/run/earthquake_run.hpp"
+#include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/ground_input.hpp"
-#include "fe2d/run/step_error.hpp"
 
 #include "core/stopwatch.hpp"
 
@@ -46,25 +45,6 @@ double worst(std::vector<double> errors)
 }
 
 } // namespace
-
-/// One strength of several that are run together: its static state, and the result so far.
-struct EarthquakeRun::Lane {
-    Strength strength;
-    ContactMemory memory;
-    StaticState start;
-    RunResult result;
-    int next = 0;                               ///< halvings of the next pass; 0: none
-    std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
-    double local_error = 0.0;                   ///< of the worst steps of the first pass, for adaptive steps [m]
-
-    void note_slips()
-    {
-        slips.resize(1 + result.lifts.size());
-        slips.front().push_back({result.halvings, result.slip});
-        for (std::size_t k = 0; k < result.lifts.size(); ++k)
-            slips[k + 1].push_back({result.halvings, result.lifts[k].slip});
-    }
-};
 
 /// The static stages. lane.result.status stays model_failed where they end in equilibrium.
 void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
@@ -119,6 +99,7 @@ StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
 std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const
 {
+    if (explicit_) return shake_explicitly(motion, halvings, lanes);
     const Stopwatch clock;
     const double dt = scene_.time.dt.value_or(motion.dt),
                  duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
@@ -185,7 +166,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
 }
 
 /// The figures at the end of a pass, and the static state after it.
-void EarthquakeRun::end_lane(const DynamicContact& dynamics, const Strength& strength_at_end, const Lane& lane,
+void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& strength_at_end, const Lane& lane,
                              RunResult& result) const
 {
     const DynamicState& end = dynamics.state();

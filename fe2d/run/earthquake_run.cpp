@@ -32,9 +32,45 @@ ModelOptions model_options(const RunOptions& options, Base base)
 
 namespace {
 
+InputError wrong_scheme(const Scene& scene, std::string problem, std::string expected, std::string fix)
+{
+    return InputError(Diagnostic{scene.file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
+/// What explicit steps with contact cannot do. Rock by the mass of its unknowns, not by a key.
+void check_explicit(const Scene& scene, const Model& model)
+{
+    const std::string scheme = "time.scheme = \"central-difference\" with ", hht = "use  scheme = \"hht\"  in [time]";
+    if (model.mesh.has_rock()) {
+        const Eigen::Index rock = model.dofs.count - 2 * model.mesh.dam_node_count;
+        const auto massless = (model.mass.diagonal().tail(rock).array() <= 0.0).count();
+        if (massless > 0)
+            throw wrong_scheme(scene,
+                               scheme + fmt::format("rock of {} unknowns without mass: its highest frequency is infinite, no "
+                                                    "step is stable.",
+                                                    massless),
+                               "a rigid base (no [foundation]) below a dam that slides",
+                               hht + ", or run  fe --base tied  (the rock is condensed), or delete [foundation]");
+        throw wrong_scheme(scene, scheme + "rock below a dam that slides.", "a rigid base (no [foundation])",
+                           hht + ", or delete [foundation]");
+    }
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0.0)
+        throw wrong_scheme(scene, scheme + "acoustic water.", "no acoustic water: its coupling is not diagonal",
+                           hht + ", or  model = \"added-mass\"  in [reservoir]");
+    if (scene.contact.enforcement != ContactEnforcement::exact || scene.contact.normal != NormalContact::hard)
+        throw wrong_scheme(scene, scheme + "contact that gives way.", "contact.enforcement = \"exact\", normal = \"hard\"",
+                           hht + ", or delete enforcement and normal in [contact]");
+}
+
 /// Massless rock has an infinite frequency: a scheme that is stable below some step only is not stable at all.
 void check_scheme(const Scene& scene)
 {
+    if (scene.time.scheme == TimeScheme::modal)
+        throw wrong_scheme(scene, "time.scheme = \"modal\" with a base that slides.",
+                           "a linear model: contact with friction has no modes",
+                           "run  fe --base tied , or  fe --reduced  (modes of the dam with exact contact), or use  scheme = "
+                           "\"hht\"  in [time]");
+    if (scene.time.scheme == TimeScheme::central_difference) return; // check_explicit()
     const Scheme scheme = scheme_of(scene.time);
     if (!scene.foundation || scheme.unconditionally_stable()) return;
     throw InputError(
@@ -74,6 +110,8 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     check_scheme(scene_);
     const Stopwatch start;
     model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
+    const bool explicit_steps = scene_.time.scheme == TimeScheme::central_difference;
+    if (explicit_steps) check_explicit(scene_, *model_);
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
         water_ = std::make_unique<WaterBody>(scene_, *model_);
     structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, water_.get());
@@ -84,7 +122,10 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     find_damping();
     if (usable_) {
         statics_ = std::make_shared<const StaticOperator>(*structure_);
-        operators_ = std::make_shared<StepOperators>(*structure_, damping_, scheme_of(scene_.time));
+        if (explicit_steps)
+            explicit_ = explicit_operators();
+        else
+            operators_ = std::make_shared<StepOperators>(*structure_, damping_, scheme_of(scene_.time));
     }
     seconds_ = start.seconds();
 }

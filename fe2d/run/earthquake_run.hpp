@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/run/dynamic_contact.hpp"
+#include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
 #include "fe2d/run/stages.hpp"
 #include "fe2d/time/run_progress.hpp"
@@ -127,6 +128,7 @@ public:
 private:
     struct Lane;
     void find_damping();
+    std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     Strength strength_of(const Contact& base) const;
@@ -134,7 +136,8 @@ private:
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
-    void end_lane(const DynamicContact& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
+    std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
+    void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
 
@@ -144,7 +147,8 @@ private:
     std::unique_ptr<WaterBody> water_; ///< acoustic; null: none
     std::unique_ptr<ContactStructure> structure_;
     std::shared_ptr<const StaticOperator> statics_;
-    std::shared_ptr<StepOperators> operators_;
+    std::shared_ptr<StepOperators> operators_;           ///< null with explicit steps
+    std::shared_ptr<const ExplicitOperators> explicit_; ///< null with implicit steps
     LoadStages stages_;
     RunDamping damping_;
     bool usable_ = false;

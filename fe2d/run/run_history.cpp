@@ -60,7 +60,7 @@ double base_rotation(const Plane& plane, const VectorXd& opening)
     return -moments.dot(opening) / moments.dot(arm);
 }
 
-HistoryRecorder::HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series)
+HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series)
     : dynamics_(dynamics), history_(history), series_(series), start_(dynamics.state().contact.slip),
       to_middle_(weights_at_middle(dynamics.structure().plane()))
 {

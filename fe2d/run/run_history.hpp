@@ -77,7 +77,7 @@ bool at_rest(const RunHistory& history, double rest_time);
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
-    HistoryRecorder(const DynamicContact& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
+    HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
 
     void add(); ///< a row for the present state
 
@@ -85,7 +85,7 @@ private:
     void add_lifts();
     void add_pairs();
 
-    const DynamicContact& dynamics_;
+    const ContactMotion& dynamics_;
     RunHistory& history_;
     PairSeries series_;
     Eigen::VectorXd start_;     ///< slips of all pairs at the start [m]

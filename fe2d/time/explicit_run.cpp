@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-[[noreturn]] void refuse(std::string problem, std::string expected, std::string fix)
+[[noreturn]] void refuse_explicit(std::string problem, std::string expected, std::string fix)
 {
     Diagnostic diagnostic;
     diagnostic.problem = std::move(problem);
@@ -31,11 +31,11 @@ using Eigen::VectorXd;
 void check(const TiedProblem& problem)
 {
     if (problem.options.water)
-        refuse("time.scheme = \"central-difference\" with acoustic water.",
+        refuse_explicit("time.scheme = \"central-difference\" with acoustic water.",
                "no acoustic water: its coupling with the dam is not diagonal, so no step would be explicit",
                "use  scheme = \"hht\"  in [time], or  model = \"added-mass\"  in [reservoir]");
     if (problem.other_damping() > 1e-9)
-        refuse("time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",
+        refuse_explicit("time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",
                "Rayleigh damping", "use  scheme = \"hht\"  in [time]");
 }
 
@@ -45,7 +45,7 @@ void check_mass(const SparseMatrix& lumped)
     const VectorXd diagonal = lumped.diagonal();
     const auto massless = (diagonal.array() <= 0.0).count();
     if (massless == 0) return;
-    refuse(fmt::format("time.scheme = \"central-difference\" with {} unknowns without mass.", massless),
+    refuse_explicit(fmt::format("time.scheme = \"central-difference\" with {} unknowns without mass.", massless),
            "mass on every unknown: without it the highest frequency is infinite and no step is stable",
            "give the rock a density, or use  scheme = \"hht\"  in [time]");
 }
@@ -183,11 +183,11 @@ double explicit_step(double motion_dt, std::optional<double> asked, const Explic
         fmt::format("leave dt_s out for {} s, or use  scheme = \"hht\"  in [time], stable at any step",
                     shortest(motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt))));
     if (*asked > limit.dt)
-        refuse("time.dt_s = " + shortest(*asked) + " is above the limit of the central difference, " +
+        refuse_explicit("time.dt_s = " + shortest(*asked) + " is above the limit of the central difference, " +
                    fmt::format("{:.6g} s.", limit.dt),
                "at most " + fmt::format("{:.6g} s: ", limit.dt) + limit.text(), fix);
     if (!(*asked > 0.0) || parts < 1.0 || std::abs(parts * *asked - motion_dt) > 1e-9 * motion_dt)
-        refuse("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " + shortest(motion_dt) +
+        refuse_explicit("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " + shortest(motion_dt) +
                    " s.",
                shortest(motion_dt) + " s divided by 1, 2, 3, ...", "write  dt_s = " + shortest(fits));
     return motion_dt / parts;

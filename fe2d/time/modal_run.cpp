@@ -34,11 +34,18 @@ struct ModalBasis {
     VectorXd omega;        ///< [rad/s]
     MatrixXd damping;      ///< ΦᵀCΦ [1/s]
     MatrixXd crest, inertia, drag; ///< rows of Φ at the crest; M_dam r and a_M M_s r times Φ; 2 x N
+    MatrixXd late;         ///< -(K⁻¹ - ΦΩ⁻²Φᵀ) C Φ at the crest, 2 x N: modes left out follow the damping of those kept [s]
     VectorXd still;        ///< Φᵀ R_static
     Vector2d mass_share;   ///< effective mass kept [-]
 };
 
-ModalBasis basis_of(const TiedProblem& problem, const NaturalModes& modes, const MatrixXd& rigid_response)
+/// Static responses, made once for any number of modes.
+struct Flexibility {
+    MatrixXd rigid; ///< K⁻¹ M r_x, K⁻¹ M r_y, n x 2 [s^2]
+    MatrixXd crest; ///< K⁻¹ of unit forces at the crest, n x 2 [m^2/N]
+};
+
+ModalBasis basis_of(const TiedProblem& problem, const NaturalModes& modes, const Flexibility& flexible)
 {
     const LinearSystem& system = problem.structure.system;
     const Index n = system.size(), count = modes.frequency.size();
@@ -48,7 +55,7 @@ ModalBasis basis_of(const TiedProblem& problem, const NaturalModes& modes, const
     basis.participation = modes.participation.transpose();
     basis.mass_share = modes.effective_share.rowwise().sum();
     const VectorXd flexibility = basis.omega.cwiseAbs2().cwiseInverse();
-    basis.residual = rigid_response - basis.shape * (flexibility.asDiagonal() * basis.participation);
+    basis.residual = flexible.rigid - basis.shape * (flexibility.asDiagonal() * basis.participation);
     basis.damping = basis.shape.transpose() * (system.damping * basis.shape);
     basis.damping = (0.5 * (basis.damping + basis.damping.transpose())).eval();
     basis.crest.resize(2, count);
@@ -57,6 +64,8 @@ ModalBasis basis_of(const TiedProblem& problem, const NaturalModes& modes, const
     basis.inertia << problem.mass_x.transpose() * basis.shape, problem.mass_y.transpose() * basis.shape;
     basis.drag.resize(2, count);
     basis.drag << problem.damped_x.transpose() * basis.shape, problem.damped_y.transpose() * basis.shape;
+    const MatrixXd damped = system.damping * basis.shape;
+    basis.late = basis.crest * flexibility.asDiagonal() * basis.damping - flexible.crest.transpose() * damped;
     basis.still = basis.shape.transpose() * problem.load.still;
     return basis;
 }
@@ -162,7 +171,7 @@ HistoryRow ModalRun::row(double time, const GroundState& ground, const ModalLedg
     TiedSums sums;
     sums.crest = Vector2d(problem_.start[x] + basis_.residual.row(x).dot(a),
                           problem_.start[y] + basis_.residual.row(y).dot(a)) +
-                 basis_.crest * now.q;
+                 basis_.crest * now.q + basis_.late * now.rate;
     sums.crest_accel = basis_.crest * now.acceleration;
     sums.inertia = basis_.inertia * now.acceleration;
     sums.damping = basis_.drag * now.rate;
@@ -225,12 +234,15 @@ History ModalRun::go()
     }
     writer.finish(ledger.scale());
     estimate(highest, history);
-    history.displacement = problem_.all_displacements(problem_.start + basis_.shape * before.q +
-                                                      basis_.residual * amplitudes(ground));
+    VectorXd end = problem_.start + basis_.shape * before.q + basis_.residual * amplitudes(ground);
+    if (recurrence_.coupled())
+        end += basis_.shape * (basis_.damping * before.rate).cwiseQuotient(basis_.omega.cwiseAbs2()) -
+               problem_.static_response(problem_.structure.system.damping * (basis_.shape * before.rate));
+    history.displacement = problem_.all_displacements(end);
     return history;
 }
 
-[[noreturn]] void refuse(const std::string& obstacle)
+[[noreturn]] void refuse_modal(const std::string& obstacle)
 {
     Diagnostic diagnostic;
     diagnostic.problem = "time.scheme = \"modal\" with " + obstacle + ".";
@@ -282,11 +294,11 @@ std::string modal_obstacle(const TiedRunOptions& options)
 History integrate_modal(const Model& model, const GroundMotion& motion, const TiedRunOptions& options,
                         const ModalOptions& modal)
 {
-    if (const std::string obstacle = modal_obstacle(options); !obstacle.empty()) refuse(obstacle);
+    if (const std::string obstacle = modal_obstacle(options); !obstacle.empty()) refuse_modal(obstacle);
     const double dt = step_of(motion, options);
     TiedProblem problem(model, motion, options);
     if (problem.other_damping() > 1e-9)
-        refuse("damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
+        refuse_modal("damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
     History history;
     const auto failed = [&history](std::string text) {
         history.status = TiedRunStatus::solver_failed;
@@ -294,14 +306,16 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
         return std::move(history);
     };
     if (!problem.prepare()) return failed(problem.structure.solver.text());
-    MatrixXd rigid_loads(problem.load.mass_x.size(), 2);
-    rigid_loads << problem.load.mass_x, problem.load.mass_y;
-    const MatrixXd rigid_response = problem.static_response(rigid_loads);
+    MatrixXd loads = MatrixXd::Zero(problem.load.mass_x.size(), 4);
+    loads.leftCols(2) << problem.load.mass_x, problem.load.mass_y;
+    loads(problem.crest_x, 2) = loads(problem.crest_y, 3) = 1.0;
+    const MatrixXd responses = problem.static_response(loads);
+    const Flexibility flexible{responses.leftCols(2), responses.rightCols(2)};
     if (!problem.structure.solver.ok()) return failed(problem.structure.solver.text());
     for (int count = modal.modes.value_or(modal.first);; count = std::min(2 * count, modal.most)) {
         const NaturalModes modes = natural_modes(model, count, options.solver);
         if (modes.frequency.size() == 0) return failed("no natural mode was found; " + modes.solver.text());
-        const ModalBasis basis = basis_of(problem, modes, rigid_response);
+        const ModalBasis basis = basis_of(problem, modes, flexible);
         history = ModalRun(problem, basis, dt).go();
         const bool all = modes.frequency.size() < count;
         if (modal.modes || all || count >= modal.most || history.status != TiedRunStatus::complete ||

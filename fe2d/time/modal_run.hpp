@@ -35,7 +35,7 @@ inline constexpr int modal_break_even = 130;
 /// and depart less.
 ///
 /// Damping: Rayleigh's. Added mass is not damped, so with water C is not diagonal in the modes; the modes kept are then solved
-/// coupled, exactly as well, and the coupling to those left out is neglected.
+/// coupled, exactly as well; those left out follow their damping forces statically, and what this gives back is neglected.
 /// Energies are those of the modes and the static state. External work is exact; the damping's is integrated by the corrected
 /// trapezoid rule from states and their rates, so the ledger closes with order 4 in the step, not to round-off.
 /// @throws InputError where modal_obstacle() says so, and for damping that is not Rayleigh's

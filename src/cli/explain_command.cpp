@@ -3,6 +3,7 @@
 #include "cli/ablate_command.hpp"
 #include "cli/run/contact_cost.hpp"
 #include "cli/run/fe_inputs.hpp"
+#include "cli/run/tied_scheme.hpp"
 #include "cli/show/acoustic_modes.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
@@ -117,7 +118,8 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const Table table = effect_table(plan);
     const std::optional<ModelTables> model = model_tables(scene, plan);
     const std::optional<ContactCost> cost = cost_of(scene, plan);
-    const std::vector<std::string> notes = water_notes(scene, plan, choice);
+    std::vector<std::string> notes = water_notes(scene, plan, choice);
+    if (plan.method == Method::finite_elements) notes.push_back(time_scheme_note(scene));
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", hash}};

@@ -1,6 +1,7 @@
 #include "cli/tied_run.hpp"
 
 #include "cli/run/fe_inputs.hpp"
+#include "cli/run/tied_scheme.hpp"
 #include "cli/show/acoustic_modes.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
@@ -83,26 +84,11 @@ Table run_table(const std::vector<TiedRun>& runs)
     return t;
 }
 
-/// The run by the scheme of the scene; `reason` says why where "auto" chose.
-fe2d::History integrate_by(const TimeOptions& time, const fe2d::Model& model, const GroundMotion& motion,
-                           const fe2d::TiedRunOptions& options, std::string& reason)
+fe2d::History integrate_by(TimeScheme scheme, const fe2d::Model& model, const GroundMotion& motion,
+                           const fe2d::TiedRunOptions& options)
 {
-    if (time.scheme == TimeScheme::central_difference) return fe2d::integrate_explicit(model, motion, options);
-    if (time.scheme == TimeScheme::modal) return fe2d::integrate_modal(model, motion, options);
-    if (time.scheme == TimeScheme::automatic) {
-        const double steps = motion.dt / options.dt.value_or(motion.dt) * static_cast<double>(motion.accel_h.size() - 1);
-        const std::string obstacle = fe2d::modal_obstacle(options);
-        if (!obstacle.empty())
-            reason = "time.scheme = \"auto\": HHT, since there is " + obstacle;
-        else if (steps < fe2d::modal_break_even)
-            reason = fmt::format("time.scheme = \"auto\": HHT, since {:.0f} steps cost less than finding modes", steps);
-        else {
-            reason = fmt::format("time.scheme = \"auto\": superposition of modes, since a bonded base makes the model linear and "
-                                 "{:.0f} direct steps cost more",
-                                 steps);
-            return fe2d::integrate_modal(model, motion, options);
-        }
-    }
+    if (scheme == TimeScheme::central_difference) return fe2d::integrate_explicit(model, motion, options);
+    if (scheme == TimeScheme::modal) return fe2d::integrate_modal(model, motion, options);
     return fe2d::integrate(model, motion, options);
 }
 
@@ -127,10 +113,10 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::Flu
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;
-    std::string reason;
-    run.history = integrate_by(scene.time, model, motion, options, reason);
+    const TiedScheme chosen = tied_scheme(scene.time, motion, options);
+    run.history = integrate_by(chosen.scheme, model, motion, options);
     run.seconds = start.seconds();
-    if (!reason.empty()) run.notes.push_back(std::move(reason));
+    if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);
     run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
     return run;
 }

@@ -1,5 +1,8 @@
 // Seconds of an FE run, part by part: 20 s record of 0.01 s steps, exact contact, everything included.
 #include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/time/integrate.hpp"
+#include "fe2d/time/modal_run.hpp"
 #include "verification/fe_run_scenes.hpp"
 
 #include <algorithm>
@@ -262,6 +265,80 @@ void all_element_tables()
     for (const double friction : {0.77, 0.70}) element_table(friction);
 }
 
+/// A bonded base by every integrator; the error of the crest against all that is left at dt/32.
+void tied_case(const char* name, bool rock, double b_k)
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, rock ? 0.5 : 2.0);
+    scene.mesh.size = 2.0;
+    scene.mesh.growth = 1.3;
+    if (!rock) {
+        scene.foundation.reset();
+        scene.curtain.reset();
+    }
+    fe2d::ModelOptions model_options;
+    model_options.added_mass = fe2d::test::options_of(scene).added_mass;
+    const fe2d::Model model = fe2d::build_model(scene, model_options);
+    const GroundMotion motion = fe2d::test::sines(1.0);
+    fe2d::TiedRunOptions options;
+    options.damping.constants = {1.9, b_k};
+    options.scheme = fe2d::hht(-0.05);
+    double direct = 0.0, limit = 0.0;
+    const auto row = [&](const char* method, const auto& run) {
+        const double start = processor_seconds();
+        const fe2d::History history = run();
+        const double seconds = processor_seconds() - start;
+        if (direct == 0.0) direct = seconds;
+        std::printf("%-14s %5d %-18s | %8ld %10.3g s | %8.3f %7.2f | %9.4f mm %8.3f %%\n", name, model.dofs.count, method,
+                    static_cast<long>(history.steps), history.time_step, seconds, seconds / direct,
+                    1e3 * history.peak_crest_x, 100.0 * (history.peak_crest_x / limit - 1.0));
+    };
+    const auto implicit = [&](int parts) {
+        fe2d::TiedRunOptions sub = options;
+        sub.dt = motion.dt / parts;
+        return fe2d::integrate(model, motion, sub);
+    };
+    limit = implicit(32).peak_crest_x;
+    row("HHT, dt", [&] { return implicit(1); });
+    row("HHT, dt/8", [&] { return implicit(8); });
+    row("modes", [&] { return fe2d::integrate_modal(model, motion, options); });
+    row("central diff.", [&] { return fe2d::integrate_explicit(model, motion, options); });
+}
+
+/// A dam that slides on a rigid base: explicit forward increments beside HHT at its default accuracy.
+void explicit_slide_case(double b_k)
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, 2.0);
+    scene.foundation.reset();
+    scene.curtain.reset();
+    scene.damping.mass_coefficient = 1.9;
+    scene.damping.stiffness_coefficient = b_k;
+    const GroundMotion motion = fe2d::test::sines(1.0);
+    double direct = 0.0;
+    for (const TimeScheme scheme : {TimeScheme::hht, TimeScheme::central_difference}) {
+        scene.time.scheme = scheme;
+        const double start = processor_seconds();
+        const fe2d::RunResult run = fe2d::EarthquakeRun(scene, fe2d::test::options_of(scene)).run(motion);
+        const double seconds = processor_seconds() - start;
+        if (direct == 0.0) direct = seconds;
+        std::printf("%-20s b_K %6.4f s | %8d %10.3g s | %8.3f %7.2f | %9.3f mm, estimate %6.3f %%\n",
+                    scheme == TimeScheme::hht ? "HHT" : "central difference", b_k, run.counts.steps, run.dt, seconds,
+                    seconds / direct, 1e3 * run.slip, 100.0 * run.slip_error / run.slip);
+    }
+}
+
+int tied_bench()
+{
+    std::printf("\nbonded base, 20 s; ratio to HHT at the record's step of 0.01 s; error of the peak crest motion against dt/32\n");
+    tied_case("rigid base", false, 0.0);
+    tied_case("rigid base", false, 0.00075);
+    tied_case("rock", true, 0.0);
+    tied_case("rock", true, 0.00075);
+    std::printf("\nsliding on a rigid base, default accuracy of 1 %%; ratio to HHT\n");
+    explicit_slide_case(0.0);
+    explicit_slide_case(0.00075);
+    return 0;
+}
+
 } // namespace
 
 int main(int count, char** words)
@@ -270,6 +347,7 @@ int main(int count, char** words)
         all_element_tables();
         return 0;
     }
+    if (count > 1 && std::string_view(words[1]) == "integrators") return tied_bench(); // these rows alone
     std::printf("processor seconds; contact is wall time within the run\n");
     std::printf("%-22s %6s %6s %5s %5s %6s | %8s %8s %8s %8s | %9s %5s %3s %4s | %s\n", "case", "dofs", "dam", "pairs",
                 "mu", "steps", "set-up", "run", "contact", "all", "a step", "iter", "max", "unr.", "slip");
@@ -299,5 +377,5 @@ int main(int count, char** words)
         for (const int modes : {fe2d::default_modes, 4 * fe2d::default_modes})
             reduced_case("7000 unknowns", 0.5, 2.0, 1.3, friction, modes);
     all_element_tables();
-    return 0;
+    return tied_bench();
 }

@@ -2,12 +2,14 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/time/explicit_run.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/fe_run_scenes.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -56,9 +58,10 @@ HardResult undamped()
     return against_rigid(scene, sines(1.0, 6.0));
 }
 
-/// Linear acceleration on a rigid base: the largest step the program lets pass, found by trying, against the highest
-/// frequency of the dense eigenproblem. The run above it is refused, the one below it comes to its end.
-HardResult explicit_above_limit()
+/// The largest step the program lets pass on a rigid base, found by trying, against `limit` over the highest frequency of
+/// the dense eigenproblem. The run above it is refused, the one below it comes to its end.
+HardResult above_limit(fe2d::MassKind mass, double limit,
+                       const std::function<fe2d::History(const fe2d::Model&, const GroundMotion&)>& run)
 {
     Scene scene = soft_dam(0.7);
     scene.foundation.reset();
@@ -67,16 +70,15 @@ HardResult explicit_above_limit()
     scene.uplift.reset();
     scene.mesh.size = 15.0;
     scene.mesh.contact_size = 15.0;
-    const fe2d::Model model = fe2d::build_model(scene);
+    fe2d::ModelOptions model_options;
+    model_options.mass = mass;
+    const fe2d::Model model = fe2d::build_model(scene, model_options);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(Eigen::MatrixXd(model.stiffness),
                                                                           Eigen::MatrixXd(model.mass));
     const double omega = std::sqrt(dense.eigenvalues().maxCoeff());
-    fe2d::TiedRunOptions options;
-    options.scheme = fe2d::linear_acceleration();
     const auto runs = [&](double dt) {
         try {
-            const fe2d::History history = fe2d::integrate(model, push(1.0, 100 * dt, 300 * dt, 0.0, dt), options);
-            return history.status == fe2d::TiedRunStatus::complete;
+            return run(model, push(1.0, 100 * dt, 300 * dt, 0.0, dt)).status == fe2d::TiedRunStatus::complete;
         } catch (const InputError&) {
             return false;
         }
@@ -88,10 +90,29 @@ HardResult explicit_above_limit()
     }
     HardResult result;
     result.value_a = low;
-    result.value_b = std::sqrt(12.0) / omega;
+    result.value_b = limit / omega;
     result.tolerance = 1e-6 * result.value_b;
     result.status = runs(1.01 * result.value_b) ? "at rest" : "refused";
     return result;
+}
+
+HardResult linear_acceleration_above_limit()
+{
+    return above_limit(fe2d::MassKind::consistent, std::sqrt(12.0),
+                       [](const fe2d::Model& model, const GroundMotion& motion) {
+                           fe2d::TiedRunOptions options;
+                           options.scheme = fe2d::linear_acceleration();
+                           return fe2d::integrate(model, motion, options);
+                       });
+}
+
+HardResult central_difference_above_limit()
+{
+    return above_limit(fe2d::MassKind::lumped, 2.0, [](const fe2d::Model& model, const GroundMotion& motion) {
+        fe2d::TiedRunOptions options;
+        options.dt = motion.dt;
+        return fe2d::integrate_explicit(model, motion, options);
+    });
 }
 
 } // namespace
@@ -138,7 +159,16 @@ void add_time_cases(HardCases& cases)
                      .method_b = "sqrt(12)/omega of the dense eigenproblem",
                      .tolerance = "1e-6: Lanczos' highest frequency",
                      .expected_status = "refused",
-                     .run = explicit_above_limit});
+                     .run = linear_acceleration_above_limit});
+    cases.push_back({.id = "hard.time.central-difference-above-limit",
+                     .why = "one step too large and the highest mode doubles with every step",
+                     .quantity = "largest step accepted",
+                     .unit = "s",
+                     .method_a = "FE, central difference, by trying",
+                     .method_b = "2/omega of the dense eigenproblem, lumped mass",
+                     .tolerance = "1e-6: Lanczos' highest frequency",
+                     .expected_status = "refused",
+                     .run = central_difference_above_limit});
 }
 
 } // namespace damslip::hard

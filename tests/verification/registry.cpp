@@ -41,6 +41,7 @@ Registry all_cases()
     add_fe_modes_cases(registry);
     add_fe_fluid_cases(registry);
     add_fe_time_cases(registry);
+    add_fe_integrator_cases(registry);
     add_fe_contact_cases(registry);
     add_fe_friction_cases(registry);
     add_fe_joint_cases(registry);
@@ -48,6 +49,7 @@ Registry all_cases()
     add_fe_sliding_cases(registry);
     add_fe_pairing_cases(registry);
     add_fe_moreau_cases(registry);
+    add_fe_explicit_contact_cases(registry);
     add_fe_reduction_cases(registry);
     add_fe_seepage_cases(registry);
     return registry;

@@ -83,7 +83,7 @@ bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
 std::vector<double> other_alphas(const TimeOptions& time)
 {
     std::vector<double> alphas{0.0, -0.05, -0.3};
-    if (time.scheme == TimeScheme::hht) std::erase(alphas, time.alpha);
+    if (time.scheme == TimeScheme::hht || time.scheme == TimeScheme::automatic) std::erase(alphas, time.alpha);
     return alphas;
 }
 

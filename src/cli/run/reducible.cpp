@@ -20,6 +20,13 @@ void check_reducible(const Scene& scene)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with reservoir.model = \"acoustic\".",
                                     "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
                                     "run without --reduced, or write  model = \"added-mass\"  in [reservoir]"});
+    if (scene.time.scheme == TimeScheme::modal || scene.time.scheme == TimeScheme::central_difference)
+        throw UsageError(Diagnostic{
+            scene.file.string(), 0, 0,
+            fmt::format("--reduced with time.scheme = \"{}\".",
+                        scene.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),
+            "scheme = \"auto\", \"hht\" or \"newmark\": a reduced run has its modes anyway, and steps them implicitly",
+            "run without --reduced, or delete scheme in [time]"});
     if (scene.time.stepping == Stepping::adaptive)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with time.stepping = \"adaptive\".",
                                     "stepping = \"uniform\", sub-steps of a reduced run are all alike",

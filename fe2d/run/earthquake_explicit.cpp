@@ -1,0 +1,93 @@
+#include "fe2d/run/earthquake_lane.hpp"
+#include "fe2d/run/ground_input.hpp"
+#include "fe2d/time/explicit_run.hpp"
+
+#include "core/input_error.hpp"
+#include "core/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// The passes of an earthquake run by explicit steps (ExplicitContact).
+namespace damslip::fe2d {
+
+namespace {
+
+/// The work ledger is an identity and closes in an unstable run, too; there ½u_{n+1}ᵀKu_n goes below zero and the kinetic energy
+/// beyond all that was put in.
+bool has_diverged(const ContactMotion& dynamics, double start_strain)
+{
+    const Energy& e = dynamics.energy();
+    const double given = start_strain + std::abs(e.external) + std::abs(e.contact_normal) + std::abs(e.friction);
+    return !std::isfinite(e.kinetic) || e.kinetic > 1e-4 * dynamics.static_normal_force() + 10.0 * given;
+}
+
+ExplicitLimit limit_of(const ExplicitOperators& operators)
+{
+    return {operators.highest_frequency(), operators.limit(), operators.undamped_limit()};
+}
+
+} // namespace
+
+/// @throws InputError for a step above the limit, and for joints that share nodes
+std::shared_ptr<const ExplicitOperators> EarthquakeRun::explicit_operators() const
+{
+    auto operators = std::make_shared<const ExplicitOperators>(*structure_, damping_);
+    if (!operators->separable())
+        throw InputError(Diagnostic{scene_.file.string(), 0, 0,
+                                    "time.scheme = \"central-difference\" with planes that share nodes.",
+                                    "planes without common nodes: each pair is then a problem of its own",
+                                    "use  scheme = \"hht\"  in [time]"});
+    if (scene_.time.dt) explicit_step(*scene_.time.dt, scene_.time.dt, limit_of(*operators));
+    return operators;
+}
+
+std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motion, int halvings,
+                                                       std::span<Lane* const> lanes) const
+{
+    const double row = motion.dt, duration = row * static_cast<double>(motion.accel_h.size() - 1);
+    const double step = explicit_step(row, scene_.time.dt, limit_of(*explicit_)) / (1 << halvings);
+    const long parts = std::lround(row / step);
+    const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
+    const auto record_steps = std::lround(duration / row);
+    const long all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / row - 1e-9));
+    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / row - 1e-9));
+    std::vector<RunResult> results;
+    for (const Lane* lane : lanes) {
+        const Stopwatch clock;
+        ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), lane->start, lane->memory);
+        Strength strength = lane->strength;
+        RunResult result = lane->result;
+        result.dt = step;
+        result.halvings = halvings;
+        result.max_slip = 0.0;
+        result.status = RunStatus::sliding_at_end;
+        HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
+        recorder.add();
+        std::vector<GroundAcceleration> ahead(static_cast<std::size_t>(strength.constant() ? parts : 1));
+        for (long n = 0; n < all_steps && result.status == RunStatus::sliding_at_end; ++n) {
+            for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
+                for (std::size_t k = 0; k < ahead.size(); ++k)
+                    ahead[k] = ground.at((static_cast<double>(n) +
+                                          static_cast<double>(done + static_cast<long>(k) + 1) / static_cast<double>(parts)) *
+                                         row);
+                dynamics.advance(step, ahead, strength.law());
+                strength.follow(dynamics.state().contact);
+            }
+            recorder.add();
+            result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
+            if (options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+                result.status = RunStatus::interrupted;
+            else if (has_diverged(dynamics, result.history.energy.front().strain))
+                result.status = RunStatus::diverged;
+            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
+                result.status = RunStatus::at_rest;
+        }
+        end_lane(dynamics, strength, *lane, result);
+        result.seconds.dynamics += clock.seconds();
+        results.push_back(std::move(result));
+    }
+    return results;
+}
+
+} // namespace damslip::fe2d
