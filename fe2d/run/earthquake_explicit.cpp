@@ -34,10 +34,9 @@ std::shared_ptr<const ExplicitOperators> EarthquakeRun::explicit_operators() con
 {
     auto operators = std::make_shared<const ExplicitOperators>(*structure_, damping_);
     if (!operators->separable())
-        throw InputError(Diagnostic{scene_.file.string(), 0, 0,
-                                    "time.scheme = \"central-difference\" with planes that share nodes.",
-                                    "planes without common nodes: each pair is then a problem of its own",
-                                    "use  scheme = \"hht\"  in [time]"});
+        throw InputError(Diagnostic{
+            scene_.file.string(), 0, 0, "time.scheme = \"central-difference\" with planes that share nodes.",
+            "planes without common nodes: each pair is then a problem of its own", "use  scheme = \"hht\"  in [time]"});
     if (scene_.time.dt) explicit_step(*scene_.time.dt, scene_.time.dt, limit_of(*operators));
     return operators;
 }
@@ -68,15 +67,17 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
         for (long n = 0; n < all_steps && result.status == RunStatus::sliding_at_end; ++n) {
             for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
                 for (std::size_t k = 0; k < ahead.size(); ++k)
-                    ahead[k] = ground.at((static_cast<double>(n) +
-                                          static_cast<double>(done + static_cast<long>(k) + 1) / static_cast<double>(parts)) *
-                                         row);
+                    ahead[k] =
+                        ground.at((static_cast<double>(n) +
+                                   static_cast<double>(done + static_cast<long>(k) + 1) / static_cast<double>(parts)) *
+                                  row);
                 dynamics.advance(step, ahead, strength.law());
                 strength.follow(dynamics.state().contact);
             }
             recorder.add();
             result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
-            if (options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+            if (options_.progress &&
+                options_.progress(progress_of(halvings, record_steps, n + 1, row)) == RunAnswer::stop)
                 result.status = RunStatus::interrupted;
             else if (has_diverged(dynamics, result.history.energy.front().strain))
                 result.status = RunStatus::diverged;

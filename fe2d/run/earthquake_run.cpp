@@ -45,12 +45,13 @@ void check_explicit(const Scene& scene, const Model& model)
         const Eigen::Index rock = model.dofs.count - 2 * model.mesh.dam_node_count;
         const auto massless = (model.mass.diagonal().tail(rock).array() <= 0.0).count();
         if (massless > 0)
-            throw wrong_scheme(scene,
-                               scheme + fmt::format("rock of {} unknowns without mass: its highest frequency is infinite, no "
-                                                    "step is stable.",
-                                                    massless),
-                               "a rigid base (no [foundation]) below a dam that slides",
-                               hht + ", or run  fe --base tied  (the rock is condensed), or delete [foundation]");
+            throw wrong_scheme(
+                scene,
+                scheme + fmt::format("rock of {} unknowns without mass: its highest frequency is infinite, no "
+                                     "step is stable.",
+                                     massless),
+                "a rigid base (no [foundation]) below a dam that slides",
+                hht + ", or run  fe --base tied  (the rock is condensed), or delete [foundation]");
         throw wrong_scheme(scene, scheme + "rock below a dam that slides.", "a rigid base (no [foundation])",
                            hht + ", or delete [foundation]");
     }
@@ -58,7 +59,8 @@ void check_explicit(const Scene& scene, const Model& model)
         throw wrong_scheme(scene, scheme + "acoustic water.", "no acoustic water: its coupling is not diagonal",
                            hht + ", or  model = \"added-mass\"  in [reservoir]");
     if (scene.contact.enforcement != ContactEnforcement::exact || scene.contact.normal != NormalContact::hard)
-        throw wrong_scheme(scene, scheme + "contact that gives way.", "contact.enforcement = \"exact\", normal = \"hard\"",
+        throw wrong_scheme(scene, scheme + "contact that gives way.",
+                           "contact.enforcement = \"exact\", normal = \"hard\"",
                            hht + ", or delete enforcement and normal in [contact]");
 }
 
@@ -66,10 +68,11 @@ void check_explicit(const Scene& scene, const Model& model)
 void check_scheme(const Scene& scene)
 {
     if (scene.time.scheme == TimeScheme::modal)
-        throw wrong_scheme(scene, "time.scheme = \"modal\" with a base that slides.",
-                           "a linear model: contact with friction has no modes",
-                           "run  fe --base tied , or  fe --reduced  (modes of the dam with exact contact), or use  scheme = "
-                           "\"hht\"  in [time]");
+        throw wrong_scheme(
+            scene, "time.scheme = \"modal\" with a base that slides.",
+            "a linear model: contact with friction has no modes",
+            "run  fe --base tied , or  fe --reduced  (modes of the dam with exact contact), or use  scheme = "
+            "\"hht\"  in [time]");
     if (scene.time.scheme == TimeScheme::central_difference) return; // check_explicit()
     const Scheme scheme = scheme_of(scene.time);
     if (!scene.foundation || scheme.unconditionally_stable()) return;
@@ -109,8 +112,10 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
 {
     check_scheme(scene_);
     const Stopwatch start;
-    model_ = std::make_unique<Model>(build_model(scene_, model_options(options_, Base::separate)));
     const bool explicit_steps = scene_.time.scheme == TimeScheme::central_difference;
+    ModelOptions parts = model_options(options_, Base::separate);
+    if (explicit_steps) parts.mass = MassKind::lumped;
+    model_ = std::make_unique<Model>(build_model(scene_, parts));
     if (explicit_steps) check_explicit(scene_, *model_);
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
         water_ = std::make_unique<WaterBody>(scene_, *model_);

@@ -136,7 +136,8 @@ private:
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
+    std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings,
+                                            std::span<Lane* const> lanes) const;
     void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
@@ -147,7 +148,7 @@ private:
     std::unique_ptr<WaterBody> water_; ///< acoustic; null: none
     std::unique_ptr<ContactStructure> structure_;
     std::shared_ptr<const StaticOperator> statics_;
-    std::shared_ptr<StepOperators> operators_;           ///< null with explicit steps
+    std::shared_ptr<StepOperators> operators_;          ///< null with explicit steps
     std::shared_ptr<const ExplicitOperators> explicit_; ///< null with implicit steps
     LoadStages stages_;
     RunDamping damping_;

@@ -122,7 +122,8 @@ void ExplicitContact::add_energy(double dt, const VectorXd& v_before)
 
 std::size_t ExplicitContact::bytes() const
 {
-    const auto entries = operators_->stiffness.nonZeros() + operators_->mass.nonZeros() + operators_->inverse.nonZeros();
+    const auto entries =
+        operators_->stiffness.nonZeros() + operators_->mass.nonZeros() + operators_->inverse.nonZeros();
     return static_cast<std::size_t>(entries) * (sizeof(double) + sizeof(int)) +
            10 * static_cast<std::size_t>(state_.u.size()) * sizeof(double);
 }

@@ -102,8 +102,8 @@ private:
     double normal_force_ = 0.0;
     Eigen::VectorXd product_, rate_product_; ///< K u, K v₋
     int since_product_ = 0;
-    Eigen::VectorXd impulse_, impulses_;       ///< of the step, and summed up, 2m
-    Eigen::VectorXd loads_, damping_force_;    ///< of the step
+    Eigen::VectorXd impulse_, impulses_;    ///< of the step, and summed up, 2m
+    Eigen::VectorXd loads_, damping_force_; ///< of the step
     Energy energy_, energy_start_;
     double energy_scale_ = 0.0;
     DynamicCounts counts_;

@@ -69,7 +69,8 @@ void ExplicitOperators::make_mass()
     inverse.setFromTriplets(inverse_entries.begin(), inverse_entries.end());
     damped_ = VectorXd::Zero(x.size());
     for (Index k = 0; k < x.size(); ++k)
-        damped_[k] = damping_.constants.mass * (k % 2 == 0 ? structure_.dam_inertia_x()[k] : structure_.dam_inertia_y()[k]);
+        damped_[k] =
+            damping_.constants.mass * (k % 2 == 0 ? structure_.dam_inertia_x()[k] : structure_.dam_inertia_y()[k]);
 }
 
 void ExplicitOperators::make_pairs()
@@ -113,18 +114,19 @@ ExplicitOperators::ExplicitOperators(const ContactStructure& structure, const Ru
         for (Index k = 0; k < slip_damping_.drag.cols(); ++k) {
             double inverse_norm = 0.0;
             for (Index i = 0; i < m; ++i)
-                inverse_norm += slip_damping_.weights(i, k) * slip_damping_.weights(i, k) * pairs[static_cast<std::size_t>(i)].tt;
+                inverse_norm +=
+                    slip_damping_.weights(i, k) * slip_damping_.weights(i, k) * pairs[static_cast<std::size_t>(i)].tt;
             norm += std::sqrt(slip_damping_.drag(k, k) / damping.constants.mass * inverse_norm);
         }
     }
-    damping_bound_ = damping.constants.stiffness * highest_frequency_ * highest_frequency_ +
-                     damping.constants.mass * norm * norm;
+    damping_bound_ =
+        damping.constants.stiffness * highest_frequency_ * highest_frequency_ + damping.constants.mass * norm * norm;
 }
 
 double ExplicitOperators::limit() const
 {
-    return 4.0 / (damping_bound_ + std::sqrt(damping_bound_ * damping_bound_ +
-                                             4.0 * highest_frequency_ * highest_frequency_));
+    return 4.0 / (damping_bound_ +
+                  std::sqrt(damping_bound_ * damping_bound_ + 4.0 * highest_frequency_ * highest_frequency_));
 }
 
 /// C v = a_M M_dam v - P ωᵀ D_t v - D_tᵀ ω (Pᵀ v - κ ωᵀ D_t v) + b_K K v.

@@ -40,7 +40,8 @@ SparseMatrix inverse_of_blocks(const SparseMatrix& matrix)
 SparseMatrix lumped_mass(const DofMap& dofs, const VectorXd& inertia_x, const VectorXd& inertia_y, Index size)
 {
     std::vector<Eigen::Triplet<double>> entries;
-    std::vector<char> seen(static_cast<std::size_t>(size), 0); // nodes of a joint that does not open share their unknowns
+    std::vector<char> seen(static_cast<std::size_t>(size),
+                           0); // nodes of a joint that does not open share their unknowns
     for (std::size_t node = 0; node < dofs.dofs.size() / 2; ++node) {
         const int x = dofs(static_cast<int>(node), 0), y = dofs(static_cast<int>(node), 1);
         const auto take = [&](int dof) {
@@ -90,8 +91,7 @@ State CentralDifference::start(const VectorXd& displacement, const VectorXd& vel
     s.load = load;
     s.interface_force = VectorXd::Zero(displacement.size());
     s.stiffness_force = system_.stiffness * displacement;
-    s.damping_force =
-        system_.mass_damping * velocity + system_.stiffness_damping * (system_.stiffness * velocity);
+    s.damping_force = system_.mass_damping * velocity + system_.stiffness_damping * (system_.stiffness * velocity);
     s.unbalanced = s.damping_force + s.stiffness_force - load;
     s.unbalanced_before = s.unbalanced;
     s.acceleration = -(inverse_of_blocks(system_.mass) * s.unbalanced);

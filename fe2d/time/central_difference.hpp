@@ -7,10 +7,10 @@ namespace damslip::fe2d {
 
 /// A linear system as explicit steps want it. Displacements and forces have the sizes of LinearSystem's.
 struct ExplicitSystem {
-    SparseMatrix mass;               ///< M, diagonal in 2 x 2 blocks of one node's unknowns, positive definite [kg/m]
-    SparseMatrix mass_damping;       ///< part of C with the same blocks, positive semi-definite [N s/m^2]
-    SparseMatrix stiffness;          ///< K [N/m^2]
-    double stiffness_damping = 0.0;  ///< b_K of the part b_K K of C, >= 0 [s]
+    SparseMatrix mass;              ///< M, diagonal in 2 x 2 blocks of one node's unknowns, positive definite [kg/m]
+    SparseMatrix mass_damping;      ///< part of C with the same blocks, positive semi-definite [N s/m^2]
+    SparseMatrix stiffness;         ///< K [N/m^2]
+    double stiffness_damping = 0.0; ///< b_K of the part b_K K of C, >= 0 [s]
 };
 
 /// Row sums of everything that moves, by node: the lumped mass. Added mass on an inclined face couples the two directions of
@@ -41,7 +41,8 @@ public:
 
     double dt() const { return dt_; }
     /// a₀ from M a₀ = R₀ - C v₀ - K u₀.
-    State start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity, const Eigen::VectorXd& load) const;
+    State start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
+                const Eigen::VectorXd& load) const;
     /// `after` is overwritten (its memory is used again) and must not be `before`. Its damping force is the one the step
     /// used. K u is carried on by K u₁ = K u₀ + Δt K ṽ and made anew every 256 steps.
     void step(const State& before, const Eigen::VectorXd& load_after, State& after);

@@ -32,11 +32,12 @@ void check(const TiedProblem& problem)
 {
     if (problem.options.water)
         refuse_explicit("time.scheme = \"central-difference\" with acoustic water.",
-               "no acoustic water: its coupling with the dam is not diagonal, so no step would be explicit",
-               "use  scheme = \"hht\"  in [time], or  model = \"added-mass\"  in [reservoir]");
+                        "no acoustic water: its coupling with the dam is not diagonal, so no step would be explicit",
+                        "use  scheme = \"hht\"  in [time], or  model = \"added-mass\"  in [reservoir]");
     if (problem.other_damping() > 1e-9)
-        refuse_explicit("time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",
-               "Rayleigh damping", "use  scheme = \"hht\"  in [time]");
+        refuse_explicit(
+            "time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",
+            "Rayleigh damping", "use  scheme = \"hht\"  in [time]");
 }
 
 /// Rock without mass is infinitely fast: no step would be small enough. By the mass of its unknowns, not by a key.
@@ -46,8 +47,8 @@ void check_mass(const SparseMatrix& lumped)
     const auto massless = (diagonal.array() <= 0.0).count();
     if (massless == 0) return;
     refuse_explicit(fmt::format("time.scheme = \"central-difference\" with {} unknowns without mass.", massless),
-           "mass on every unknown: without it the highest frequency is infinite and no step is stable",
-           "give the rock a density, or use  scheme = \"hht\"  in [time]");
+                    "mass on every unknown: without it the highest frequency is infinite and no step is stable",
+                    "give the rock a density, or use  scheme = \"hht\"  in [time]");
 }
 
 class ExplicitRun {
@@ -76,9 +77,10 @@ ExplicitSystem ExplicitRun::system() const
     const Index n = problem_.structure.system.size();
     ExplicitSystem system;
     system.mass = lumped_mass(model.dofs, model.inertia_x, model.inertia_y, n);
-    system.mass_damping =
-        damping.mass * lumped_mass(model.dofs, inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0}),
-                                   inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0}), n);
+    const auto inertia = [&model](const Eigen::Vector2d& direction) {
+        return inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
+    };
+    system.mass_damping = damping.mass * lumped_mass(model.dofs, inertia({1.0, 0.0}), inertia({0.0, 1.0}), n);
     system.stiffness = problem_.structure.system.stiffness;
     system.stiffness_damping = damping.stiffness;
     return system;
@@ -144,8 +146,8 @@ History ExplicitRun::go()
     HistoryWriter writer(history_, options_, dt, steps, keep);
     history_.unknowns = parts.stiffness.rows();
     history_.step_limit = limit.dt;
-    history_.notes.push_back(limit.text() + fmt::format("; steps of {:.4g} s, rows of the history every {:g} s", dt,
-                                                        keep * dt));
+    history_.notes.push_back(limit.text() +
+                             fmt::format("; steps of {:.4g} s, rows of the history every {:g} s", dt, keep * dt));
     CentralDifference scheme(std::move(parts), dt);
     shake(scheme, writer, steps);
     return std::move(history_);
@@ -158,8 +160,8 @@ std::string ExplicitLimit::text() const
     std::string damped;
     if (dt < dt_undamped)
         damped = fmt::format(" ({:.4g} s without stiffness damping, which acts half a step late)", dt_undamped);
-    return fmt::format("central difference, lumped mass: stable up to {:.5g} s{}, highest frequency {:.5g} Hz", dt, damped,
-                       highest_frequency / (2.0 * std::numbers::pi));
+    return fmt::format("central difference, lumped mass: stable up to {:.5g} s{}, highest frequency {:.5g} Hz", dt,
+                       damped, highest_frequency / (2.0 * std::numbers::pi));
 }
 
 ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& stiffness, double stiffness_damping)
@@ -184,12 +186,12 @@ double explicit_step(double motion_dt, std::optional<double> asked, const Explic
                     shortest(motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt))));
     if (*asked > limit.dt)
         refuse_explicit("time.dt_s = " + shortest(*asked) + " is above the limit of the central difference, " +
-                   fmt::format("{:.6g} s.", limit.dt),
-               "at most " + fmt::format("{:.6g} s: ", limit.dt) + limit.text(), fix);
+                            fmt::format("{:.6g} s.", limit.dt),
+                        "at most " + fmt::format("{:.6g} s: ", limit.dt) + limit.text(), fix);
     if (!(*asked > 0.0) || parts < 1.0 || std::abs(parts * *asked - motion_dt) > 1e-9 * motion_dt)
-        refuse_explicit("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " + shortest(motion_dt) +
-                   " s.",
-               shortest(motion_dt) + " s divided by 1, 2, 3, ...", "write  dt_s = " + shortest(fits));
+        refuse_explicit("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " +
+                            shortest(motion_dt) + " s.",
+                        shortest(motion_dt) + " s divided by 1, 2, 3, ...", "write  dt_s = " + shortest(fits));
     return motion_dt / parts;
 }
 

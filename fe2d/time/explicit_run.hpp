@@ -22,7 +22,8 @@ ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& sti
 double explicit_step(double motion_dt, std::optional<double> asked, const ExplicitLimit& limit);
 
 /// The run of integrate() by central differences with lumped mass (CentralDifference). Massless rock is condensed, which leaves
-/// no massless unknown; rock with mass stays whole. `options.scheme` is not used.
+/// no massless unknown; rock with mass stays whole. `options.scheme` is not used. Quadratic elements need a model with
+/// MassKind::lumped (their row sums are not positive).
 ///
 /// Rows are kept at the motion's steps, peaks and energies see every step.
 /// @throws InputError for a step above the limit, acoustic water, massless unknowns (RockTreatment::whole), damping that is neither

@@ -23,17 +23,18 @@ struct HistoryRow {
     double crest_accel_x = 0.0, crest_accel_y = 0.0; ///< absolute, downstream and up [m/s^2]
     double base_shear = 0.0;                         ///< of the dam on the rock, positive downstream [N/m]
     double base_normal = 0.0; ///< of the dam on the rock, compression positive [N/m]; total, without uplift
-    double water_force_x = 0.0; ///< of acoustic water beyond the static one on the dam, positive downstream [N/m]; 0 without
-    Energy energy;            ///< [J/m]
-    double imbalance = 0.0;   ///< of the energies since the start [J/m]
+    double water_force_x =
+        0.0;       ///< of acoustic water beyond the static one on the dam, positive downstream [N/m]; 0 without
+    Energy energy; ///< [J/m]
+    double imbalance = 0.0; ///< of the energies since the start [J/m]
 };
 
 /// What a superposition of modes leaves out. The modes left out follow the ground statically; the errors are estimates of
 /// the dynamic part of them, see integrate_modal().
 struct ModalTruncation {
     int modes = 0;
-    double highest_frequency = 0.0;                             ///< of the modes kept [Hz]
-    Eigen::Vector2d mass_share = Eigen::Vector2d::Zero();       ///< effective mass kept, in x and in y [-]
+    double highest_frequency = 0.0;                       ///< of the modes kept [Hz]
+    Eigen::Vector2d mass_share = Eigen::Vector2d::Zero(); ///< effective mass kept, in x and in y [-]
     double damping_coupling = 0.0; ///< largest |φ_iᵀCφ_j| over the root of φ_iᵀCφ_i φ_jᵀCφ_j, i ≠ j; 0: classical [-]
     double crest_x_error = 0.0;       ///< [m]
     double crest_accel_x_error = 0.0; ///< [m/s^2]

@@ -98,7 +98,8 @@ void ModalRecurrence::step(VectorXd& q, VectorXd& rate, const VectorXd& before, 
         rate = x.tail(n);
         return;
     }
-    const Eigen::ArrayXd q0 = q.array(), v0 = rate.array(), p0 = (loads_ * before).array(), p1 = (loads_ * after).array();
+    const Eigen::ArrayXd q0 = q.array(), v0 = rate.array(), p0 = (loads_ * before).array(),
+                         p1 = (loads_ * after).array();
     q = (qq_ * q0 + qv_ * v0 + q0_ * p0 + q1_ * p1).matrix();
     rate = (vq_ * q0 + vv_ * v0 + v0_ * p0 + v1_ * p1).matrix();
 }

@@ -28,15 +28,15 @@ Vector2d amplitudes(const GroundState& ground)
 
 /// The modes kept, and what rows of the history take from them.
 struct ModalBasis {
-    MatrixXd shape;        ///< Φ, n x N
-    MatrixXd participation; ///< Γ, N x 2
-    MatrixXd residual;     ///< w, n x 2 [s^2]
-    VectorXd omega;        ///< [rad/s]
-    MatrixXd damping;      ///< ΦᵀCΦ [1/s]
+    MatrixXd shape;                ///< Φ, n x N
+    MatrixXd participation;        ///< Γ, N x 2
+    MatrixXd residual;             ///< w, n x 2 [s^2]
+    VectorXd omega;                ///< [rad/s]
+    MatrixXd damping;              ///< ΦᵀCΦ [1/s]
     MatrixXd crest, inertia, drag; ///< rows of Φ at the crest; M_dam r and a_M M_s r times Φ; 2 x N
-    MatrixXd late;         ///< -(K⁻¹ - ΦΩ⁻²Φᵀ) C Φ at the crest, 2 x N: modes left out follow the damping of those kept [s]
-    VectorXd still;        ///< Φᵀ R_static
-    Vector2d mass_share;   ///< effective mass kept [-]
+    MatrixXd late; ///< -(K⁻¹ - ΦΩ⁻²Φᵀ) C Φ at the crest, 2 x N: modes left out follow the damping of those kept [s]
+    VectorXd still;      ///< Φᵀ R_static
+    Vector2d mass_share; ///< effective mass kept [-]
 };
 
 /// Static responses, made once for any number of modes.
@@ -130,10 +130,10 @@ private:
 void ModalLedger::step(const Instant& a, const Instant& b, double dt)
 {
     const VectorXd squares = basis_.omega.cwiseAbs2();
-    const VectorXd integral = (0.5 * dt * (a.load + b.load) - (b.rate - a.rate) - basis_.damping * (b.q - a.q))
-                                  .cwiseQuotient(squares);
-    energy_.external += b.load.dot(b.q) - a.load.dot(a.q) - (b.load - a.load).dot(integral) / dt +
-                        basis_.still.dot(b.q - a.q);
+    const VectorXd integral =
+        (0.5 * dt * (a.load + b.load) - (b.rate - a.rate) - basis_.damping * (b.q - a.q)).cwiseQuotient(squares);
+    energy_.external +=
+        b.load.dot(b.q) - a.load.dot(a.q) - (b.load - a.load).dot(integral) / dt + basis_.still.dot(b.q - a.q);
     const VectorXd drag_a = basis_.damping * a.rate, drag_b = basis_.damping * b.rate;
     energy_.damping += 0.5 * dt * (a.rate.dot(drag_a) + b.rate.dot(drag_b)) +
                        dt * dt / 6.0 * (a.acceleration.dot(drag_a) - b.acceleration.dot(drag_b));
@@ -169,9 +169,9 @@ HistoryRow ModalRun::row(double time, const GroundState& ground, const ModalLedg
     const Vector2d a = amplitudes(ground);
     const Index x = problem_.crest_x, y = problem_.crest_y;
     TiedSums sums;
-    sums.crest = Vector2d(problem_.start[x] + basis_.residual.row(x).dot(a),
-                          problem_.start[y] + basis_.residual.row(y).dot(a)) +
-                 basis_.crest * now.q + basis_.late * now.rate;
+    sums.crest =
+        Vector2d(problem_.start[x] + basis_.residual.row(x).dot(a), problem_.start[y] + basis_.residual.row(y).dot(a)) +
+        basis_.crest * now.q + basis_.late * now.rate;
     sums.crest_accel = basis_.crest * now.acceleration;
     sums.inertia = basis_.inertia * now.acceleration;
     sums.damping = basis_.drag * now.rate;
@@ -190,8 +190,8 @@ void ModalRun::estimate(const HighestMode& highest, History& history) const
     t.damping_coupling = coupling_of(basis_.damping);
     const Eigen::RowVector2d crest = basis_.crest.row(0) * basis_.participation;
     const Eigen::RowVector2d shear = basis_.inertia.row(0) * basis_.participation;
-    const Eigen::RowVector2d rigid_crest(1.0, 0.0), rigid_shear(problem_.mass_x.dot(problem_.rigid_x()),
-                                                                problem_.mass_x.dot(problem_.rigid_y()));
+    const Eigen::RowVector2d rigid_crest(1.0, 0.0),
+        rigid_shear(problem_.mass_x.dot(problem_.rigid_x()), problem_.mass_x.dot(problem_.rigid_y()));
     t.crest_x_error = basis_.residual.row(problem_.crest_x).cwiseAbs().dot(highest.departure);
     t.crest_accel_x_error = (rigid_crest - crest).cwiseAbs().dot(highest.acceleration);
     t.base_shear_error = (rigid_shear - shear).cwiseAbs().dot(highest.acceleration);
@@ -206,7 +206,8 @@ History ModalRun::go()
     const Index count = basis_.omega.size(), top = count - 1;
     HighestMode highest(basis_.omega[top], basis_.damping(top, top), dt_);
     GroundState ground = problem_.ground.at(0.0);
-    ModalLedger::Instant before{VectorXd::Zero(count), VectorXd::Zero(count), {}, basis_.participation * amplitudes(ground)},
+    ModalLedger::Instant before{
+        VectorXd::Zero(count), VectorXd::Zero(count), {}, basis_.participation * amplitudes(ground)},
         after;
     before.acceleration = before.load;
     ModalLedger ledger(basis_, 0.5 * problem_.start.dot(problem_.structure.system.stiffness * problem_.start));
@@ -270,14 +271,16 @@ void note(History& history)
     history.notes.push_back(fmt::format(
         "superposition of {} modes up to {:.4g} Hz with {:.4g} % (x) and {:.4g} % (y) of the mass, exact in time{}",
         t.modes, t.highest_frequency, 100.0 * t.mass_share.x(), 100.0 * t.mass_share.y(),
-        t.damping_coupling > 0.0 ? fmt::format("; the undamped added mass couples them (largest {:.2g}), solved together",
-                                               t.damping_coupling)
-                                 : ""));
-    history.notes.push_back(fmt::format(
-        "modes left out follow the ground statically; their motion is estimated at {:.2g} % of the peak crest x, {:.2g} % of "
-        "its acceleration, {:.2g} % of the base shear",
-        percent(t.crest_x_error, history.peak_crest_x), percent(t.crest_accel_x_error, history.peak_crest_accel_x),
-        percent(t.base_shear_error, std::abs(history.peak_base_shear))));
+        t.damping_coupling > 0.0
+            ? fmt::format("; the undamped added mass couples them (largest {:.2g}), solved together",
+                          t.damping_coupling)
+            : ""));
+    history.notes.push_back(fmt::format("modes left out follow the ground statically; their motion is estimated at "
+                                        "{:.2g} % of the peak crest x, {:.2g} % of "
+                                        "its acceleration, {:.2g} % of the base shear",
+                                        percent(t.crest_x_error, history.peak_crest_x),
+                                        percent(t.crest_accel_x_error, history.peak_crest_accel_x),
+                                        percent(t.base_shear_error, std::abs(history.peak_base_shear))));
 }
 
 } // namespace
@@ -285,9 +288,11 @@ void note(History& history)
 std::string modal_obstacle(const TiedRunOptions& options)
 {
     if (options.water)
-        return "acoustic water: it radiates and is not damped like the dam, so real modes do not separate the equations";
+        return "acoustic water: it radiates and is not damped like the dam, so real modes do not separate the "
+               "equations";
     if (options.damping.mass == MassDamping::total && options.damping.constants.mass != 0.0)
-        return "mass damping of the total velocity: its load, a_M times the ground's velocity, is not linear between samples";
+        return "mass damping of the total velocity: its load, a_M times the ground's velocity, is not linear between "
+               "samples";
     return {};
 }
 
@@ -298,7 +303,8 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
     const double dt = step_of(motion, options);
     TiedProblem problem(model, motion, options);
     if (problem.other_damping() > 1e-9)
-        refuse_modal("damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
+        refuse_modal(
+            "damping that is neither mass- nor stiffness-proportional: real modes do not separate the equations");
     History history;
     const auto failed = [&history](std::string text) {
         history.status = TiedRunStatus::solver_failed;

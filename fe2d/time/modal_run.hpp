@@ -7,11 +7,11 @@ namespace damslip::fe2d {
 /// How many modes a superposition takes. The number is doubled from `first` until the estimates of ModalTruncation are below
 /// the tolerances, or `most` is reached.
 struct ModalOptions {
-    std::optional<int> modes;       ///< this many, >= 1, whatever the estimates; default: chosen
-    int first = 12;                 ///< >= 1
-    int most = 192;                 ///< >= first
-    double crest_tolerance = 1e-3;  ///< of the crest's peak displacement [-]
-    double force_tolerance = 1e-2;  ///< of the peaks of the crest's acceleration and of the base shear [-]
+    std::optional<int> modes;      ///< this many, >= 1, whatever the estimates; default: chosen
+    int first = 12;                ///< >= 1
+    int most = 192;                ///< >= first
+    double crest_tolerance = 1e-3; ///< of the crest's peak displacement [-]
+    double force_tolerance = 1e-2; ///< of the peaks of the crest's acceleration and of the base shear [-]
 };
 
 /// Why a run with these options cannot be made by superposition of modes; empty: it can.

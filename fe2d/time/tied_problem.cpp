@@ -52,8 +52,8 @@ void TiedProblem::balance()
     const DofMap all = all_dofs(model.mesh, 2);
     for (const int c : {0, 1}) {
         const Eigen::Vector2d direction = Eigen::Vector2d::Unit(c);
-        const VectorXd dam = inertia_vector(model.mesh, model.dofs, dam_only, direction);
-        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.materials, direction);
+        const VectorXd dam = inertia_vector(model.mesh, model.dofs, dam_only, direction, model.mass_kind);
+        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
         const VectorXd& moving = c == 0 ? model.inertia_x : model.inertia_y;
         // What moves, less the rock's own share.
         (c == 0 ? mass_x : mass_y) = (moving - whole + dam).head(n);
@@ -75,8 +75,11 @@ bool TiedProblem::prepare()
     balance();
     if (total_velocity) {
         const double a_m = options.damping.constants.mass;
-        load.damped_x = a_m * inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0}).head(n);
-        load.damped_y = a_m * inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0}).head(n);
+        const auto inertia = [&](const Eigen::Vector2d& direction) {
+            return inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
+        };
+        load.damped_x = a_m * inertia({1.0, 0.0}).head(n);
+        load.damped_y = a_m * inertia({0.0, 1.0}).head(n);
     }
     start = load.still.isZero(0.0) ? VectorXd::Zero(n) : VectorXd(static_response(load.still));
     return structure.solver.ok();

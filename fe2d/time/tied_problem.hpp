@@ -7,11 +7,11 @@ namespace damslip::fe2d {
 
 /// What a row of the history needs of a state, summed up by the caller.
 struct TiedSums {
-    Eigen::Vector2d crest = Eigen::Vector2d::Zero();        ///< displacement of the crest's upstream end [m]
-    Eigen::Vector2d crest_accel = Eigen::Vector2d::Zero();  ///< its acceleration, relative to the ground [m/s^2]
-    Eigen::Vector2d inertia = Eigen::Vector2d::Zero();      ///< rᵀM_dam a [N/m], see TiedProblem::mass_x
-    Eigen::Vector2d damping = Eigen::Vector2d::Zero();      ///< a_M rᵀM_s v [N/m]
-    Eigen::Vector2d water_force = Eigen::Vector2d::Zero();  ///< of acoustic water on the dam [N/m]
+    Eigen::Vector2d crest = Eigen::Vector2d::Zero();       ///< displacement of the crest's upstream end [m]
+    Eigen::Vector2d crest_accel = Eigen::Vector2d::Zero(); ///< its acceleration, relative to the ground [m/s^2]
+    Eigen::Vector2d inertia = Eigen::Vector2d::Zero();     ///< rᵀM_dam a [N/m], see TiedProblem::mass_x
+    Eigen::Vector2d damping = Eigen::Vector2d::Zero();     ///< a_M rᵀM_s v [N/m]
+    Eigen::Vector2d water_force = Eigen::Vector2d::Zero(); ///< of acoustic water on the dam [N/m]
 };
 
 /// What every way of running a dam tied to its base starts from: matrices, loads, the state of rest.
@@ -25,7 +25,7 @@ struct TiedProblem {
     Eigen::MatrixXd static_response(const Eigen::MatrixXd& loads);
     Eigen::VectorXd rigid_x() const; ///< unit translation of the system's unknowns in x ...
     Eigen::VectorXd rigid_y() const; ///< ... and in y
-    double other_damping() const; ///< part of C that is neither a_M M_s nor b_K K, over all of it [-]
+    double other_damping() const;    ///< part of C that is neither a_M M_s nor b_K K, over all of it [-]
     /// Row without energies. Force of the dam on the rock from the balance of the whole dam: with a rigid translation r the
     /// internal forces drop out, rᵀR_static + rᵀH p - rᵀM (ü + r a_g) - a_M rᵀM_s (u̇ [+ r v_g]).
     HistoryRow row(double time, const GroundState& ground, const TiedSums& sums) const;
@@ -38,9 +38,9 @@ struct TiedProblem {
     bool total_velocity; ///< the mass damping resists the total velocity
     StructureSystem structure;
     GroundLoad load;
-    Eigen::VectorXd start;           ///< displacements at rest [m]
-    Eigen::VectorXd mass_x, mass_y;  ///< M_dam r_x, M_dam r_y, own and added mass of the dam alone, on the system [kg/m]
-    Eigen::VectorXd damped_x, damped_y; ///< a_M M_s r of the dam [kg/(m s)]
+    Eigen::VectorXd start;          ///< displacements at rest [m]
+    Eigen::VectorXd mass_x, mass_y; ///< M_dam r_x, M_dam r_y, own and added mass of the dam alone, on the system [kg/m]
+    Eigen::VectorXd damped_x, damped_y;                     ///< a_M M_s r of the dam [kg/(m s)]
     Eigen::Vector2d total = Eigen::Vector2d::Zero();        ///< rᵀM r of the dam, fixed nodes included [kg/m]
     Eigen::Vector2d damped_total = Eigen::Vector2d::Zero(); ///< a_M rᵀM_s r [kg/(m s)]
     Eigen::Index crest_x, crest_y;                          ///< unknowns of the crest's upstream end

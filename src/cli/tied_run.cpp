@@ -76,9 +76,10 @@ Table run_table(const std::vector<TiedRun>& runs)
         t.rows.push_back(
             {r.record,
              r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text,
-             r.history.method, static_cast<std::int64_t>(r.history.steps), r.history.time_step, 1e3 * r.history.peak_crest_x,
-             r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3, radiated_share(r.history),
-             r.history.largest_imbalance, static_cast<std::int64_t>(r.history.factorisations), r.seconds});
+             r.history.method, static_cast<std::int64_t>(r.history.steps), r.history.time_step,
+             1e3 * r.history.peak_crest_x, r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3,
+             radiated_share(r.history), r.history.largest_imbalance,
+             static_cast<std::int64_t>(r.history.factorisations), r.seconds});
     t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance "
                       "over the largest energy of the run.");
     return t;
@@ -128,6 +129,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
 {
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
+    if (scene.time.scheme == TimeScheme::central_difference) options.mass = fe2d::MassKind::lumped;
     const fe2d::Model model = fe2d::build_model(scene, options);
     std::optional<fe2d::FluidModel> water;
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)

@@ -38,7 +38,8 @@ void check_scheme(const Scene& s, Findings& f)
                 "delete alpha or choose hht");
     if (scheme != TimeScheme::newmark && (f.given("time.gamma") || f.given("time.beta")))
         f.wrong(f.given("time.gamma") ? "time.gamma" : "time.beta",
-                hht ? std::string("time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.")
+                hht ? std::string(
+                          "time.gamma and time.beta belong to time.scheme = \"newmark\"; hht takes them from alpha.")
                     : fmt::format("time.gamma and time.beta belong to time.scheme = \"newmark\", but the scheme is "
                                   "\"{}\".",
                                   written(scheme)),

@@ -109,15 +109,17 @@ std::vector<KeyGroup> fe_groups()
     groups.push_back(group(
         "time", "Time integration of the FE model.", &Scene::time,
         {word("scheme", "auto; hht where alpha is given",
-              "integrator. auto: superposition of modes on a bonded base (fe --base tied) where it costs less, else hht; "
+              "integrator. auto: superposition of modes on a bonded base (fe --base tied) where it costs less, else "
+              "hht; "
               "central-difference: explicit, steps below its limit; modal: bonded base only",
               "\"central-difference\"",
-              choice(&TimeOptions::scheme, std::vector<std::pair<std::string, TimeScheme>>{
-                                               {"auto", TimeScheme::automatic},
-                                               {"hht", TimeScheme::hht},
-                                               {"newmark", TimeScheme::newmark},
-                                               {"central-difference", TimeScheme::central_difference},
-                                               {"modal", TimeScheme::modal}})),
+              choice(&TimeOptions::scheme,
+                     std::vector<std::pair<std::string, TimeScheme>>{
+                         {"auto", TimeScheme::automatic},
+                         {"hht", TimeScheme::hht},
+                         {"newmark", TimeScheme::newmark},
+                         {"central-difference", TimeScheme::central_difference},
+                         {"modal", TimeScheme::modal}})),
          with_hht(number("alpha", none, Range::between(-1.0 / 3.0, 0), "-0.05", "HHT alpha", "-0.05",
                          at(&TimeOptions::alpha))),
          only_with(TimeScheme::newmark, number("gamma", none, Range::between(0.5, 1.5), "0.5", "Newmark gamma", "0.5",

@@ -288,8 +288,8 @@ void tied_case(const char* name, bool rock, double b_k)
         const fe2d::History history = run();
         const double seconds = processor_seconds() - start;
         if (direct == 0.0) direct = seconds;
-        std::printf("%-14s %5d %-18s | %8ld %10.3g s | %8.3f %7.2f | %9.4f mm %8.3f %%\n", name, model.dofs.count, method,
-                    static_cast<long>(history.steps), history.time_step, seconds, seconds / direct,
+        std::printf("%-14s %5d %-18s | %8ld %10.3g s | %8.3f %7.2f | %9.4f mm %8.3f %%\n", name, model.dofs.count,
+                    method, static_cast<long>(history.steps), history.time_step, seconds, seconds / direct,
                     1e3 * history.peak_crest_x, 100.0 * (history.peak_crest_x / limit - 1.0));
     };
     const auto implicit = [&](int parts) {
@@ -328,7 +328,8 @@ void explicit_slide_case(double b_k)
 
 int tied_bench()
 {
-    std::printf("\nbonded base, 20 s; ratio to HHT at the record's step of 0.01 s; error of the peak crest motion against dt/32\n");
+    std::printf("\nbonded base, 20 s; ratio to HHT at the record's step of 0.01 s; error of the peak crest motion "
+                "against dt/32\n");
     tied_case("rigid base", false, 0.0);
     tied_case("rigid base", false, 0.00075);
     tied_case("rock", true, 0.0);

@@ -27,7 +27,8 @@ std::string message_of(const std::function<void()>& run)
 std::string scheme_message(const std::string& keys)
 {
     return message_of([&keys] {
-        parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.77\n[time]\n" +
+        parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
+                    "0.77\n[time]\n" +
                         keys,
                     "dam.toml", FileCheck::skip);
     });
@@ -72,8 +73,9 @@ TEST(TimeSchemeInput, KeysOfAnotherScheme)
               "dam.toml:10:1: error: time.alpha belongs to time.scheme = \"hht\", but the scheme is \"modal\".\n"
               "  expected: no alpha, gamma or beta\n"
               "  fix:      delete alpha or choose hht");
-    EXPECT_TRUE(names(scheme_message("scheme = \"central-difference\"\nbeta = 0.25\n"),
-                      {"dam.toml:10:", "time.gamma and time.beta belong to", "\"central-difference\"", "choose newmark"}));
+    EXPECT_TRUE(
+        names(scheme_message("scheme = \"central-difference\"\nbeta = 0.25\n"),
+              {"dam.toml:10:", "time.gamma and time.beta belong to", "\"central-difference\"", "choose newmark"}));
     EXPECT_TRUE(names(scheme_message("scheme = \"modal\"\nstepping = \"adaptive\"\n"),
                       {"dam.toml:10:", "time.stepping = \"adaptive\" with time.scheme = \"modal\"", "choose hht"}));
     EXPECT_TRUE(names(scheme_message("scheme = \"explicit\"\n"), {"\"central-difference\"", "\"modal\"", "\"auto\""}));
@@ -82,7 +84,8 @@ TEST(TimeSchemeInput, KeysOfAnotherScheme)
 TEST(TimeSchemeInput, AlphaAloneMeansHht)
 {
     const auto scheme = [](const std::string& keys) {
-        return parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.77\n" +
+        return parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction "
+                           "= 0.77\n" +
                                keys,
                            "dam.toml", FileCheck::skip)
             .time.scheme;
@@ -98,8 +101,8 @@ TEST(TimeSchemeInput, StepAboveTheLimitNamesBothNumbers)
     fe2d::TiedRunOptions options;
     options.dt = 0.01;
     const std::string message = message_of([&] { fe2d::integrate_explicit(model, quiet(), options); });
-    EXPECT_TRUE(names(message, {"time.dt_s = 0.01 is above the limit", "at most 0.00", "highest frequency", "leave dt_s out",
-                                "scheme = \"hht\""}))
+    EXPECT_TRUE(names(message, {"time.dt_s = 0.01 is above the limit", "at most 0.00", "highest frequency",
+                                "leave dt_s out", "scheme = \"hht\""}))
         << message;
     // Stiffness damping tightens it, and the message says what the limit would be without.
     options.dt = 0.002;
@@ -127,7 +130,8 @@ TEST(TimeSchemeInput, CentralDifferenceAndMasslessRock)
                       {"unknowns without mass", "infinite", "give the rock a density", "scheme = \"hht\""}));
     Scene sliding = dam_on(true);
     sliding.time.scheme = TimeScheme::central_difference;
-    EXPECT_TRUE(names(sliding_message(sliding), {"unknowns without mass", "no step is stable", "fe --base tied", "[foundation]"}));
+    EXPECT_TRUE(names(sliding_message(sliding),
+                      {"unknowns without mass", "no step is stable", "fe --base tied", "[foundation]"}));
 }
 
 TEST(TimeSchemeInput, CentralDifferenceNeedsHardContactWithoutAcousticWater)
@@ -137,7 +141,8 @@ TEST(TimeSchemeInput, CentralDifferenceNeedsHardContactWithoutAcousticWater)
     EXPECT_EQ(sliding_message(scene), "(accepted)");
     Scene soft = scene;
     soft.contact.enforcement = ContactEnforcement::slip_tolerance;
-    EXPECT_TRUE(names(sliding_message(soft), {"contact that gives way", "enforcement = \"exact\"", "delete enforcement"}));
+    EXPECT_TRUE(
+        names(sliding_message(soft), {"contact that gives way", "enforcement = \"exact\"", "delete enforcement"}));
     Scene wet = scene;
     wet.reservoir.emplace();
     wet.reservoir->level = 30.0;

@@ -46,8 +46,8 @@ std::vector<Check> pair_law()
         else // slips against the full strength
             worst = std::max({worst, std::abs(std::abs(p.tangential) - strength), p.tangential * vt});
     }
-    std::vector<Check> checks{{"largest violation of unilateral contact and Coulomb's law, 20 000 pairs", "of the impulse",
-                               1e-13, worst, 0.0, Measure::upper_bound}};
+    std::vector<Check> checks{{"largest violation of unilateral contact and Coulomb's law, 20 000 pairs",
+                               "of the impulse", 1e-13, worst, 0.0, Measure::upper_bound}};
     for (const auto& [state, name] : {std::pair{fe2d::ContactState::stick, "stick"},
                                       {fe2d::ContactState::slip_downstream, "slip downstream"},
                                       {fe2d::ContactState::slip_upstream, "slip upstream"},
@@ -88,8 +88,8 @@ struct LumpedDam {
 constexpr double lumped_dt = 0.01; ///< [s]
 
 struct SlipRun {
-    std::vector<double> slip; ///< at the record's steps [m]
-    double imbalance = 0.0;   ///< of the largest energy
+    std::vector<double> slip;            ///< at the record's steps [m]
+    double imbalance = 0.0;              ///< of the largest energy
     double friction = 0.0, normal = 0.0; ///< energies at the end [J/m]
 };
 
@@ -121,8 +121,8 @@ SlipRun implicit_slips(const LumpedDam& dam, const GroundMotion& motion, int par
     SlipRun result;
     for (std::size_t n = 0; n + 1 < motion.accel_h.size(); ++n) {
         for (int k = 1; k <= parts; ++k)
-            run.advance(lumped_dt / parts, ground.at(lumped_dt * (static_cast<double>(n) + static_cast<double>(k) / parts)),
-                        dam.law());
+            run.advance(lumped_dt / parts,
+                        ground.at(lumped_dt * (static_cast<double>(n) + static_cast<double>(k) / parts)), dam.law());
         result.slip.push_back(dam.mean(run.state().contact.slip));
     }
     return result;
@@ -154,8 +154,8 @@ std::vector<Check> explicit_against_implicit()
         checks.push_back({name + fmt::format("slip history from that of implicit steps, of {:.3g} mm", 1e3 * slip), "m",
                           2.0 * (apart_by(runs[3], runs[2]) + apart_by(finer, fine)), apart_by(runs[3], finer), 0.0,
                           Measure::upper_bound});
-        checks.push_back({name + "the same", "of the slip", b_k < 2e-3 ? 0.02 : 0.005, apart_by(runs[3], finer) / slip, 0.0,
-                          Measure::upper_bound});
+        checks.push_back({name + "the same", "of the slip", b_k < 2e-3 ? 0.02 : 0.005, apart_by(runs[3], finer) / slip,
+                          0.0, Measure::upper_bound});
         checks.push_back({name + "order in dt, limit/1 to limit/8", "-", 0.8,
                           0.5 * std::log2(apart_by(runs[0], runs[1]) / apart_by(runs[2], runs[3])), 0.0,
                           Measure::lower_bound});
@@ -170,13 +170,15 @@ std::vector<Check> explicit_against_implicit()
 
 void add_fe_explicit_contact_cases(Registry& registry)
 {
-    registry.push_back({"fe.contact.explicit-pair", "Impulse and rates of one pair obey unilateral contact and Coulomb's law",
-                        "The inequalities themselves, on random pairs coupled in both directions", "Round-off", pair_law});
+    registry.push_back(
+        {"fe.contact.explicit-pair", "Impulse and rates of one pair obey unilateral contact and Coulomb's law",
+         "The inequalities themselves, on random pairs coupled in both directions", "Round-off", pair_law});
     registry.push_back(
         {"fe.contact.explicit-rigid-base",
          "Slip of a small dam on a rigid base by explicit forward increments and by implicit steps goes to one limit",
          "Carpenter, Taylor & Katona (1991) with closed pairs against DynamicContact, HHT; same lumped mass",
-         "what is left at dt is at most twice what the last halving changed, in both schemes, or half a per cent; two where the "
+         "what is left at dt is at most twice what the last halving changed, in both schemes, or half a per cent; two "
+         "where the "
          "weaker damping leaves the implicit steps scattered by one; round-off of the ledger",
          explicit_against_implicit});
 }

@@ -68,13 +68,14 @@ std::vector<Check> central_difference_period()
         const double angle = std::acos((u[200] + u[198]) / (2.0 * u[199]));
         double worst = 0.0;
         for (int n = 0; n <= 200; ++n)
-            worst = std::max(worst, std::abs(u[static_cast<std::size_t>(n)] - std::cos(n * 2.0 * std::asin(0.5 * omega_dt))));
+            worst = std::max(worst,
+                             std::abs(u[static_cast<std::size_t>(n)] - std::cos(n * 2.0 * std::asin(0.5 * omega_dt))));
         checks.push_back({"largest error of 200 steps, omega dt = " + std::to_string(omega_dt).substr(0, 3), "-", 1e-11,
                           worst, 0.0, Measure::upper_bound});
         errors.push_back(1.0 - omega_dt / angle);
     }
-    checks.push_back({"order of the period error, omega dt = 0.4 to 0.2", "-", 2.0, std::log2(errors[1] / errors[2]), 0.02,
-                      Measure::absolute});
+    checks.push_back({"order of the period error, omega dt = 0.4 to 0.2", "-", 2.0, std::log2(errors[1] / errors[2]),
+                      0.02, Measure::absolute});
     return checks;
 }
 
@@ -98,9 +99,10 @@ std::vector<Check> central_difference_order()
     const auto order = [](const ExplicitOscillator& o) {
         return std::log2(explicit_harmonic_error(o, 3200) / explicit_harmonic_error(o, 6400));
     };
-    return {{"undamped", "-", 2.0, order({12.0}), 0.02, Measure::absolute},
-            {"mass damping of 5 %", "-", 2.0, order({12.0, 0.05}), 0.02, Measure::absolute},
-            {"stiffness damping of 5 %, half a step late", "-", 1.0, order({12.0, 0.0, 0.05}), 0.02, Measure::absolute}};
+    return {
+        {"undamped", "-", 2.0, order({12.0}), 0.02, Measure::absolute},
+        {"mass damping of 5 %", "-", 2.0, order({12.0, 0.05}), 0.02, Measure::absolute},
+        {"stiffness damping of 5 %, half a step late", "-", 1.0, order({12.0, 0.0, 0.05}), 0.02, Measure::absolute}};
 }
 
 std::vector<Check> central_difference_limits()
@@ -124,8 +126,8 @@ std::vector<Check> central_difference_limits()
         const double dt = fe2d::central_difference_limit(omega, 2.0 * o.lagged_ratio / omega);
         checks.push_back({std::string(name) + ": largest amplitude at 0.9999 of the limit, start 1", "-", 1e3,
                           largest(o, 0.9999 * dt), 0.0, Measure::upper_bound});
-        checks.push_back({std::string(name) + ": at 1.01 of it", "-", 1e6, largest(o, 1.01 * dt), 0.0,
-                          Measure::lower_bound});
+        checks.push_back(
+            {std::string(name) + ": at 1.01 of it", "-", 1e6, largest(o, 1.01 * dt), 0.0, Measure::lower_bound});
     }
     return checks;
 }
@@ -195,8 +197,8 @@ fe2d::History direct(const fe2d::Model& model, const fe2d::TiedRunOptions& base,
 }
 
 /// Differences of direct runs at dt/8, dt/16, dt/32 from a reference, over the peak, and their order.
-std::vector<Check> direct_towards(const fe2d::Model& model, const fe2d::TiedRunOptions& options, const fe2d::History& reference,
-                           double tolerance, const std::string& of)
+std::vector<Check> direct_towards(const fe2d::Model& model, const fe2d::TiedRunOptions& options,
+                                  const fe2d::History& reference, double tolerance, const std::string& of)
 {
     const double e16 = crests_apart(direct(model, options, 16), reference),
                  e32 = crests_apart(direct(model, options, 32), reference);
@@ -211,14 +213,15 @@ std::vector<Check> central_difference_dam()
     fe2d::TiedRunOptions options = small_options(model);
     options.dt = 0.01 / 256;
     const fe2d::History reference = fe2d::integrate_explicit(model, chirp(), options);
-    std::vector<Check> checks = direct_towards(model, options, reference, 1e-3, "central difference at dt/256, same lumped mass");
+    std::vector<Check> checks =
+        direct_towards(model, options, reference, 1e-3, "central difference at dt/256, same lumped mass");
     checks.push_back({"energy imbalance over the largest energy", "-", 1e-11, reference.largest_imbalance, 0.0,
                       Measure::upper_bound});
     options.dt.reset();
     options.damping.constants.stiffness = 0.004;
     const fe2d::History late = fe2d::integrate_explicit(model, chirp(), options), both = direct(model, options, 32);
-    checks.push_back({"with stiffness damping, half a step late, from average acceleration at dt/32", "of the peak", 0.005,
-                      crests_apart(late, both) / both.peak_crest_x, 0.0, Measure::upper_bound});
+    checks.push_back({"with stiffness damping, half a step late, from average acceleration at dt/32", "of the peak",
+                      0.005, crests_apart(late, both) / both.peak_crest_x, 0.0, Measure::upper_bound});
     checks.push_back({"its energy imbalance", "-", 1e-11, late.largest_imbalance, 0.0, Measure::upper_bound});
     // Added mass lumped by node, the dam's mass against the consistent one: another discretisation, of second order in h.
     double lumping[2];
@@ -263,7 +266,8 @@ std::vector<Check> modal_recurrence()
     VectorXd q = Eigen::Vector2d(0.1, 0.2), rate = Eigen::Vector2d(3.0, -1.0);
     VectorXd p = turn.transpose() * q, p_rate = turn.transpose() * rate;
     for (int n = 0; n < 50; ++n) {
-        const Eigen::Vector2d before(std::sin(0.3 * n), std::cos(0.2 * n)), after(std::sin(0.3 * n + 0.3), std::cos(0.2 * n + 0.2));
+        const Eigen::Vector2d before(std::sin(0.3 * n), std::cos(0.2 * n)),
+            after(std::sin(0.3 * n + 0.3), std::cos(0.2 * n + 0.2));
         coupled.step(q, rate, 40.0 * before, 40.0 * after);
         plain.step(p, p_rate, 40.0 * before, 40.0 * after);
     }
@@ -282,8 +286,7 @@ std::vector<Check> modal_dam()
         const fe2d::Model model = small_model(10.0, face, fe2d::MassKind::consistent);
         fe2d::TiedRunOptions options = small_options(model);
         options.damping.constants = {1.2, 0.002};
-        const fe2d::History modal =
-            fe2d::integrate_modal(model, chirp(), options, {.modes = model.dofs.count});
+        const fe2d::History modal = fe2d::integrate_modal(model, chirp(), options, {.modes = model.dofs.count});
         const std::string name = face == Face::dry ? "dry: " : "with added mass: ";
         for (Check& check : direct_towards(model, options, modal, 1e-3, "all modes")) {
             check.quantity = name + check.quantity;
@@ -312,16 +315,17 @@ std::vector<Check> modal_truncation()
             const fe2d::History all = fe2d::integrate_modal(model, chirp(), options, {.modes = model.dofs.count}),
                                 some = fe2d::integrate_modal(model, chirp(), options, {.modes = modes});
             const double error = crests_apart(some, all);
-            const std::string name = std::to_string(modes) + (face == Face::dry ? " modes, dry: " : " modes, with water: ");
+            const std::string name =
+                std::to_string(modes) + (face == Face::dry ? " modes, dry: " : " modes, with water: ");
             if (face == Face::wet && modes == 12) { // what damping couples back is left: beyond any need
                 checks.push_back({name + "error of the crest", "of the peak", 1e-4, error / all.peak_crest_x, 0.0,
                                   Measure::upper_bound});
                 continue;
             }
-            checks.push_back({name + "error of the crest over its estimate", "-", 2.0, error / some.modal.crest_x_error, 0.0,
-                              Measure::upper_bound});
-            checks.push_back({name + "the same, not ten times too cautious", "-", 0.1, error / some.modal.crest_x_error, 0.0,
-                              Measure::lower_bound});
+            checks.push_back({name + "error of the crest over its estimate", "-", 2.0, error / some.modal.crest_x_error,
+                              0.0, Measure::upper_bound});
+            checks.push_back({name + "the same, not ten times too cautious", "-", 0.1, error / some.modal.crest_x_error,
+                              0.0, Measure::lower_bound});
         }
     const fe2d::Model model = small_model(5.0, Face::wet, fe2d::MassKind::consistent);
     fe2d::TiedRunOptions options = small_options(model);
@@ -332,8 +336,8 @@ std::vector<Check> modal_truncation()
                       crests_apart(chosen, all) / all.peak_crest_x, 0.0, Measure::upper_bound});
     checks.push_back({"of the peak acceleration", "-", 0.01,
                       std::abs(chosen.peak_crest_accel_x / all.peak_crest_accel_x - 1.0), 0.0, Measure::upper_bound});
-    checks.push_back({"of the peak base shear", "-", 0.01, std::abs(chosen.peak_base_shear / all.peak_base_shear - 1.0), 0.0,
-                      Measure::upper_bound});
+    checks.push_back({"of the peak base shear", "-", 0.01, std::abs(chosen.peak_base_shear / all.peak_base_shear - 1.0),
+                      0.0, Measure::upper_bound});
     return checks;
 }
 
@@ -354,24 +358,25 @@ void add_fe_integrator_cases(Registry& registry)
                         "Jury's conditions of (1+e)z² - (2 - b - Ω²)z + (1 - e - b); Belytschko, Liu & Moran (2000)",
                         "Bounds far apart: a beat against growth by 1.01 of the limit in 4000 steps",
                         central_difference_limits});
-    registry.push_back({"fe2d.time.central-difference-dam",
-                        "A tied dam by central differences is the limit of implicit steps",
-                        "integrate() with average acceleration, same lumped mass; consistent mass as another discretisation",
-                        "Implicit error at dt/32, (ωΔt)²/12 of the phase; damping half a step late: b_K acts as if on (1 - ωΔt/2) of a "
-                        "cycle; lumping is of second order in h (asymptotically); round-off of 80 000 steps in the ledger",
-                        central_difference_dam});
+    registry.push_back(
+        {"fe2d.time.central-difference-dam", "A tied dam by central differences is the limit of implicit steps",
+         "integrate() with average acceleration, same lumped mass; consistent mass as another discretisation",
+         "Implicit error at dt/32, (ωΔt)²/12 of the phase; damping half a step late: b_K acts as if on (1 - ωΔt/2) of "
+         "a "
+         "cycle; lumping is of second order in h (asymptotically); round-off of 80 000 steps in the ledger",
+         central_difference_dam});
     registry.push_back({"fe2d.time.modal-recurrence", "Modal equations are solved exactly under piecewise-linear loads",
                         "Closed solution of the ramped oscillator; Nigam & Jennings (1969)", "Round-off of 50 steps",
                         modal_recurrence});
-    registry.push_back({"fe2d.time.modal-dam", "Direct integration goes to the superposition of all modes with order 2",
-                        "integrate() with average acceleration at dt/16 and dt/32",
-                        "Implicit error at dt/32; the order within 0.05; agreement of two step sizes: eigenvectors to 1e-10",
-                        modal_dam});
-    registry.push_back({"fe2d.time.modal-truncation",
-                        "The error of a truncated superposition is what its estimate says",
-                        "The same superposition with all modes",
-                        "The estimate takes one oscillator for all modes left out: within twice and a tenth",
-                        modal_truncation});
+    registry.push_back(
+        {"fe2d.time.modal-dam", "Direct integration goes to the superposition of all modes with order 2",
+         "integrate() with average acceleration at dt/16 and dt/32",
+         "Implicit error at dt/32; the order within 0.05; agreement of two step sizes: eigenvectors to 1e-10",
+         modal_dam});
+    registry.push_back(
+        {"fe2d.time.modal-truncation", "The error of a truncated superposition is what its estimate says",
+         "The same superposition with all modes",
+         "The estimate takes one oscillator for all modes left out: within twice and a tenth", modal_truncation});
 }
 
 } // namespace damslip::verification

@@ -16,9 +16,10 @@ TiedScheme tied_scheme(const TimeOptions& time, const GroundMotion& motion, cons
     if (steps < fe2d::modal_break_even)
         return {TimeScheme::hht, key + fmt::format("HHT, since {:.0f} steps cost less than finding modes", steps)};
     return {TimeScheme::modal,
-            key + fmt::format("superposition of modes, since a bonded base makes the model linear and {:.0f} direct steps cost "
-                              "more than its modes",
-                              steps)};
+            key + fmt::format(
+                      "superposition of modes, since a bonded base makes the model linear and {:.0f} direct steps cost "
+                      "more than its modes",
+                      steps)};
 }
 
 std::string time_scheme_note(const Scene& scene)
@@ -27,15 +28,18 @@ std::string time_scheme_note(const Scene& scene)
     case TimeScheme::automatic:
         return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic
                    ? "time.scheme = \"auto\": HHT; with acoustic water real modes do not separate the equations"
-                   : fmt::format("time.scheme = \"auto\": HHT where the base slides; superposition of modes on a bonded base "
-                                 "(fe --base tied) and a motion of {} steps or more",
-                                 fe2d::modal_break_even);
+                   : fmt::format(
+                         "time.scheme = \"auto\": HHT where the base slides; superposition of modes on a bonded base "
+                         "(fe --base tied) and a motion of {} steps or more",
+                         fe2d::modal_break_even);
     case TimeScheme::hht:
         return "time.scheme = \"hht\": implicit, stable at any step";
     case TimeScheme::newmark:
-        return "time.scheme = \"newmark\": implicit, no numerical damping of what the step does not resolve at gamma = 0.5";
+        return "time.scheme = \"newmark\": implicit, no numerical damping of what the step does not resolve at gamma = "
+               "0.5";
     case TimeScheme::central_difference:
-        return "time.scheme = \"central-difference\": explicit, lumped mass, steps of at most 0.9 of the stability limit; sliding on "
+        return "time.scheme = \"central-difference\": explicit, lumped mass, steps of at most 0.9 of the stability "
+               "limit; sliding on "
                "a rigid base only";
     case TimeScheme::modal:
         break;
