@@ -1,7 +1,6 @@
 #include "fe2d/time/explicit_run.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
 #include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/tied_problem.hpp"
 
@@ -178,20 +177,22 @@ ExplicitLimit explicit_limit(const SparseMatrix& lumped, const SparseMatrix& sti
 
 double explicit_step(double motion_dt, std::optional<double> asked, const ExplicitLimit& limit)
 {
-    if (!asked) return motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt));
-    const double parts = std::round(motion_dt / *asked);
-    const double fits = motion_dt / std::ceil(motion_dt / std::min(*asked, explicit_step_share * limit.dt));
-    const std::string fix =
-        fmt::format("leave dt_s out for {} s, or use  scheme = \"hht\"  in [time], stable at any step",
-                    shortest(motion_dt / std::ceil(motion_dt / (explicit_step_share * limit.dt))));
+    const double most = explicit_step_share * limit.dt;
+    const double parts_below = std::ceil(motion_dt / most);
+    if (!asked) return motion_dt / parts_below;
     if (*asked > limit.dt)
-        refuse_explicit("time.dt_s = " + shortest(*asked) + " is above the limit of the central difference, " +
-                            fmt::format("{:.6g} s.", limit.dt),
-                        "at most " + fmt::format("{:.6g} s: ", limit.dt) + limit.text(), fix);
+        refuse_explicit(
+            fmt::format("time.dt_s = {:g} is above the limit of the central difference, {:.6g} s.", *asked, limit.dt),
+            fmt::format("at most {:.6g} s: {}", limit.dt, limit.text()),
+            fmt::format("leave dt_s out for {:g} s / {:.0f}, or use  scheme = \"hht\"  in [time], stable at "
+                        "any step",
+                        motion_dt, parts_below));
+    const double parts = std::round(motion_dt / *asked);
     if (!(*asked > 0.0) || parts < 1.0 || std::abs(parts * *asked - motion_dt) > 1e-9 * motion_dt)
-        refuse_explicit("time.dt_s = " + shortest(*asked) + " is no whole part of the record's step of " +
-                            shortest(motion_dt) + " s.",
-                        shortest(motion_dt) + " s divided by 1, 2, 3, ...", "write  dt_s = " + shortest(fits));
+        refuse_explicit(
+            fmt::format("time.dt_s = {:g} is no whole part of the record's step of {:g} s.", *asked, motion_dt),
+            fmt::format("{:g} s divided by 1, 2, 3, ...", motion_dt),
+            fmt::format("leave dt_s out for {:g} s / {:.0f}", motion_dt, parts_below));
     return motion_dt / parts;
 }
 

@@ -144,8 +144,9 @@ void ModalLedger::step(const Instant& a, const Instant& b, double dt)
 
 class ModalRun {
 public:
-    ModalRun(TiedProblem& problem, const ModalBasis& basis, double dt)
-        : problem_(problem), basis_(basis), dt_(dt), steps_(step_count(problem.ground, problem.options, dt)),
+    ModalRun(TiedProblem& problem, const ModalBasis& basis, double dt, int keep_every)
+        : problem_(problem), basis_(basis), dt_(dt), keep_every_(keep_every),
+          steps_(step_count(problem.ground, problem.options, dt)),
           recurrence_(basis.omega, basis.damping, basis.participation, dt)
     {
     }
@@ -159,6 +160,7 @@ private:
     TiedProblem& problem_;
     const ModalBasis& basis_;
     double dt_;
+    int keep_every_;
     std::int64_t steps_;
     ModalRecurrence recurrence_;
 };
@@ -202,7 +204,7 @@ History ModalRun::go()
     History history;
     history.method = fmt::format("{} modes", basis_.omega.size());
     history.unknowns = basis_.omega.size();
-    HistoryWriter writer(history, problem_.options, dt_, steps_, problem_.options.keep_every);
+    HistoryWriter writer(history, problem_.options, dt_, steps_, keep_every_);
     const Index count = basis_.omega.size(), top = count - 1;
     HighestMode highest(basis_.omega[top], basis_.damping(top, top), dt_);
     GroundState ground = problem_.ground.at(0.0);
@@ -300,7 +302,8 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
                         const ModalOptions& modal)
 {
     if (const std::string obstacle = modal_obstacle(options); !obstacle.empty()) refuse_modal(obstacle);
-    const double dt = step_of(motion, options);
+    const int parts = options.dt ? 1 : modal_parts;
+    const double dt = step_of(motion, options) / parts;
     TiedProblem problem(model, motion, options);
     if (problem.other_damping() > 1e-9)
         refuse_modal(
@@ -322,7 +325,7 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
         const NaturalModes modes = natural_modes(model, count, options.solver);
         if (modes.frequency.size() == 0) return failed("no natural mode was found; " + modes.solver.text());
         const ModalBasis basis = basis_of(problem, modes, flexible);
-        history = ModalRun(problem, basis, dt).go();
+        history = ModalRun(problem, basis, dt, options.keep_every * parts).go();
         const bool all = modes.frequency.size() < count;
         if (modal.modes || all || count >= modal.most || history.status != TiedRunStatus::complete ||
             accurate(history, modal))

@@ -286,6 +286,7 @@ std::vector<Check> modal_dam()
         const fe2d::Model model = small_model(10.0, face, fe2d::MassKind::consistent);
         fe2d::TiedRunOptions options = small_options(model);
         options.damping.constants = {1.2, 0.002};
+        options.dt = 0.01;
         const fe2d::History modal = fe2d::integrate_modal(model, chirp(), options, {.modes = model.dofs.count});
         const std::string name = face == Face::dry ? "dry: " : "with added mass: ";
         for (Check& check : direct_towards(model, options, modal, 1e-3, "all modes")) {
