@@ -72,7 +72,7 @@ struct Reservoir {
 };
 
 enum class AddedMassFormula { westergaard_simplified, westergaard, zangar, goldgruber };
-enum class InclinedFaceRule { normal_component, printed }; ///< m_n = m / cos(phi), or the printed m_n = m (THEORY 3)
+enum class InclinedFaceRule { normal_component, printed }; ///< m_n = m / cos(phi), or the printed m_n = m
 
 struct AddedMass {
     AddedMassFormula formula = AddedMassFormula::westergaard;
@@ -281,7 +281,7 @@ enum class PorePressure { none, total, effective };
 struct Stages {
     GravityStage gravity = GravityStage::dam;
     bool geostatic = false;                          ///< displacements are set to zero after the gravity stage
-    PorePressure pore_pressure = PorePressure::none; ///< water in the rock, THEORY 5 form (a) or (b)
+    PorePressure pore_pressure = PorePressure::none; ///< water in the rock: docs/seepage.md, total or effective stress
 };
 
 enum class DampingMethod { none, rayleigh, modified_rayleigh };
