@@ -175,8 +175,8 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
         const bool settled = newton(broken, polished, report, tolerance);
         if (!settled && break_open_pairs(last, tolerance, left)) continue;
         solution = settled ? polished : last;
-        report.path = ContactPath::lemke;
         report.residual = complementarity_residual(broken, solution) / scale;
+        report.path = report.residual <= largest_residual ? ContactPath::lemke : ContactPath::unresolved;
         return report;
     }
     return finish(ContactPath::unresolved);

@@ -36,6 +36,9 @@ struct ContactOptions {
     int gauss_seidel_sweeps = 60; ///< of one restart
 };
 
+/// Residual of a solution, over the largest stuck force, above which it is none, whatever way led to it [-].
+inline constexpr double largest_residual = 1e-7;
+
 struct ContactReport {
     ContactPath path = ContactPath::newton;
     int iterations = 0;     ///< linear solutions with one set of states

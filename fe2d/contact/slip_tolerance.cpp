@@ -19,7 +19,6 @@ namespace {
 constexpr int newton_steps = 30;
 constexpr int renewals = 60;
 constexpr double residual_tolerance = 1e-10; ///< of the residual, relative to the largest stuck force
-constexpr double largest_residual = 1e-7;    ///< of a solution, relative to the largest stuck force
 constexpr double edge = 1e-10;               ///< of |e| against γ_e: states do not change within it
 constexpr double least_strength = 1e-6;      ///< of a pair whose stiffness is held, relative to the largest one
 constexpr double renewal_change = 1e-12;     ///< of the strengths, relative to the largest: they repeat themselves
