@@ -3,7 +3,7 @@
 #include "fe2d/gmsh/write_gmsh.hpp"
 #include "fe2d/mesh/export_mesh.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "unit/fe_scenes.hpp"
+#include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "fe2d/mesh/import_mesh.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
-#include "unit/fe_scenes.hpp"
+#include "fe_scenes.hpp"
 #include "verification/mixed_mesh.hpp"
 
 #include <gtest/gtest.h>

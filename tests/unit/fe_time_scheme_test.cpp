@@ -24,7 +24,7 @@ exact::SchemeParameters parameters(const fe2d::Scheme& s)
     return {s.alpha, s.gamma, s.beta};
 }
 
-VectorXd scalar(double value)
+VectorXd single_entry(double value)
 {
     return VectorXd::Constant(1, value);
 }
@@ -32,10 +32,10 @@ VectorXd scalar(double value)
 /// (u, v, a) one step later, without load.
 Eigen::Vector3d one_step(fe2d::LinearIntegrator& integrator, double dt, const Eigen::Vector3d& start)
 {
-    const fe2d::State before = integrator.state(scalar(start[0]), scalar(start[1]), scalar(start[2]), scalar(0.0));
+    const fe2d::State before = integrator.state(single_entry(start[0]), single_entry(start[1]), single_entry(start[2]), single_entry(0.0));
     fe2d::State after;
     const auto& step = integrator.step_operator(dt);
-    integrator.finish_step(step, before, scalar(0.0), integrator.free_step(step, before, scalar(0.0)), after);
+    integrator.finish_step(step, before, single_entry(0.0), integrator.free_step(step, before, single_entry(0.0)), after);
     return {after.displacement[0], after.velocity[0], after.acceleration[0]};
 }
 
