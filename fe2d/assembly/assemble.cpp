@@ -82,6 +82,13 @@ Materials materials_of(const Scene& scene)
     return materials;
 }
 
+Materials without_rock_density(Materials materials)
+{
+    materials.rock.density = 0.0;
+    materials.curtain.density = 0.0;
+    return materials;
+}
+
 SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials)
 {
     std::array<Eigen::Matrix3d, region_count> d;

@@ -41,6 +41,9 @@ struct Materials {
 /// @throws InputError where Young's modulus is missing.
 Materials materials_of(const Scene& scene);
 
+/// The same without inertia or weight of rock and curtain.
+Materials without_rock_density(Materials materials);
+
 SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials); ///< K [N/m per m]
 SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind); ///< M [kg/m]
 

@@ -17,15 +17,17 @@ void number(DofMap& map)
 
 } // namespace
 
-DofMap displacement_dofs(const Mesh& mesh, Base base)
+DofMap displacement_dofs(const Mesh& mesh, Base base, RockEdges edges)
 {
     DofMap map{.components = 2, .count = 0, .dofs = std::vector<int>(2 * mesh.nodes.size(), undecided)};
     const auto fix = [&](const std::vector<int>& nodes, int component) {
         for (const int node : nodes) map.dofs[2 * node + component] = no_dof;
     };
-    fix(with_mid_nodes(mesh, mesh.box_left), 0);
-    fix(with_mid_nodes(mesh, mesh.box_right), 0);
-    fix(with_mid_nodes(mesh, mesh.box_bottom), 1);
+    if (edges == RockEdges::fixed) {
+        fix(with_mid_nodes(mesh, mesh.box_left), 0);
+        fix(with_mid_nodes(mesh, mesh.box_right), 0);
+        fix(with_mid_nodes(mesh, mesh.box_bottom), 1);
+    }
     const ContactPlane& plane = mesh.contact;
     assert((base == Base::separate || plane.matching) && "only facing nodes can be tied");
     if (base == Base::tied && !mesh.has_rock())

@@ -28,10 +28,16 @@ enum class Base {
     separate ///< the two sides are independent: contact is elsewhere; without rock the dam floats
 };
 
-/// Displacements (x, y). The rock's sides are fixed in x, its bottom in y: normal to its outer boundaries.
+/// The sides and the bottom of the rock box.
+enum class RockEdges {
+    fixed, ///< normal to themselves: the sides in x, the bottom in y
+    free   ///< held by nothing but what the caller puts there (dashpots)
+};
+
+/// Displacements (x, y).
 /// A tied base needs a mesh whose contact plane is `matching`.
 /// Order: all unknowns of dam nodes first (dam_dof_count of them), then the rock's, each side in node order.
-DofMap displacement_dofs(const Mesh& mesh, Base base);
+DofMap displacement_dofs(const Mesh& mesh, Base base, RockEdges edges = RockEdges::fixed);
 
 /// Unknowns on dam nodes; they are 0 ... dam_dof_count - 1. With a tied base the base nodes are among them.
 int dam_dof_count(const Mesh& mesh, const DofMap& dofs);

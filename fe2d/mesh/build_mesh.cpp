@@ -213,7 +213,7 @@ MeshSizes mesh_sizes(const Scene& scene)
     MeshSizes sizes;
     sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
     sizes.contact = scene.mesh.contact_size.value_or(std::min(sizes.dam, base_length(scene.section) / 60.0));
-    if (scene.foundation) sizes.rock = scene.foundation->depth / 8.0;
+    if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
     return sizes;
 }
 

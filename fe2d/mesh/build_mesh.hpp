@@ -15,7 +15,7 @@ struct ContactExtension {
 struct MeshSizes {
     double dam = 0.0;     ///< height / 40
     double contact = 0.0; ///< min(dam, base / 60)
-    double rock = 0.0;    ///< largest in the rock: depth / 8
+    double rock = 0.0;    ///< largest in the rock: scene.mesh.rock_size, else depth / 8
 };
 MeshSizes mesh_sizes(const Scene& scene);
 

@@ -1,6 +1,8 @@
 #include "fe2d/model/model.hpp"
 
 #include "core/input_error.hpp"
+#include "fe2d/model/edge_dashpots.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
 
@@ -71,6 +73,25 @@ void check_facing(const Scene& scene, const Model& model, Base base)
                "damping.stiffness_coefficient_s and run with contact"});
 }
 
+void assemble_mass(const Scene& scene, const ModelOptions& options, Model& model)
+{
+    const int n = model.dofs.count;
+    const Materials dam = without_rock_density(model.materials);
+    model.mass = mass_matrix(model.mesh, model.dofs, dam, options.mass);
+    model.rock_mass.resize(n, n);
+    model.edge_damping.resize(n, n);
+    model.loaded = dam;
+    if (!rock_has_mass(scene)) return;
+    Materials rock = model.materials;
+    rock.dam.density = 0.0;
+    model.rock_mass = mass_matrix(model.mesh, model.dofs, rock, options.mass);
+    model.mass += model.rock_mass;
+    if (options.edges == RockEdges::free)
+        model.edge_damping = edge_dashpots(model.mesh, model.dofs, model.materials.rock);
+    else
+        model.loaded = model.materials;
+}
+
 /// A tied base shares the unknowns of facing nodes.
 Scene with_facing_nodes(Scene scene)
 {
@@ -92,13 +113,13 @@ Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options)
     model.materials = materials_of(scene);
     model.mesh = std::move(mesh);
     check_facing(scene, model, options.base);
-    model.dofs = displacement_dofs(model.mesh, options.base);
+    model.dofs = displacement_dofs(model.mesh, options.base, options.edges);
     model.stiffness = stiffness_matrix(model.mesh, model.dofs, model.materials);
     model.mass_kind = options.mass;
-    model.mass = mass_matrix(model.mesh, model.dofs, model.materials, options.mass);
-    model.inertia_x = inertia_vector(model.mesh, model.dofs, model.materials, {1.0, 0.0}, options.mass);
-    model.inertia_y = inertia_vector(model.mesh, model.dofs, model.materials, {0.0, 1.0}, options.mass);
-    const Eigen::VectorXd all = inertia_vector(model.mesh, all_dofs(model.mesh, 2), model.materials, {1.0, 0.0});
+    assemble_mass(scene, options, model);
+    model.inertia_x = inertia_vector(model.mesh, model.dofs, model.loaded, {1.0, 0.0}, options.mass);
+    model.inertia_y = inertia_vector(model.mesh, model.dofs, model.loaded, {0.0, 1.0}, options.mass);
+    const Eigen::VectorXd all = inertia_vector(model.mesh, all_dofs(model.mesh, 2), model.loaded, {1.0, 0.0});
     model.total_mass.setConstant(all.sum());
     assemble_water(scene, options.added_mass, model);
     model.counts = count(model);

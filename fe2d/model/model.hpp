@@ -12,6 +12,8 @@ namespace damslip::fe2d {
 struct ModelOptions {
     Base base = Base::tied;
     MassKind mass = MassKind::consistent;
+    RockEdges edges =
+        RockEdges::fixed; ///< free: dashpots on them (edge_damping), for runs in time with rock that has mass
     ContactExtension extension = {};
     AddedMassLaw added_mass =
         {}; ///< of the upstream face; used only when the scene has a reservoir; empty: no added mass
@@ -25,15 +27,22 @@ struct Model {
     Materials materials;
     SparseMatrix stiffness; ///< K [N/m per m]
     MassKind mass_kind = MassKind::consistent;
-    SparseMatrix mass;       ///< of the structure [kg/m]; rows of massless rock are empty
+    SparseMatrix mass;         ///< of the structure [kg/m]; rows of massless rock are empty
+    SparseMatrix rock_mass;    ///< the rock's part of `mass`; without entries where it is massless (Foundation::mass)
+    SparseMatrix edge_damping; ///< dashpots on free edges of the rock box [N s/m^2]; without entries on fixed ones
+    Materials loaded;        ///< materials whose densities are what the moving ground loads: the dam's, and the rock's
+                             ///< where it has mass and fixed edges. On free edges the rock moves relative to the free
+                             ///< field, which balances its own inertia
     SparseMatrix added_mass; ///< of the water on the upstream face [kg/m]
     Eigen::VectorXd inertia_x,
-        inertia_y; ///< (mass + added mass) times a rigid translation in x, y, fixed nodes included [kg/m]
+        inertia_y; ///< (mass of `loaded` + added mass) times a rigid translation in x, y, fixed nodes included [kg/m]
     Eigen::Vector2d total_mass =
-        Eigen::Vector2d::Zero(); ///< of everything that moves, in x and in y, added mass included [kg/m]
+        Eigen::Vector2d::Zero(); ///< of everything the ground's motion loads, in x and in y, added mass included [kg/m]
     ModelCounts counts;
 
     SparseMatrix moving_mass() const { return mass + added_mass; }
+    SparseMatrix dam_mass() const { return rock_mass.nonZeros() > 0 ? SparseMatrix(mass - rock_mass) : mass; }
+    bool rock_has_mass() const { return rock_mass.nonZeros() > 0; }
 };
 
 /// Meshes the scene and assembles its matrices. With a tied base scene.mesh.rock_contact_size is left aside: the nodes

@@ -54,7 +54,9 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
                "the nodes of dam and rock do not face each other along the base, as a reduced run needs them to.",
                "the same nodes on both sides",
                "let dam and rock share the curve from heel to toe, or run without --reduced");
-    if (!full.structure().regular() || full.structure().slides_far() || full.structure().water()) return;
+    if (!full.structure().regular() || full.structure().slides_far() || full.structure().water() ||
+        full.in_motion().rock_moves())
+        return;
     const int wanted = std::max(modes, 1);
     DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
     if (!reference.regular) return;
@@ -173,6 +175,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         result.message =
             full_.structure().slides_far()
                 ? "A reduced run needs small sliding: each dam node stays opposite its rock node."
+            : full_.in_motion().rock_moves()
+                ? "A reduced run has modes of the dam alone: massless rock, not rock with mass."
             : full_.structure().water()
                 ? "A reduced run has modes of the dam alone: water as added mass or hydrostatic, not acoustic."
                 : "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";

@@ -1,5 +1,6 @@
 #include "fe2d/run/contact_planes.hpp"
 
+#include <cassert>
 #include <utility>
 
 namespace damslip::fe2d {
@@ -39,10 +40,15 @@ std::vector<char> connected(const Mesh& mesh, const std::vector<int>& start)
 
 } // namespace
 
-ContactPlanes::ContactPlanes(const Mesh& mesh)
+ContactPlanes::ContactPlanes(const Mesh& mesh, BelowBase below)
 {
     planes_.push_back(plane_of(mesh));
     nodes_ = mesh.contact.dam_nodes;
+    const Index one_sided = below == BelowBase::block ? 0 : 1; // planes whose lower side is no part of the structure
+    if (one_sided == 0) {
+        assert(mesh.contact.matching && mesh.has_rock());
+        nodes_.insert(nodes_.end(), mesh.contact.rock_nodes.begin(), mesh.contact.rock_nodes.end());
+    }
     for (const LiftPlane& lift : mesh.lifts) {
         planes_.push_back(plane_of(lift));
         nodes_.insert(nodes_.end(), lift.upper_nodes.begin(), lift.upper_nodes.end());
@@ -55,7 +61,7 @@ ContactPlanes::ContactPlanes(const Mesh& mesh)
     }
     area_.resize(m);
     weights_ = MatrixXd::Zero(m, count());
-    const Index n = static_cast<Index>(nodes_.size()), on_base = base().pairs();
+    const Index n = static_cast<Index>(nodes_.size()), alone = one_sided * base().pairs();
     Entries gaps, held, joined;
     for (Index k = 0, node = 0; k < count(); ++k) {
         const Plane& plane = (*this)[k];
@@ -67,19 +73,19 @@ ContactPlanes::ContactPlanes(const Mesh& mesh)
                 const Index upper = 2 * (node + i) + c, lower = upper + 2 * pairs, normal = first(k) + i;
                 for (const auto& [row, part] : {std::pair{normal, plane.normal[c]}, {m + normal, plane.tangent[c]}}) {
                     gaps.emplace_back(row, upper, part);
-                    if (k > 0) gaps.emplace_back(row, lower, -part);
+                    if (k >= one_sided) gaps.emplace_back(row, lower, -part);
                     held.emplace_back(upper, row, part);
                 }
-                if (k == 0) continue;
-                const Index together = 2 * (first(k) - on_base + i) + c;
+                if (k < one_sided) continue;
+                const Index together = 2 * (first(k) - alone + i) + c;
                 joined.emplace_back(upper, together, 1.0);
                 joined.emplace_back(lower, together, 1.0);
             }
-        node += k == 0 ? pairs : 2 * pairs;
+        node += k < one_sided ? pairs : 2 * pairs;
     }
     gaps_ = matrix(2 * m, 2 * n, gaps);
     held_ = matrix(2 * n, 2 * m, held);
-    joined_ = matrix(2 * n, 2 * (m - on_base), joined);
+    joined_ = matrix(2 * n, 2 * (m - alone), joined);
 
     above_.assign(planes_.size(), {});
     above_.front().assign(static_cast<std::size_t>(mesh.dam_node_count), 1);

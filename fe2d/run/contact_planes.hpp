@@ -5,11 +5,17 @@
 
 namespace damslip::fe2d {
 
+/// What is below the base.
+enum class BelowBase {
+    apart, ///< a rigid base, or rock that is a body of its own: the dam alone gives gaps
+    block ///< rock as one more block of the structure, its nodes opposite the dam's: the base is a joint like the others
+};
+
 /// All contact planes of a structure: the base, then the lift joints from bottom to top. Their m pairs are numbered
 /// through; vectors over all pairs have length 2m: normal components, then tangential ones (downstream).
 ///
-/// The dam's nodes on the planes are its interface: those of the base, then of each lift joint the upper ones, then the
-/// lower ones. Vectors q over them are (x, y) by node. What the dam gives to the gaps is D q: the displacement of a base
+/// The dam's nodes on the planes are its interface: those of the base (with BelowBase::block the rock's after them), then of
+/// each lift joint the upper ones, then the lower ones. Vectors q over them are (x, y) by node. What the dam gives to the gaps is D q: the displacement of a base
 /// node, the difference of upper and lower node of a joint. Any q is
 ///
 ///     q = E x + N y,   D E = I,   D N = 0
@@ -19,7 +25,7 @@ class ContactPlanes {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    explicit ContactPlanes(const Mesh& mesh);
+    explicit ContactPlanes(const Mesh& mesh, BelowBase below = BelowBase::apart);
 
     Eigen::Index count() const { return static_cast<Eigen::Index>(planes_.size()); } ///< K >= 1
     Eigen::Index pairs() const { return area_.size(); }                              ///< m, of all planes

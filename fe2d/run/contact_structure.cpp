@@ -31,47 +31,79 @@ SparseMatrix at_rest(const SparseMatrix& dam, Index size)
     return corner_and(dam, alone);
 }
 
+/// A matrix on the unknowns of a model on two unknowns for every node; the fixed ones stand alone with a number.
+SparseMatrix by_node(const Model& model, const SparseMatrix& matrix, double alone)
+{
+    std::vector<Index> place(static_cast<std::size_t>(model.dofs.count));
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto size = static_cast<Index>(model.dofs.dofs.size());
+    for (Index i = 0; i < size; ++i)
+        if (const int dof = model.dofs.dofs[static_cast<std::size_t>(i)]; dof != no_dof)
+            place[static_cast<std::size_t>(dof)] = i;
+        else if (alone != 0.0)
+            entries.emplace_back(i, i, alone);
+    for (Index column = 0; column < matrix.outerSize(); ++column)
+        for (SparseMatrix::InnerIterator it(matrix, column); it; ++it)
+            entries.emplace_back(place[static_cast<std::size_t>(it.row())], place[static_cast<std::size_t>(column)],
+                                 it.value());
+    SparseMatrix result(size, size);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
 } // namespace
 
-ContactStructure::ContactStructure(const Model& model, SlidingRange range, const WaterBody* water)
-    : model_(model), water_(water), planes_(model.mesh)
+ContactStructure::ContactStructure(const Model& model, SlidingRange range, const WaterBody* water, RockBody rock)
+    : model_(model), water_(water), planes_(model.mesh, rock == RockBody::moving ? BelowBase::block : BelowBase::apart),
+      rock_moves_(rock == RockBody::moving)
 {
     const Mesh& mesh = model.mesh;
-    const Index dam = dam_dof_count(mesh, model.dofs);
+    const Index dam = dam_dof_count(mesh, model.dofs), solid = rock_moves_ ? 2 * mesh.node_count() : dam;
     assert(dam == 2 * mesh.dam_node_count && "the dam must be free: Base::separate");
-    const SparseMatrix stiffness = model.stiffness.topLeftCorner(dam, dam),
-                       mass = model.moving_mass().topLeftCorner(dam, dam);
+    const auto part = [&](const SparseMatrix& matrix, double alone) {
+        return rock_moves_ ? by_node(model, matrix, alone) : SparseMatrix(matrix.topLeftCorner(dam, dam));
+    };
+    const auto part_of = [&](const VectorXd& vector) {
+        return rock_moves_ ? nodal_values(model.dofs, vector) : VectorXd(vector.head(dam));
+    };
+    const SparseMatrix stiffness = part(model.stiffness, model.stiffness.diagonal().mean()),
+                       mass = part(model.moving_mass(), 0.0), edges = part(model.edge_damping, 0.0);
+    size_ = water_ ? water_->size : solid;
     if (water_) {
         const SparseMatrix all = corner_and(stiffness, water_->stiffness) + water_->damping + water_->mass;
         order_ = interface_last(all, planes_.nodes());
         stiffness_ = order_.to_new(corner_and(stiffness, water_->stiffness));
         mass_ = order_.to_new(corner_and(mass, water_->mass));
-        gyration_ = order_.to_new(water_->damping);
+        edge_damping_ = order_.to_new(corner_and(edges, SparseMatrix(size_, size_)));
+        gyration_ = order_.to_new(water_->damping) + edge_damping_;
         velocity_x_ = order_.to_new(water_->velocity_x);
         velocity_y_ = order_.to_new(water_->velocity_y);
         displacement_y_ = order_.to_new(water_->displacement_y);
-        for (Index node = dam / 2; node < order_.nodes(); ++node)
+        for (Index node = solid / 2; node < order_.nodes(); ++node)
             water_nodes_.push_back(order_.new_node[static_cast<std::size_t>(node)]);
     } else {
         order_ = interface_last(stiffness, planes_.nodes());
         stiffness_ = order_.to_new(stiffness);
         mass_ = order_.to_new(mass);
+        gyration_ = edge_damping_ = order_.to_new(edges);
     }
-    anchor_.assign(static_cast<std::size_t>(order_.nodes()), 2 * order_.new_node[mesh.contact.dam_nodes.front()]);
-    for (Index k = 1; k < planes_.count(); ++k) // upper blocks take theirs from the lower ones
-        for (std::size_t node = 0; node < planes_.above(k).size(); ++node)
-            if (planes_.above(k)[node])
-                anchor_[static_cast<std::size_t>(order_.new_node[node])] =
-                    2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
+    for (Index node = dam / 2; node < solid / 2; ++node)
+        rock_nodes_.push_back(order_.new_node[static_cast<std::size_t>(node)]);
+    find_anchors();
     if (model.added_mass.nonZeros() > 0)
-        added_mass_ = order_.to_new(SparseMatrix(model.added_mass.topLeftCorner(dam, dam))).pruned();
-    inertia_x_ = order_.to_new(extended(model.inertia_x.head(dam)));
-    inertia_y_ = order_.to_new(extended(model.inertia_y.head(dam)));
+        added_mass_ =
+            order_
+                .to_new(corner_and(SparseMatrix(model.added_mass.topLeftCorner(dam, dam)), SparseMatrix(size_, size_)))
+                .pruned();
+    inertia_x_ = order_.to_new(extended(part_of(model.inertia_x)));
+    inertia_y_ = order_.to_new(extended(part_of(model.inertia_y)));
     VectorXd unit_x = VectorXd::Zero(mass_.rows()), unit_y = unit_x;
     for (Index k = 0; k < unit_x.size(); k += 2) unit_x[k] = unit_y[k + 1] = 1.0;
     const SparseMatrix own_mass = dam_mass();
     dam_inertia_x_ = own_mass * unit_x;
     dam_inertia_y_ = own_mass * unit_y;
+    regular_ = true;
+    if (rock_moves_) return; // the static stages are another structure's
     static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner);
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
@@ -83,6 +115,18 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range, const
         condense_rock(slides_far_ ? contact.rock_line : contact.rock_nodes);
     }
     regular_ = static_factor_->regular() && (!has_rock() || (rock_factor_->regular() && rock_flexibility_.size() > 0));
+}
+
+/// Upper blocks take theirs from the lower ones.
+void ContactStructure::find_anchors()
+{
+    const Mesh& mesh = model_.mesh;
+    anchor_.assign(static_cast<std::size_t>(order_.nodes()), 2 * order_.new_node[mesh.contact.dam_nodes.front()]);
+    for (Index k = 1; k < planes_.count(); ++k)
+        for (std::size_t node = 0; node < planes_.above(k).size(); ++node)
+            if (planes_.above(k)[node])
+                anchor_[static_cast<std::size_t>(order_.new_node[node])] =
+                    2 * order_.new_node[mesh.lifts[static_cast<std::size_t>(k - 1)].upper_nodes.front()];
 }
 
 void ContactStructure::condense_rock(const std::vector<int>& contact_nodes)
@@ -159,9 +203,25 @@ SplitLoad ContactStructure::split(const VectorXd& load) const
 
 VectorXd ContactStructure::extended(const VectorXd& dam) const
 {
-    VectorXd result = VectorXd::Zero(water_ ? water_->size : dam.size());
+    VectorXd result = VectorXd::Zero(size_);
     result.head(dam.size()) = dam;
     return result;
+}
+
+VectorXd ContactStructure::with_rock_to_order(const VectorXd& all) const
+{
+    assert(rock_moves_);
+    return order_.to_new(extended(nodal_values(model_.dofs, all)));
+}
+
+VectorXd ContactStructure::with_rock_to_model(const VectorXd& ordered) const
+{
+    assert(rock_moves_);
+    const VectorXd nodal = order_.to_old(ordered);
+    VectorXd all = VectorXd::Zero(model_.dofs.count);
+    for (std::size_t i = 0; i < model_.dofs.dofs.size(); ++i)
+        if (const int dof = model_.dofs.dofs[i]; dof != no_dof) all[dof] = nodal[static_cast<Index>(i)];
+    return all;
 }
 
 void ContactStructure::clear_water(VectorXd& vector) const
@@ -177,10 +237,26 @@ SparseMatrix ContactStructure::of_dam(const SparseMatrix& matrix) const
     return SparseMatrix(keep.asDiagonal() * matrix * keep.asDiagonal()).pruned();
 }
 
+SparseMatrix ContactStructure::dam_mass() const
+{
+    SparseMatrix own = added_mass_.nonZeros() > 0 ? SparseMatrix(mass_ - added_mass_) : mass_;
+    if (!water_ && !rock_moves_) return own;
+    VectorXd keep = VectorXd::Ones(own.rows());
+    clear_water(keep);
+    clear_rock(keep);
+    return SparseMatrix(keep.asDiagonal() * own * keep.asDiagonal()).pruned();
+}
+
+void ContactStructure::clear_rock(VectorXd& vector) const
+{
+    for (const Index node : rock_nodes_) vector.segment<2>(2 * node).setZero();
+}
+
 void ContactStructure::leave_dam_mass(VectorXd& product, const VectorXd& x) const
 {
     if (added_mass_.nonZeros() > 0) product -= added_mass_ * x;
     clear_water(product);
+    clear_rock(product);
 }
 
 void ContactStructure::take_off_translations(const VectorXd& u, VectorXd& deformation) const
@@ -189,7 +265,8 @@ void ContactStructure::take_off_translations(const VectorXd& u, VectorXd& deform
     for (Index node = 0; node < order_.nodes(); ++node)
         deformation.segment<2>(2 * node) =
             u.segment<2>(2 * node) - u.segment<2>(anchor_[static_cast<std::size_t>(node)]);
-    for (const Index node : water_nodes_) deformation.segment<2>(2 * node) = u.segment<2>(2 * node);
+    for (const auto* nodes : {&water_nodes_, &rock_nodes_}) // these do not slide
+        for (const Index node : *nodes) deformation.segment<2>(2 * node) = u.segment<2>(2 * node);
 }
 
 Pairing::Matrix ContactStructure::trace(double slip) const

@@ -24,17 +24,25 @@ enum class SlidingRange {
     finite ///< the rock a dam node faces (Pairing)
 };
 
+/// What becomes of the rock.
+enum class RockBody {
+    condensed, ///< a massless body of its own, reduced exactly to its contact nodes
+    moving     ///< with mass, a block of the structure below the base, as the dam is above it: all of its unknowns stay
+};
+
 /// Dam and rock as bodies that only contact joins: everything linear and independent of the step size. Lift joints cut
 /// the dam into blocks.
 ///
 /// The massless rock is condensed exactly onto its contact nodes (CondensedBody gives the reasons and the conditions);
-/// its damping is b_K K_c. Without a foundation the base is rigid.
+/// its damping is b_K K_c. Rock with mass (RockBody::moving) stands among the dam's unknowns, fixed ones alone with a
+/// stiffness and no load; for the rest of this header it is then part of "the dam", has_rock() is false, and statics are
+/// another structure's. Without a foundation the base is rigid.
 class ContactStructure {
 public:
     /// @param model  built with Base::separate; kept by reference
     /// @param water  moves with the dam, kept by reference; its unknowns stand among the dam's inner ones. Null: none
     explicit ContactStructure(const Model& model, SlidingRange range = SlidingRange::small,
-                              const WaterBody* water = nullptr);
+                              const WaterBody* water = nullptr, RockBody rock = RockBody::condensed);
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
     const Model& model() const { return model_; }
@@ -49,16 +57,20 @@ public:
     /// Of the dam in its node order, and of the water with CoupledSystem's signs; mass with added mass.
     const SparseMatrix& stiffness() const { return stiffness_; }
     const SparseMatrix& mass() const { return mass_; }
-    const WaterBody* water() const { return water_; }          ///< null: none
-    const SparseMatrix& gyration() const { return gyration_; } ///< coupling and damping of the water, in the same order
+    const WaterBody* water() const { return water_; } ///< null: none
+    /// Coupling and damping of the water, and the dashpots on the rock's edges, in the same order.
+    const SparseMatrix& gyration() const { return gyration_; }
+    bool gyrates() const { return gyration_.nonZeros() > 0; }
+    const SparseMatrix& edge_damping() const { return edge_damping_; } ///< these dashpots alone
+    bool rock_moves() const { return rock_moves_; }                    ///< RockBody::moving
     /// Ground loads on the water, in the same order (WaterBody).
     const Eigen::VectorXd& velocity_x() const { return velocity_x_; }
     const Eigen::VectorXd& velocity_y() const { return velocity_y_; }
     const Eigen::VectorXd& displacement_y() const { return displacement_y_; }
     void clear_water(Eigen::VectorXd& vector) const;       ///< zeros on the water's unknowns; nothing without water
     SparseMatrix of_dam(const SparseMatrix& matrix) const; ///< without rows and columns of the water
-    /// M_dam: the mass of the dam alone, without added mass and water. Rayleigh's damping a_M M_dam is the dam's.
-    SparseMatrix dam_mass() const { return of_dam(added_mass_.nonZeros() > 0 ? mass_ - added_mass_ : mass_); }
+    /// M_dam: the mass of the dam alone, without added mass, water and rock. Rayleigh's damping a_M M_dam is the dam's.
+    SparseMatrix dam_mass() const;
     /// Makes M x, a product of mass(), M_dam x.
     void leave_dam_mass(Eigen::VectorXd& product, const Eigen::VectorXd& x) const;
     const Eigen::VectorXd& inertia_x() const { return inertia_x_; }
@@ -83,6 +95,9 @@ public:
     Eigen::Index inner_unknowns() const { return 2 * order_.inner; }
     /// The dam's part of a vector on all unknowns of the model, in its node order.
     Eigen::VectorXd to_order(const Eigen::VectorXd& all) const;
+    /// The same with the rock's part; and back. @param all  RockBody::moving; on all unknowns of the model
+    Eigen::VectorXd with_rock_to_order(const Eigen::VectorXd& all) const;
+    Eigen::VectorXd with_rock_to_model(const Eigen::VectorXd& ordered) const;
     SplitLoad split(const Eigen::VectorXd& load) const; ///< of a load on all unknowns of the model
     /// On the rock when the trace of its displacements on the pairs is `trace`.
     Eigen::VectorXd rock_load(const SplitLoad& load, const Pairing::Matrix& trace) const;
@@ -93,6 +108,8 @@ public:
 
 private:
     void condense_rock(const std::vector<int>& contact_nodes);
+    void find_anchors();
+    void clear_rock(Eigen::VectorXd& vector) const;
 
     const Model& model_;
     const WaterBody* water_;
@@ -102,8 +119,11 @@ private:
         anchor_; ///< by node in the dam's order: first unknown of the node that stands for its block
     SparseMatrix stiffness_, mass_, added_mass_, gyration_;
     Eigen::VectorXd inertia_x_, inertia_y_, dam_inertia_x_, dam_inertia_y_, velocity_x_, velocity_y_, displacement_y_;
-    std::vector<Eigen::Index> water_nodes_;                     ///< in the dam's order
-    Eigen::VectorXd extended(const Eigen::VectorXd& dam) const; ///< zeros for the water behind
+    std::vector<Eigen::Index> water_nodes_, rock_nodes_; ///< in the dam's order
+    SparseMatrix edge_damping_;
+    bool rock_moves_ = false;
+    Eigen::Index size_ = 0;                                     ///< unknowns
+    Eigen::VectorXd extended(const Eigen::VectorXd& dam) const; ///< zeros for what stands behind it
     std::optional<InterfaceFactor> static_factor_, rock_factor_;
     std::optional<Pairing> pairing_;
     bool slides_far_ = false;

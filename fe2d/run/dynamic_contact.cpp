@@ -165,8 +165,8 @@ void DynamicContact::right_hand_side(const StepConstants& c, const GroundAcceler
     free_.dam = load_.dam + w * ground_force(ground) - alpha * ground_force(state_.ground) - products_.stiffness_1 +
                 products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 +
                 (a_m * cv) * products_.dam_mass_1 + (a_m * ca) * products_.dam_mass_2;
+    if (structure_.gyrates()) free_.dam += structure_.gyration() * VectorXd(cv * state_.v + ca * state_.a);
     if (structure_.water()) {
-        free_.dam += structure_.gyration() * VectorXd(cv * state_.v + ca * state_.a);
         const auto weighted = [&](double GroundAcceleration::*part) {
             return w * ground.*part - alpha * state_.ground.*part;
         };

@@ -64,10 +64,8 @@ void DynamicContact::land(const ContactStates& before, const ContactLaw& law)
     VectorXd dam_mass_change = mass_change;
     structure_.leave_dam_mass(dam_mass_change, change);
     landed_.dam = damping_.constants.mass * dam_mass_change + damping_.constants.stiffness * stiffness_change;
-    if (structure_.water()) {
-        landed_.dam += structure_.gyration() * change;
-        structure_.clear_water(landed_.dam);
-    }
+    if (structure_.gyrates()) landed_.dam += structure_.gyration() * change;
+    structure_.clear_water(landed_.dam);
     if (structure_.has_rock())
         landed_.rock = damping_.constants.stiffness * (structure_.rock_stiffness() * rock_change);
     if (slip_damping_.active()) {

@@ -36,8 +36,8 @@ void DynamicContact::gather_forces(Forces& f) const
     f.dam = damping_.constants.mass * products_.dam_mass_1 + products_.stiffness_1 - load_.dam - f.ground;
     f.v = state_.v;
     f.a = state_.a;
+    if (structure_.gyrates()) f.dam += structure_.gyration() * state_.v;
     if (structure_.water()) { // of the dam; the water keeps its own ledger
-        f.dam += structure_.gyration() * state_.v;
         for (VectorXd* vector : {&f.dam, &f.v, &f.a}) structure_.clear_water(*vector);
     }
     f.rock = rock_force_ - rock_load_;
@@ -89,6 +89,10 @@ void DynamicContact::add_energy(const StepConstants& c, const VectorXd& gap_step
     e.strain = 0.5 * (deformation_.dot(products_.stiffness_1) + state_.rock.dot(rock_force_)) + stored_;
     e.damping += 0.5 * a_m * du.dot(products_.dam_mass_1 + before_.dam_mass_1) + 0.5 * b_k * k_du.dot(v1 + v0) +
                  0.5 * b_k * k_dr.dot(forces_.rock_v + forces_before_.rock_v);
+    if (structure_.edge_damping().nonZeros() > 0) {
+        const VectorXd velocity = v1 + v0;
+        e.radiated += 0.5 * du.dot(structure_.edge_damping() * velocity);
+    }
     if (slip_damping_.active())
         e.damping += 0.5 * slip_work(forces_.slip_rate + forces_before_.slip_rate,
                                      forces_.mean_velocity + forces_before_.mean_velocity);

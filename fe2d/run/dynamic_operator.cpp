@@ -22,12 +22,13 @@ MatrixXd symmetric_inverse(const MatrixXd& matrix)
 SparseMatrix dam_matrix(const ContactStructure& structure, const RunDamping& damping, const StepConstants& c)
 {
     const double w = 1.0 + c.scheme.alpha;
-    const SparseMatrix damped = (w * c.a1 * damping.constants.mass) * structure.dam_mass();
+    SparseMatrix damped = (w * c.a1 * damping.constants.mass) * structure.dam_mass();
+    if (structure.gyrates()) damped += (w * c.a1) * structure.gyration();
     if (!structure.water())
         return c.a0 * structure.mass() + damped +
                w * (1.0 + c.a1 * damping.constants.stiffness) * structure.stiffness();
     return c.a0 * structure.mass() + damped + w * structure.stiffness() +
-           w * c.a1 * (damping.constants.stiffness * structure.of_dam(structure.stiffness()) + structure.gyration());
+           (w * c.a1 * damping.constants.stiffness) * structure.of_dam(structure.stiffness());
 }
 
 } // namespace

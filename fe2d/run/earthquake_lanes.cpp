@@ -2,6 +2,7 @@
 #include "fe2d/run/ground_input.hpp"
 
 #include "core/stopwatch.hpp"
+#include "fe2d/model/held_edges.hpp"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,26 @@ void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
     result.seconds.statics = clock.seconds();
 }
 
+/// Where the static stages leave the dam, and the loads that go on.
+EarthquakeRun::Rest EarthquakeRun::rest(const Lane& lane) const
+{
+    const SplitLoad load = split(stages_.loads.size() - 1);
+    if (!moving_) return {load, lane.start};
+    const HeldStart held = held_edges(
+        *model_, *moving_model_, structure_->assemble(lane.start.dam, lane.start.rock, stages_.last()), stages_.last());
+    Rest rest;
+    rest.load.dam = moving_->with_rock_to_order(held.load);
+    rest.start.dam = moving_->with_rock_to_order(held.displacement);
+    return rest;
+}
+
+/// On the unknowns of model(); edges that are free in motion but not there are left out.
+VectorXd EarthquakeRun::displacement_of(const DynamicState& state) const
+{
+    if (!moving_) return structure_->assemble(state.u, state.rock, stages_.last());
+    return without_edges(*model_, *moving_model_, moving_->with_rock_to_model(state.u));
+}
+
 namespace {
 
 /// One lane under way.
@@ -109,7 +130,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
     for (const Lane* lane : lanes) {
-        DynamicContact start(operators_, split(stages_.loads.size() - 1), lane->start, lane->memory, options_.contact);
+        const Rest at_rest = rest(*lane);
+        DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series));
         RunResult& result = passes.back()->result;
@@ -178,7 +200,8 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     result.counts = dynamics.counts();
     // Where nothing but round-off moves, that is no share of itself but of the weight's work over a nanometre.
     const double least = 1e-9 * dynamics.static_normal_force();
-    result.energy_error = std::abs(dynamics.energy_imbalance()) / std::max({dynamics.energy_scale(), least, std::numeric_limits<double>::min()});
+    result.energy_error = std::abs(dynamics.energy_imbalance()) /
+                          std::max({dynamics.energy_scale(), least, std::numeric_limits<double>::min()});
     result.pair_distance = plane.distance;
     result.pair_area = plane.area;
     result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
@@ -191,7 +214,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(),
                                 largest(h.slip), largest(h.largest_opening), largest(h.rocking)});
     }
-    result.displacement = structure_->assemble(end.u, end.rock, stages_.last());
+    result.displacement = displacement_of(end);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
     result.bytes = dynamics.bytes();
     result.seconds.contact += result.counts.contact_seconds;

@@ -4,6 +4,7 @@
 #include "core/stopwatch.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
 
@@ -118,8 +119,16 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     model_ = std::make_unique<Model>(build_model(scene_, parts));
     if (explicit_steps) check_explicit(scene_, *model_);
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
-        water_ = std::make_unique<WaterBody>(scene_, *model_);
-    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, water_.get());
+        water_ = std::make_unique<WaterBody>(scene_, *model_,
+                                             rock_has_mass(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
+    if (rock_has_mass(scene_)) {
+        ModelOptions moving = model_options(options_, Base::separate);
+        if (rock_edges_are_viscous(scene_)) moving.edges = RockEdges::free;
+        moving_model_ = std::make_unique<Model>(build_model(scene_, moving));
+        moving_ =
+            std::make_unique<ContactStructure>(*moving_model_, SlidingRange::small, water_.get(), RockBody::moving);
+    }
+    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, moving_ ? nullptr : water_.get());
     stages_ = load_stages(scene_, *model_, options_.uplift,
                           options_.water_in_rock ? options_.water_in_rock(*model_) : Eigen::VectorXd());
     usable_ = structure_->regular();
@@ -130,7 +139,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
         if (explicit_steps)
             explicit_ = explicit_operators();
         else
-            operators_ = std::make_shared<StepOperators>(*structure_, damping_, scheme_of(scene_.time));
+            operators_ = std::make_shared<StepOperators>(in_motion(), damping_, scheme_of(scene_.time));
     }
     seconds_ = start.seconds();
 }
@@ -148,7 +157,8 @@ void EarthquakeRun::find_damping()
         damping_.constants = {wanted.mass_coefficient.value_or(0.0), wanted.stiffness_coefficient.value_or(0.0)};
         return;
     }
-    const Model tied = build_model(scene_, model_options(options_, Base::tied));
+    // Of massless rock in any case: modes of a box of rock with mass are the box's, and waves that leave have none.
+    const Model tied = build_model(with_massless_rock(scene_), model_options(options_, Base::tied));
     if (water_) { // the leading modes, without those of the water alone
         damping_.constants = damping_of(scene_, tied, water_->water, {}).constants;
         return;

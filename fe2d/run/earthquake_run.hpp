@@ -108,6 +108,9 @@ public:
     EarthquakeRun& operator=(const EarthquakeRun&) = delete;
 
     const Model& model() const { return *model_; }
+    /// What moves in the earthquake: structure(), or with rock that has mass a structure of dam and rock.
+    const ContactStructure& in_motion() const { return moving_ ? *moving_ : *structure_; }
+    const Model& model_in_motion() const { return moving_model_ ? *moving_model_ : *model_; }
     const WaterBody* water() const { return water_.get(); } ///< acoustic; null: none
     const ContactStructure& structure() const { return *structure_; }
     const LoadStages& stages() const { return stages_; } ///< static loads before the earthquake
@@ -127,6 +130,13 @@ public:
 
 private:
     struct Lane;
+    /// Rest before the earthquake in the terms of what moves.
+    struct Rest {
+        SplitLoad load;
+        StaticState start;
+    };
+    Rest rest(const Lane& lane) const;
+    Eigen::VectorXd displacement_of(const DynamicState& state) const;
     void find_damping();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
@@ -146,7 +156,10 @@ private:
     RunOptions options_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<WaterBody> water_; ///< acoustic; null: none
-    std::unique_ptr<ContactStructure> structure_;
+    std::unique_ptr<ContactStructure>
+        structure_;                       ///< of the static stages; without rock that has mass of the motion too
+    std::unique_ptr<Model> moving_model_; ///< with rock that has mass; null: the rock has none
+    std::unique_ptr<ContactStructure> moving_;
     std::shared_ptr<const StaticOperator> statics_;
     std::shared_ptr<StepOperators> operators_;          ///< null with explicit steps
     std::shared_ptr<const ExplicitOperators> explicit_; ///< null with implicit steps

@@ -34,12 +34,15 @@ VectorXd moved(const VectorXd& vector, const std::vector<Index>& to, Index size)
 
 } // namespace
 
-WaterBody::WaterBody(const Scene& scene, const Model& model)
-    : water(build_fluid(scene)), dam_unknowns(2 * model.mesh.dam_node_count)
+WaterBody::WaterBody(const Scene& scene, const Model& model, WaterBeside beside)
+    : water(build_fluid(scene)),
+      dam_unknowns(2 * (beside == WaterBeside::dam ? model.mesh.dam_node_count : model.mesh.node_count()))
 {
     assert(model.added_mass.nonZeros() == 0);
     const Index n = dam_unknowns;
-    coupling = face_coupling(model.mesh, model.dofs, water.reservoir, water.dofs, water.unknowns()).topRows(n);
+    const Index dam = 2 * model.mesh.dam_node_count;
+    coupling = face_coupling(model.mesh, model.dofs, water.reservoir, water.dofs, water.unknowns()).topRows(dam);
+    coupling.conservativeResize(n, coupling.cols());
     const SparseMatrix none(n, n);
     const CoupledSystem system = couple(none, none, none, coupling, water);
     scale = system.scale;

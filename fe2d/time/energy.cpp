@@ -49,11 +49,11 @@ void EnergyLedger::add_step(const State& before, const State& after, const StepC
     const Eigen::VectorXd step = after.displacement - before.displacement;
     energy_.kinetic = 0.5 * after.velocity.dot(after.momentum);
     energy_.strain = 0.5 * after.displacement.dot(after.stiffness_force);
-    energy_.damping += 0.5 * step.dot(before.damping_force + after.damping_force);
+    energy_.damping += 0.5 * step.dot(before.damping_force + after.damping_force) - work.dashpots;
     energy_.external += 0.5 * step.dot(before.load + after.load);
     energy_.numerical += numerical_dissipation(before, after, constants) + work.numerical;
     energy_.friction += work.friction;
-    energy_.radiated += work.radiated;
+    energy_.radiated += work.radiated + work.dashpots;
     energy_.contact_normal += work.normal;
     scale_ = std::max(scale_, energy_.scale());
 }

@@ -7,9 +7,10 @@ namespace damslip::fe2d {
 /// Work of the interface forces over one step, by the caller who knows their directions [J/m]. They must sum up to
 /// ½ (λ₀ + λ₁)ᵀ B Δu = normal - friction - radiated - numerical, else the ledger does not close.
 struct InterfaceWork {
-    double friction = 0.0; ///< dissipated by sliding, positive
-    double normal = 0.0;   ///< done by contact pressure on opening and closing, positive when it drives the structure
-    double radiated = 0.0; ///< carried away through absorbing boundaries, positive
+    double friction = 0.0;  ///< dissipated by sliding, positive
+    double normal = 0.0;    ///< done by contact pressure on opening and closing, positive when it drives the structure
+    double radiated = 0.0;  ///< carried away through absorbing boundaries, positive
+    double dashpots = 0.0;  ///< what part of the work of C v is: it counts as radiated, not as damping
     double numerical = 0.0; ///< lost by the scheme in the coupling of dam and water (CoupledEnergy), positive
 };
 

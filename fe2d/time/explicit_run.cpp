@@ -47,7 +47,7 @@ void check_mass(const SparseMatrix& lumped)
     if (massless == 0) return;
     refuse_explicit(fmt::format("time.scheme = \"central-difference\" with {} unknowns without mass.", massless),
                     "mass on every unknown: without it the highest frequency is infinite and no step is stable",
-                    "give the rock a density, or use  scheme = \"hht\"  in [time]");
+                    "write  mass = \"with-mass\"  in [foundation], or use  scheme = \"hht\"  in [time]");
 }
 
 class ExplicitRun {

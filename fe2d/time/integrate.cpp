@@ -58,6 +58,7 @@ private:
     void add_water();
     State start(const VectorXd& load) const;
     HistoryRow row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const;
+    double dashpot_work(const State& before, const State& after) const;
 
     TiedProblem problem_;
     const TiedRunOptions& options_;
@@ -119,6 +120,16 @@ State Run::start(const VectorXd& load) const
                               with_water(alone.acceleration, size), load);
 }
 
+/// On the edges of the rock box, of one step [J/m].
+double Run::dashpot_work(const State& before, const State& after) const
+{
+    const SparseMatrix& dashpots = problem_.model.edge_damping;
+    if (dashpots.nonZeros() == 0) return 0.0;
+    const Eigen::Index n = dashpots.rows();
+    const VectorXd velocity = (before.velocity + after.velocity).head(n);
+    return 0.5 * (after.displacement - before.displacement).head(n).dot(dashpots * velocity);
+}
+
 HistoryRow Run::row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const
 {
     const Eigen::Index n = problem_.structure.system.size(), x = problem_.crest_x, y = problem_.crest_y;
@@ -159,11 +170,12 @@ History Run::go()
         const FreeStep free = integrator_->free_step(step, before, load);
         integrator_->finish_step(step, before, load, free, after);
         after.time = time; // not summed up
+        InterfaceWork work = water_ ? water_->energy.work(before, after) : InterfaceWork{};
+        work.dashpots = dashpot_work(before, after);
         if (water_)
-            ledger.add_step(water_->energy.view(before), water_->energy.view(after), step.constants(),
-                            water_->energy.work(before, after));
+            ledger.add_step(water_->energy.view(before), water_->energy.view(after), step.constants(), work);
         else
-            ledger.add_step(before, after, step.constants());
+            ledger.add_step(before, after, step.constants(), work);
         if (!std::isfinite(ledger.imbalance())) {
             history_.status = TiedRunStatus::diverged;
             history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);

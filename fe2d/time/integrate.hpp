@@ -18,6 +18,8 @@ struct TiedRunOptions {
     std::optional<double> dt;                   ///< [s], a whole part of the motion's step; default: that step
     DampingChoice damping;                      ///< default: none
     Eigen::VectorXd static_load;                ///< on the model's unknowns, constant [N/m]; empty: none
+    Eigen::VectorXd start_displacement;         ///< at rest under static_load [m]; empty: K u = static_load is solved,
+                                                ///< which rock on free edges does not allow (held_edges)
     Eigen::Vector2d static_resultant{0.0, 0.0}; ///< of the static loads on the dam, fixed nodes included [N/m]
     double free_vibration = 0.0;                ///< time after the motion's end without ground acceleration [s], >= 0
     int keep_every = 1; ///< steps per kept row of the history, >= 1; peaks and energies see every step
@@ -32,7 +34,7 @@ struct TiedRunOptions {
 /// Linear earthquake run of a dam tied to its base, from static equilibrium at rest.
 ///
 /// The start is K u₀ = R_static, so nothing moves before the ground does. Motion relative to the ground; massless rock is
-/// condensed exactly. Every step is entered in the energy ledger.
+/// condensed exactly; rock with free edges moves relative to the free field (held_edges.hpp). Every step is entered in the energy ledger.
 /// @param model  with Base::tied
 /// @throws InputError when dt is no whole part of the motion's step, or unstable for the scheme.
 ///         Everything else that can go wrong is in History::status.

@@ -13,11 +13,6 @@ using Eigen::Index;
 
 namespace {
 
-bool rock_is_massless(const Model& model)
-{
-    return model.materials.rock.density == 0.0 && model.materials.curtain.density == 0.0;
-}
-
 SparseMatrix upper_left(const SparseMatrix& matrix, Index size)
 {
     return SparseMatrix(matrix.topLeftCorner(size, size));
@@ -109,12 +104,13 @@ StructureSystem structure_system(const Model& model, const RayleighConstants& da
     StructureSystem structure;
     structure.full_size = model.dofs.count;
     structure.solver.status = SolverStatus::ok;
-    structure.damped_mass = model.mass;
+    structure.damped_mass = model.dam_mass();
     structure.system.mass = model.moving_mass();
     structure.system.stiffness = model.stiffness;
-    structure.system.damping = damping.mass * model.mass;
+    structure.system.damping = damping.mass * structure.damped_mass;
     structure.system.damping += damping.stiffness * model.stiffness;
-    if (rock == RockTreatment::condensed && model.mesh.has_rock() && rock_is_massless(model))
+    if (model.edge_damping.nonZeros() > 0) structure.system.damping += model.edge_damping;
+    if (rock == RockTreatment::condensed && model.mesh.has_rock() && !model.rock_has_mass())
         condense_rock(model, damping.stiffness, structure);
     return structure;
 }

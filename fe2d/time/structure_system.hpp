@@ -19,7 +19,7 @@ enum class RockTreatment {
 /// unknowns, base included; the rock's follow them without a law of their own where it is massless (CondensedBody).
 struct StructureSystem {
     LinearSystem system;
-    SparseMatrix damped_mass;             ///< mass a_M acts on: the structure's, without added mass [kg/m]
+    SparseMatrix damped_mass;             ///< mass a_M acts on: the dam's, without added mass and rock [kg/m]
     std::optional<CondensedBody> rock;    ///< of base and rock unknowns, kept: those of the base
     std::vector<Eigen::Index> base;       ///< unknowns of the base in the system
     Eigen::Index full_size = 0;           ///< unknowns of the model

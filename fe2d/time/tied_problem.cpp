@@ -46,20 +46,18 @@ void TiedProblem::balance()
 {
     const Index n = structure.system.size();
     const double a_m = options.damping.constants.mass;
-    Materials dam_only = model.materials;
-    dam_only.rock.density = 0.0;
-    dam_only.curtain.density = 0.0;
+    const Materials dam_only = without_rock_density(model.materials);
     const DofMap all = all_dofs(model.mesh, 2);
     for (const int c : {0, 1}) {
         const Eigen::Vector2d direction = Eigen::Vector2d::Unit(c);
         const VectorXd dam = inertia_vector(model.mesh, model.dofs, dam_only, direction, model.mass_kind);
-        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
+        const VectorXd whole = inertia_vector(model.mesh, model.dofs, model.loaded, direction, model.mass_kind);
         const VectorXd& moving = c == 0 ? model.inertia_x : model.inertia_y;
         // What moves, less the rock's own share.
         (c == 0 ? mass_x : mass_y) = (moving - whole + dam).head(n);
         (c == 0 ? damped_x : damped_y) = a_m * dam.head(n);
         const double dam_mass = inertia_vector(model.mesh, all, dam_only, direction).sum();
-        const double rock_mass = inertia_vector(model.mesh, all, model.materials, direction).sum() - dam_mass;
+        const double rock_mass = inertia_vector(model.mesh, all, model.loaded, direction).sum() - dam_mass;
         total[c] = model.total_mass[c] - rock_mass;
         damped_total[c] = a_m * dam_mass;
     }
@@ -76,12 +74,16 @@ bool TiedProblem::prepare()
     if (total_velocity) {
         const double a_m = options.damping.constants.mass;
         const auto inertia = [&](const Eigen::Vector2d& direction) {
-            return inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
+            return inertia_vector(model.mesh, model.dofs, without_rock_density(model.materials), direction,
+                                  model.mass_kind);
         };
         load.damped_x = a_m * inertia({1.0, 0.0}).head(n);
         load.damped_y = a_m * inertia({0.0, 1.0}).head(n);
     }
-    start = load.still.isZero(0.0) ? VectorXd::Zero(n) : VectorXd(static_response(load.still));
+    if (options.start_displacement.size() > 0)
+        start = options.start_displacement.head(n);
+    else
+        start = load.still.isZero(0.0) ? VectorXd::Zero(n) : VectorXd(static_response(load.still));
     return structure.solver.ok();
 }
 

@@ -4,6 +4,7 @@
 #include "cli/run/contact_options.hpp"
 #include "cli/run/fe_inputs.hpp"
 #include "cli/run/rigid_model.hpp"
+#include "cli/run/rock_warnings.hpp"
 #include "cli/run/seepage_source.hpp"
 #include "cli/show/acoustic_modes.hpp"
 #include "cli/show/contact_tables.hpp"
@@ -29,9 +30,11 @@ namespace damslip::cli {
 
 namespace {
 
-std::vector<std::string> run_messages(const Scene& scene, const std::vector<ContactRun>& runs)
+std::vector<std::string> run_messages(const Scene& scene, const std::vector<ContactRun>& runs,
+                                      const std::vector<std::string>& of_rock)
 {
     std::vector<std::string> messages = contact_law_notes(scene);
+    messages.insert(messages.end(), of_rock.begin(), of_rock.end());
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
     for (const ContactRun& r : runs)
@@ -100,11 +103,14 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     std::optional<FeReport> page;
     if (!arguments.out.empty()) page.emplace(FeReport::Input{scene, plan, records, model, rigid, options.uplift});
     std::vector<ContactRun> runs;
+    std::vector<std::string> of_rock;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
         const GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
         runs.push_back({pair.files.name, model.run(motion), std::nullopt, std::nullopt});
         ContactRun& r = runs.back();
+        for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
+            of_rock.push_back(r.record + ": " + warning);
         if (exact && !interrupt.interrupted()) r.exact = exact->run(motion);
         if (rigid.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene, rigid, motion, 1);
         if (!arguments.out.empty()) write_run(arguments.out, scene, r);
@@ -136,7 +142,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
     if (exact) j["contact_law"] = json_of(contact_law_table(runs));
-    j["messages"] = run_messages(scene, runs);
+    j["messages"] = run_messages(scene, runs, of_rock);
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
@@ -149,14 +155,15 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
                     << report::text(contact_slip_table(runs));
         if (!scene.lift_joints.empty()) streams.out << "\n" << report::text(contact_lift_table(runs));
         if (exact) streams.out << "\n" << report::text(contact_law_table(runs));
-        for (const std::string& message : run_messages(scene, runs)) streams.out << "note: " << message << "\n";
+        for (const std::string& message : run_messages(scene, runs, of_rock))
+            streams.out << "note: " << message << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
     if (page) {
         std::vector<Table> tables{contact_energy_table(runs), contact_count_table(runs)};
         if (exact) tables.insert(tables.begin(), contact_law_table(runs));
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs))));
+        write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
     const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };

@@ -11,6 +11,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "report/table_text.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/write.hpp"
 #include "sliding/loads/added_mass.hpp"
 
@@ -209,7 +210,11 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     }
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
-    const fe2d::Model model = fe2d::build_model(scene, options);
+    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
+    if (rock_has_mass(scene))
+        notes.push_back(
+            "foundation.mass = \"with-mass\": modes are those of the dam on massless rock, from which Rayleigh's "
+            "constants come too; rock with mass has the modes of its box, or, where waves leave, none");
     std::optional<fe2d::FluidModel> water;
     if (acoustic) water = fe2d::build_fluid(scene);
     const ModesAnswer answer =

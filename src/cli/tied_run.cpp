@@ -1,6 +1,7 @@
 #include "cli/tied_run.hpp"
 
 #include "cli/run/fe_inputs.hpp"
+#include "cli/run/rock_warnings.hpp"
 #include "cli/run/tied_scheme.hpp"
 #include "cli/show/acoustic_modes.hpp"
 #include "cli/show/effect_table.hpp"
@@ -11,6 +12,7 @@
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "core/stopwatch.hpp"
+#include "fe2d/model/held_edges.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/explicit_run.hpp"
@@ -19,6 +21,7 @@
 #include "fe2d/time/structure_system.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -49,11 +52,13 @@ Table stage_table(const fe2d::Model& model, const fe2d::StaticSolution& statics)
     return t;
 }
 
-/// Energy that left through the water's boundaries over the largest energy of the run; empty without acoustic water.
+/// Energy that left through the boundaries of water and rock over the largest energy of the run; empty where there are none.
 Cell radiated_share(const fe2d::History& history)
 {
-    if (history.rows.empty() || history.peak_water_force == 0.0 || history.energy_scale == 0.0) return {};
-    return history.rows.back().energy.radiated / history.energy_scale;
+    if (history.rows.empty() || history.energy_scale == 0.0) return {};
+    const double radiated = history.rows.back().energy.radiated;
+    if (history.peak_water_force == 0.0 && radiated == 0.0) return {};
+    return radiated / history.energy_scale;
 }
 
 Table run_table(const std::vector<TiedRun>& runs)
@@ -93,17 +98,45 @@ fe2d::History integrate_by(TimeScheme scheme, const fe2d::Model& model, const Gr
     return fe2d::integrate(model, motion, options);
 }
 
-TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::FluidModel* water,
-                   const Eigen::VectorXd& load, const Eigen::Vector2d& resultant, const GroundMotion& motion,
+/// What stands still, what moves, and what its damping is taken from; the same model where the rock is massless.
+struct TiedModels {
+    fe2d::Model still;
+    std::optional<fe2d::Model> on_free_edges, massless;
+
+    TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : still(fe2d::build_model(scene, options))
+    {
+        if (!rock_has_mass(scene)) return;
+        massless = fe2d::build_model(with_massless_rock(scene), options);
+        fe2d::ModelOptions free = options;
+        free.edges = fe2d::RockEdges::free;
+        if (rock_edges_are_viscous(scene)) on_free_edges = fe2d::build_model(scene, free);
+    }
+    const fe2d::Model& moving() const { return on_free_edges ? *on_free_edges : still; }
+    const fe2d::Model& damped() const { return massless ? *massless : still; }
+};
+
+/// Static loads and where they leave the dam, on the unknowns of TiedModels::moving().
+fe2d::HeldStart start_of(const TiedModels& models, const Eigen::VectorXd& load, const fe2d::StaticSolution& statics)
+{
+    if (!models.on_free_edges) return {{}, load};
+    const Eigen::VectorXd rest =
+        statics.stages.empty() ? Eigen::VectorXd::Zero(load.size()) : statics.stages.back().elastic;
+    return fe2d::held_edges(models.still, *models.on_free_edges, rest, load);
+}
+
+TiedRun run_record(const Scene& scene, const TiedModels& models, const fe2d::FluidModel* water,
+                   const fe2d::HeldStart& start_state, const Eigen::Vector2d& resultant, const GroundMotion& motion,
                    const InterruptGuard& interrupt, const Streams& streams)
 {
+    const fe2d::Model& damped = models.damped();
     TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;
-    options.damping = water ? fe2d::damping_of(scene, model, *water, motion) : fe2d::damping_of(scene, model, motion);
+    options.damping = water ? fe2d::damping_of(scene, damped, *water, motion) : fe2d::damping_of(scene, damped, motion);
     options.water = water;
-    options.static_load = load;
+    options.static_load = start_state.load;
+    options.start_displacement = start_state.displacement;
     options.static_resultant = resultant;
     Progress progress(streams, motion.name, 1000);
     std::size_t shown = 0;
@@ -114,10 +147,14 @@ TiedRun run_record(const Scene& scene, const fe2d::Model& model, const fe2d::Flu
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;
-    const TiedScheme chosen = tied_scheme(scene.time, motion, options);
-    run.history = integrate_by(chosen.scheme, model, motion, options);
+    const bool waves =
+        rock_has_mass(scene) && scene.time.scheme == TimeScheme::automatic; // modes of a box are not the dam's
+    const TiedScheme chosen = waves ? TiedScheme{TimeScheme::hht, {}} : tied_scheme(scene.time, motion, options);
+    run.history = integrate_by(chosen.scheme, models.moving(), motion, options);
     run.seconds = start.seconds();
     if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);
+    if (models.on_free_edges && run.history.displacement.size() > 0)
+        run.history.displacement = fe2d::without_edges(models.still, *models.on_free_edges, run.history.displacement);
     run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
     return run;
 }
@@ -130,7 +167,8 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     if (scene.time.scheme == TimeScheme::central_difference) options.mass = fe2d::MassKind::lumped;
-    const fe2d::Model model = fe2d::build_model(scene, options);
+    const TiedModels models(scene, options);
+    const fe2d::Model& model = models.still;
     std::optional<fe2d::FluidModel> water;
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
         water = fe2d::build_fluid(scene);
@@ -149,11 +187,12 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
 
     FieldSeries fields(arguments.out, model);
     for (const fe2d::StaticStage& s : statics.stages) fields.add(s.name, 0.0, s.displacement, s.elastic);
+    const fe2d::HeldStart start = start_of(models, load, statics);
     const InterruptGuard interrupt;
     std::vector<TiedRun> runs;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        runs.push_back(run_record(scene, model, water ? &*water : nullptr, load, resultant,
+        runs.push_back(run_record(scene, models, water ? &*water : nullptr, start, resultant,
                                   ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
         const TiedRun& r = runs.back();
         if (r.history.displacement.size())
@@ -169,6 +208,8 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             r.notes.push_back(water_counts(*water));
             for (std::string& warning : reservoir_warnings(scene, 20.0)) r.notes.push_back(std::move(warning));
         }
+    for (TiedRun& r : runs)
+        for (std::string& warning : rock_warnings(scene, model.mesh, r.motion)) r.notes.push_back(std::move(warning));
     const Table counts = count_table(model.counts, water ? &*water : nullptr);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};

@@ -20,6 +20,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
         return;
     }
     checks::check_base(scene, findings);
+    checks::check_rock(scene, findings);
     checks::check_strength(scene.contact, "contact", findings);
     checks::check_lift_joints(scene, findings);
     checks::check_joint(scene, findings);

@@ -75,6 +75,10 @@ void check_fe(const Scene& s, Findings& f)
     at_least("mesh.size", s.mesh.size, crest_level(s.section) - heel(s.section).y, 1000.0, "the dam's height");
     at_least("mesh.contact_size", s.mesh.contact_size, base_length(s.section), 2000.0, "the base");
     at_least("mesh.rock_contact_size", s.mesh.rock_contact_size, base_length(s.section), 2000.0, "the base");
+    if (s.foundation) at_least("mesh.rock_size", s.mesh.rock_size, s.foundation->depth, 200.0, "the rock box's depth");
+    if (s.mesh.rock_size && !s.foundation)
+        f.wrong("mesh.rock_size", "mesh.rock_size_m is given without [foundation]: there is no rock.",
+                "both or neither", "add [foundation] or delete rock_size_m");
     if (s.reservoir)
         at_least("reservoir.mesh_size", s.reservoir->mesh_size, s.reservoir->level, 400.0, "the water's depth");
     if (s.mesh.size && s.mesh.contact_size && *s.mesh.contact_size > *s.mesh.size)

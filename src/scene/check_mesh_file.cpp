@@ -16,6 +16,7 @@ void check_mesh_file(const Scene& s, Findings& f, FileCheck files)
     for (const auto& [key, spelled] : {std::pair{"mesh.size", "mesh.size_m"},
                                        {"mesh.contact_size", "mesh.contact_size_m"},
                                        {"mesh.rock_contact_size", "mesh.rock_contact_size_m"},
+                                       {"mesh.rock_size", "mesh.rock_size_m"},
                                        {"mesh.growth", "mesh.growth"}})
         if (f.given(key))
             f.wrong(key, fmt::format("{} is given together with mesh.file = \"{}\".", spelled, file),

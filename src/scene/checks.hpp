@@ -14,6 +14,9 @@ std::string value(const char* key, double x);
 /// Curtain, drains, rock box and uplift along the base.
 void check_base(const Scene& s, Findings& f);
 
+/// Rock with mass and the edges of its box.
+void check_rock(const Scene& s, Findings& f);
+
 /// @param table  "contact" or "lift_joint[1]"
 void check_strength(const Contact& c, const std::string& table, Findings& f);
 void check_lift_joints(const Scene& s, Findings& f);

@@ -37,6 +37,8 @@ enum class Effect {
     rock_flexibility,
     curtain_stiffness,
     curtain_sealing,
+    rock_inertia,
+    rock_radiation,
     structural_damping,
     separation,
     finite_sliding,

@@ -1,5 +1,8 @@
 #include "scene/curtain.hpp"
 #include "scene/effect_row.hpp"
+#include "scene/rock_mass.hpp"
+
+#include <utility>
 
 namespace damslip {
 
@@ -37,6 +40,24 @@ Decision decide_curtain_sealing(const Scene& s, Method)
             ""};
 }
 
+Decision decide_rock_inertia(const Scene& s, Method method)
+{
+    if (method == Method::rigid_block) return {false, "rigid block", ""};
+    if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
+    if (!rock_has_mass(s)) return {false, "foundation.mass = \"massless\"", ""};
+    return {true, "foundation.mass = \"with-mass\"", "the rock's unknowns stay in every step"};
+}
+
+Decision decide_rock_radiation(const Scene& s, Method method)
+{
+    if (method == Method::rigid_block) return {false, "rigid block", ""};
+    if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
+    if (!rock_has_mass(s)) return {false, "massless rock carries no waves", ""};
+    if (!rock_edges_are_viscous(s))
+        return {false, "foundation.boundary = \"fixed\": waves come back from the edges", ""};
+    return {true, "foundation.boundary = \"viscous\"", "two dashpots on each node of the box's edges"};
+}
+
 RemovalAnswer without_rock(Scene s, const SeepagePoints& seepage_points)
 {
     std::string instead = "no [foundation]: rigid base";
@@ -48,6 +69,7 @@ RemovalAnswer without_rock(Scene s, const SeepagePoints& seepage_points)
     }
     s.foundation.reset();
     s.mesh.rock_contact_size.reset();
+    s.mesh.rock_size.reset();
     s.stages.pore_pressure = PorePressure::none;
     return Removal{s, instead};
 }
@@ -83,6 +105,22 @@ std::vector<EffectRow> rock_effects()
          },
          .part_of = [](const EffectPlan&) { return Effect::uplift; },
          .named = Effect::curtain_sealing},
+        {.name = "rock inertia",
+         .decide = decide_rock_inertia,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             return Removal{with_massless_rock(std::move(s)), "foundation.mass = \"massless\""};
+         },
+         .leave_out = [](Scene& s, const EffectPlan&) { s = with_massless_rock(std::move(s)); },
+         .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
+         .named = Effect::rock_inertia},
+        {.name = "radiation into the rock",
+         .decide = decide_rock_radiation,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.foundation->boundary = RockBoundary::fixed;
+             return Removal{s, "foundation.boundary = \"fixed\": the record moves the box, waves come back"};
+         },
+         .part_of = [](const EffectPlan&) { return Effect::rock_inertia; },
+         .named = Effect::rock_radiation},
     };
 }
 

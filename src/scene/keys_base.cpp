@@ -184,7 +184,8 @@ std::vector<KeyGroup> base_groups()
                 at(&Drains::gallery_level)),
          number("lost_at_slip", small_length, Range::at_least(0), "never", "slip at which the drains shear off", "0.05",
                 at(&Drains::lost_at_slip))}));
-    Key rock_density = number("density", density, Range::at_least(0), "0 (massless)", "rock density", "0",
+    Key rock_density = number("density", density, Range::at_least(0), "0",
+                              "rock density: weight where stages.gravity asks for it, inertia where mass does", "2650",
                               [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.density; });
     groups.push_back(optional_group(
         "foundation", "Flexible rock. Without this table the FE base is rigid.", &Scene::foundation,
@@ -193,6 +194,15 @@ std::vector<KeyGroup> base_groups()
          number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.2",
                 [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.poisson_ratio; }),
          rock_density,
+         word("mass", "massless",
+              "`with-mass`: the rock has inertia in FE runs, waves travel through it; needs density", "with-mass",
+              choice(&Foundation::mass, {{"massless", RockMass::massless}, {"with-mass", RockMass::with_mass}})),
+         word("boundary", "fixed",
+              "edges of rock with mass: `fixed` normal to themselves, the record moves the box, waves come back; "
+              "`viscous` "
+              "dashpots, the record is the free surface's motion without the dam",
+              "viscous",
+              choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed}, {"viscous", RockBoundary::viscous}})),
          number("width", length, Range::above(0), "6.6667 x base", "of the rock box, centred on the base", "300",
                 at(&Foundation::width)),
          number("depth", length, Range::above(0), "2.2222 x base", "of the rock box below the heel", "100",

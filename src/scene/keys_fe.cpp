@@ -52,6 +52,11 @@ std::vector<KeyGroup> fe_groups()
                 "element size on the rock's side of the contact plane, whose nodes then need not face the dam's; runs "
                 "with a tied base have facing nodes always",
                 "1.125", at(&MeshOptions::rock_contact_size)),
+         only_with(
+             MeshFrom::scene,
+             number("rock_size", length, Range::above(0), "foundation depth / 8",
+                    "largest element in the rock; with mass, an eighth of a wave of the record's highest frequencies",
+                    "10", at(&MeshOptions::rock_size))),
          only_with(MeshFrom::scene, number("growth", none, Range::between(1, 3), "1.15",
                                            "ratio of neighbouring element sizes away from the contact plane", "1.2",
                                            at(&MeshOptions::growth))),

@@ -29,12 +29,17 @@ struct Material {
     double poisson_ratio = 0.2;          ///< [-]
 };
 
+enum class RockMass { massless, with_mass }; ///< does the rock move with inertia, or only give way
+enum class RockBoundary { fixed, viscous };  ///< edges of the box: fixed normal to themselves, or dashpots
+
 /// Flexible rock below the dam; without it the FE base is rigid.
 struct Foundation {
-    Material material;
-    double width = 0.0;         ///< of the box, centred on the base [m]
-    double depth = 0.0;         ///< below the heel [m]
-    double permeability = 1e-4; ///< hydraulic conductivity [m/s]
+    Material material;                           ///< its density is inertia only where `mass` says so
+    RockMass mass = RockMass::massless;          ///< FE runs
+    RockBoundary boundary = RockBoundary::fixed; ///< of rock with mass; statics always stand on fixed edges
+    double width = 0.0;                          ///< of the box, centred on the base [m]
+    double depth = 0.0;                          ///< below the heel [m]
+    double permeability = 1e-4;                  ///< hydraulic conductivity [m/s]
 };
 
 /// Grout curtain below the base.
@@ -268,11 +273,12 @@ struct MeshOptions {
     std::optional<double> size;              ///< target element size in the dam [m]; default height / 40
     std::optional<double> contact_size;      ///< on the contact plane [m]; default min(size, base / 60)
     std::optional<double> rock_contact_size; ///< on the rock's side of it [m]; none: the dam's nodes, face to face
+    std::optional<double> rock_size;         ///< largest in the rock [m]; default foundation depth / 8
     double growth = 1.15;                    ///< ratio of neighbouring sizes away from the contact plane [-]
     ElementKind element = ElementKind::q4_incompatible;
     std::optional<std::filesystem::path>
-        file;                ///< Gmsh file in place of the program's own mesh; resolved against the scene's folder
-    double file_unit = 1.0;  ///< of the file's coordinates [m]
+        file;               ///< Gmsh file in place of the program's own mesh; resolved against the scene's folder
+    double file_unit = 1.0; ///< of the file's coordinates [m]
 };
 
 enum class GravityStage { dam, dam_and_rock };

@@ -122,7 +122,7 @@ void lockstep_case(int lanes)
 /// Seconds of one run, the best of three set-ups with a run each; the machine may be busy.
 struct Measured {
     double set_up = 1e9, run = 1e9;
-    int dam_unknowns = 0, water_unknowns = 0;
+    int dam_unknowns = 0, water_unknowns = 0, moving_unknowns = 0;
     fe2d::RunResult result;
 };
 
@@ -140,6 +140,7 @@ Measured measure(const Scene& scene, const GroundMotion& motion)
         best.set_up = std::min(best.set_up, ready - start);
         best.run = std::min(best.run, end - ready);
         best.dam_unknowns = 2 * run.model().mesh.dam_node_count;
+        best.moving_unknowns = static_cast<int>(run.in_motion().dam_unknowns());
         best.water_unknowns = static_cast<int>(run.structure().dam_unknowns()) - best.dam_unknowns;
     }
     return best;
@@ -160,6 +161,28 @@ void water_case(double friction, double rows)
                 "7000 unknowns", friction, rows, mass.dam_unknowns, water.water_unknowns, mass.set_up, mass.run,
                 water.set_up, water.run, water.run / mass.run, (water.set_up + water.run) / (mass.set_up + mass.run),
                 1e3 * mass.result.slip, 1e3 * water.result.slip);
+}
+
+/// Rock with mass beside massless rock.
+void rock_case(double friction, double rock_size)
+{
+    Scene scene = fe2d::test::sliding_dam(friction, 1.0, 0.5);
+    scene.mesh.size = 2.0;
+    scene.mesh.growth = 1.3;
+    scene.mesh.rock_size = rock_size;
+    const GroundMotion motion = fe2d::test::sines(1.0);
+    const Measured massless = measure(scene, motion);
+    scene.foundation->material.density = 2650.0;
+    scene.foundation->mass = RockMass::with_mass;
+    for (const RockBoundary boundary : {RockBoundary::fixed, RockBoundary::viscous}) {
+        scene.foundation->boundary = boundary;
+        const Measured mass = measure(scene, motion);
+        std::printf("%-22s %5.2f %5.1f %8s %6d %6d | %8.3f %8.3f | %8.3f %8.3f | %5.2f %5.2f | %9.2f mm %9.2f mm\n",
+                    "7000 unknowns", friction, rock_size, boundary == RockBoundary::fixed ? "fixed" : "viscous",
+                    massless.moving_unknowns, mass.moving_unknowns, massless.set_up, massless.run, mass.set_up,
+                    mass.run, mass.run / massless.run, (mass.set_up + mass.run) / (massless.set_up + massless.run),
+                    1e3 * massless.result.slip, 1e3 * mass.result.slip);
+    }
 }
 
 /// Strong shaking for a quarter of the time, a tenth of it after that.
@@ -364,6 +387,12 @@ int main(int count, char** words)
                 "case", "mu", "rows", "dam", "water", "set-up", "run", "set-up", "run", "ratio", "all", "slip, added",
                 "acoustic");
     for (const double rows : {16.0, 20.0, 125.0}) water_case(0.77, rows);
+    std::printf("\nrock with mass beside massless rock, steps of 0.01 s\n%-22s %5s %5s %8s %6s %6s | %8s %8s | %8s %8s "
+                "| %5s %5s "
+                "| %12s %12s\n",
+                "case", "mu", "rock", "edges", "moving", "moving", "set-up", "run", "set-up", "run", "ratio", "all",
+                "massless", "with mass");
+    for (const double size : {12.5, 6.0}) rock_case(0.77, size);
     std::printf("\nreduced runs\n%-22s %6s %5s %5s %6s | %8s %8s %8s %8s | %8s %5s | %12s %10s %10s\n", "case", "dofs",
                 "mu", "modes", "steps", "set-up", "modes", "run", "all", "full", "ratio", "slip", "error", "estimate");
     for (const double friction : {1.0, 0.77, 0.70, 0.66})

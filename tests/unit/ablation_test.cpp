@@ -118,6 +118,26 @@ horizontal = "h.csv"
 vertical = "v.csv"
 )";
 
+/// Waves in the rock, which neither finite sliding nor an inclined base goes with.
+const std::string wave_text = R"(
+[section]
+height_m = 62.5
+base_m = 45
+crest_m = 12
+[dam]
+density_kg_m3 = 2500
+young_modulus_GPa = 25
+[foundation]
+young_modulus_GPa = 30
+density_kg_m3 = 2650
+mass = "with-mass"
+boundary = "viscous"
+[contact]
+friction = 0.9
+[[motion.record]]
+horizontal = "h.csv"
+)";
+
 Scene parsed(const std::string& text)
 {
     return parse_scene(text, "rich.toml", FileCheck::skip);
@@ -155,9 +175,9 @@ TEST(Ablation, EveryActiveEffectOnceAndNoAbsentOne)
             std::sort(seen.begin(), seen.end());
             EXPECT_EQ(on, seen);
         }
-    // 33 effects, of which each is on in one of the two scenes by one of the two methods.
+    // 35 effects, of which each is on in one of the scenes by one of the two methods.
     std::set<Effect> ever;
-    for (const std::string& text : {rich_text, other_text})
+    for (const std::string& text : {rich_text, other_text, wave_text})
         for (const Method method : {Method::rigid_block, Method::finite_elements})
             for (const PlannedEffect& e : make_effect_plan(parsed(text), method).effects)
                 if (e.on) ever.insert(e.effect);
@@ -169,7 +189,7 @@ TEST(Ablation, EveryActiveEffectOnceAndNoAbsentOne)
 // The others stay on, but for those that are part of the removed one.
 TEST(Ablation, RemovalTurnsOffItsEffectAndNoOther)
 {
-    for (const std::string& text : {rich_text, other_text})
+    for (const std::string& text : {rich_text, other_text, wave_text})
         for (const Method method : {Method::rigid_block, Method::finite_elements}) {
             const AblationPlan plan = ablations_of(text, method);
             for (const cli::Ablation& a : plan.removals) {
@@ -182,7 +202,8 @@ TEST(Ablation, RemovalTurnsOffItsEffectAndNoOther)
                     const bool goes_with_it =
                         other.part_of == a.effect || a.effect == Effect::vertical_motion ||
                         (a.effect == Effect::seepage && other.effect == Effect::curtain_sealing) ||
-                        (a.effect == Effect::rock_flexibility && other.part_of == Effect::uplift);
+                        (a.effect == Effect::rock_flexibility &&
+                         (other.part_of == Effect::uplift || other.part_of == Effect::rock_inertia));
                     EXPECT_TRUE(other.effect == a.effect || goes_with_it || after.on(other.effect)) << other.name;
                 }
             }
@@ -192,7 +213,7 @@ TEST(Ablation, RemovalTurnsOffItsEffectAndNoOther)
 // Whoever doubts a row can run its scene: every one is what a file can hold, and passes the checks of a file.
 TEST(Ablation, EveryRemovalIsASceneThatAFileCanHold)
 {
-    for (const std::string& text : {rich_text, other_text})
+    for (const std::string& text : {rich_text, other_text, wave_text})
         for (const Method method : {Method::rigid_block, Method::finite_elements}) {
             const AblationPlan plan = ablations_of(text, method);
             std::vector<std::pair<std::string, Scene>> scenes{{"all removed", *plan.simplest}};

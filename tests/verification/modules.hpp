@@ -29,5 +29,6 @@ void add_fe_reduction_cases(Registry& registry);
 void add_fe_seepage_cases(Registry& registry);
 void add_fe_sliding_cases(Registry& registry);
 void add_fe_joint_cases(Registry& registry);
+void add_fe_rock_cases(Registry& registry);
 
 } // namespace damslip::verification

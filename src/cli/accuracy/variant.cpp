@@ -14,6 +14,7 @@ void scale_mesh(double factor, Scene& scene)
     scene.mesh.size = factor * sizes.dam;
     scene.mesh.contact_size = factor * sizes.contact;
     if (scene.mesh.rock_contact_size) *scene.mesh.rock_contact_size *= factor;
+    if (scene.mesh.rock_size) *scene.mesh.rock_size *= factor;
     scene.mesh.growth = 1.0 + factor * (scene.mesh.growth - 1.0);
     if (scene.reservoir && scene.reservoir->level > 0.0)
         scene.reservoir->mesh_size = factor * scene.reservoir->mesh_size.value_or(scene.reservoir->level / 20.0);

@@ -3,6 +3,7 @@
 #include "cli/run/fe_inputs.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
+#include "scene/rock_mass.hpp"
 
 namespace damslip::cli {
 
@@ -35,7 +36,7 @@ fe2d::RunOptions contact_options(const Scene& scene, const std::vector<RecordPai
         !records.empty()) { // by the first record's horizontal component
         fe2d::ModelOptions tied;
         tied.added_mass = options.added_mass;
-        const fe2d::Model model = fe2d::build_model(scene, tied);
+        const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), tied);
         const GroundMotion motion = ground_motion(scene, records.front());
         const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
         options.damping = acoustic ? fe2d::damping_of(scene, model, fe2d::build_fluid(scene), motion).constants

@@ -4,6 +4,7 @@
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/seepage/pore_forces.hpp"
 #include "fe2d/seepage/seepage.hpp"
+#include "scene/rock_mass.hpp"
 #include "sliding/loads/added_mass.hpp"
 
 #include <cmath>
@@ -22,7 +23,7 @@ double first_frequency(const Scene& scene)
 {
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
-    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(scene, options), 1);
+    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(with_massless_rock(scene), options), 1);
     return modes.frequency.size() ? modes.frequency[0] : std::nan("");
 }
 

@@ -1,6 +1,7 @@
 #include "cli/run/reducible.hpp"
 
 #include "cli/terminal/usage_error.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
 
@@ -27,6 +28,10 @@ void check_reducible(const Scene& scene)
                         scene.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),
             "scheme = \"auto\", \"hht\" or \"newmark\": a reduced run has its modes anyway, and steps them implicitly",
             "run without --reduced, or delete scheme in [time]"});
+    if (rock_has_mass(scene))
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with foundation.mass = \"with-mass\".",
+                                    "mass = \"massless\", the modes are those of the dam alone",
+                                    "run without --reduced, or write  mass = \"massless\"  in [foundation]"});
     if (scene.time.stepping == Stepping::adaptive)
         throw UsageError(Diagnostic{scene.file.string(), 0, 0, "--reduced with time.stepping = \"adaptive\".",
                                     "stepping = \"uniform\", sub-steps of a reduced run are all alike",

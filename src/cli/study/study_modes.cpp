@@ -6,6 +6,7 @@
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
 #include <numbers>
@@ -32,7 +33,7 @@ fe2d::NaturalModes modes_of(const Scene& scene, double size)
 {
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
-    const fe2d::Model model = fe2d::build_model(scene, options);
+    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
     if (scene.reservoir->model != ReservoirModel::acoustic) return fe2d::natural_modes(model, listed);
     const fe2d::FluidModel water = fe2d::build_fluid(scene);
     const fe2d::CoupledModes coupled =

@@ -58,6 +58,7 @@ Scene sized(Scene scene, double factor)
     scale(scene.mesh.size, factor);
     scale(scene.mesh.contact_size, factor);
     scale(scene.mesh.rock_contact_size, factor);
+    scale(scene.mesh.rock_size, factor);
     scene.mesh.file_unit *= factor;
     return scene;
 }
