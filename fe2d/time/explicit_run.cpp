@@ -77,7 +77,8 @@ ExplicitSystem ExplicitRun::system() const
     ExplicitSystem system;
     system.mass = lumped_mass(model.dofs, model.inertia_x, model.inertia_y, n);
     const auto inertia = [&model](const Eigen::Vector2d& direction) {
-        return inertia_vector(model.mesh, model.dofs, model.materials, direction, model.mass_kind);
+        return inertia_vector(model.mesh, model.dofs, without_rock_density(model.materials), direction,
+                              model.mass_kind);
     };
     system.mass_damping = damping.mass * lumped_mass(model.dofs, inertia({1.0, 0.0}), inertia({0.0, 1.0}), n);
     system.stiffness = problem_.structure.system.stiffness;

@@ -147,9 +147,7 @@ TiedRun run_record(const Scene& scene, const TiedModels& models, const fe2d::Flu
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;
-    const bool waves =
-        rock_has_mass(scene) && scene.time.scheme == TimeScheme::automatic; // modes of a box are not the dam's
-    const TiedScheme chosen = waves ? TiedScheme{TimeScheme::hht, {}} : tied_scheme(scene.time, motion, options);
+    const TiedScheme chosen = tied_scheme(scene, motion, options);
     run.history = integrate_by(chosen.scheme, models.moving(), motion, options);
     run.seconds = start.seconds();
     if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);

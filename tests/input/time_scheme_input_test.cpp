@@ -128,7 +128,7 @@ TEST(TimeSchemeInput, CentralDifferenceAndMasslessRock)
     EXPECT_EQ(message_of([&] { fe2d::integrate_explicit(model, quiet(), options); }), "(accepted)");
     options.rock = fe2d::RockTreatment::whole;
     EXPECT_TRUE(names(message_of([&] { fe2d::integrate_explicit(model, quiet(), options); }),
-                      {"unknowns without mass", "infinite", "give the rock a density", "scheme = \"hht\""}));
+                      {"unknowns without mass", "infinite", "mass = \"with-mass\"", "scheme = \"hht\""}));
     Scene sliding = dam_on(true);
     sliding.time.scheme = TimeScheme::central_difference;
     EXPECT_TRUE(names(sliding_message(sliding),

@@ -1,31 +1,43 @@
 #include "cli/run/tied_scheme.hpp"
 
 #include "fe2d/time/modal_run.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
 
 namespace damslip::cli {
 
-TiedScheme tied_scheme(const TimeOptions& time, const GroundMotion& motion, const fe2d::TiedRunOptions& options)
+namespace {
+
+constexpr const char* auto_key = "time.scheme = \"auto\": ";
+constexpr const char* rock_obstacle =
+    "a dashpot on every node of the rock's edges: real modes do not separate the equations";
+
+} // namespace
+
+TiedScheme tied_scheme(const Scene& scene, const GroundMotion& motion, const fe2d::TiedRunOptions& options)
 {
+    const TimeOptions& time = scene.time;
     if (time.scheme != TimeScheme::automatic) return {time.scheme, {}};
-    const std::string key = "time.scheme = \"auto\": ";
+    if (rock_edges_are_viscous(scene))
+        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, rock_obstacle)};
     if (const std::string obstacle = fe2d::modal_obstacle(options); !obstacle.empty())
-        return {TimeScheme::hht, key + "HHT, since there is " + obstacle};
+        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, obstacle)};
     const double steps = motion.dt / options.dt.value_or(motion.dt) * static_cast<double>(motion.accel_h.size() - 1);
     if (steps < fe2d::modal_break_even)
-        return {TimeScheme::hht, key + fmt::format("HHT, since {:.0f} steps cost less than finding modes", steps)};
+        return {TimeScheme::hht,
+                fmt::format("{}HHT, since {:.0f} steps cost less than finding modes", auto_key, steps)};
     return {TimeScheme::modal,
-            key + fmt::format(
-                      "superposition of modes, since a bonded base makes the model linear and {:.0f} direct steps cost "
-                      "more than its modes",
-                      steps)};
+            fmt::format("{}superposition of modes, since a bonded base makes the model linear and {:.0f} direct steps "
+                        "cost more than its modes",
+                        auto_key, steps)};
 }
 
 std::string time_scheme_note(const Scene& scene)
 {
     switch (scene.time.scheme) {
     case TimeScheme::automatic:
+        if (rock_edges_are_viscous(scene)) return fmt::format("{}HHT; {}", auto_key, rock_obstacle);
         return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic
                    ? "time.scheme = \"auto\": HHT; with acoustic water real modes do not separate the equations"
                    : fmt::format(

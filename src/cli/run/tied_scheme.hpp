@@ -11,8 +11,9 @@ struct TiedScheme {
     std::string reason;                  ///< of "auto": one sentence; else empty
 };
 
-/// "auto" takes modes where the model is linear with Rayleigh damping and the motion has more steps than the modes cost solves.
-TiedScheme tied_scheme(const TimeOptions& time, const GroundMotion& motion, const fe2d::TiedRunOptions& options);
+/// "auto" takes modes where the model is linear with Rayleigh damping and no waves leave, and the motion has more steps than the
+/// modes cost solves.
+TiedScheme tied_scheme(const Scene& scene, const GroundMotion& motion, const fe2d::TiedRunOptions& options);
 
 /// What the scene's time.scheme means for its FE runs, for `explain`.
 std::string time_scheme_note(const Scene& scene);
