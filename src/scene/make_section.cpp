@@ -189,7 +189,7 @@ Section make_section(const SectionInput& in, Findings& findings)
     const bool dimensions = in.height || in.base || in.crest || in.neck || in.upstream_slope ||
                             in.upstream_slope_height || in.base_inclination;
     const bool slope = any_of_rock_slope(in);
-    Section section{in.polygon};
+    Section section{in.polygon, slope};
     if (!in.polygon.empty() && dimensions) {
         findings.wrong("section", "section.polygon_m is given together with dimensions.",
                        "polygon_m alone, or height_m, base_m, crest_m ... alone", "delete one of the two descriptions");

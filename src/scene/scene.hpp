@@ -20,6 +20,7 @@ namespace damslip {
 /// heel.
 struct Section {
     Polyline polygon;
+    bool rock_slope = false; ///< given by the dimensions of a rock slope: a block of rock, not a dam
 };
 
 /// Linear elastic, plane strain.

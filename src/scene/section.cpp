@@ -101,4 +101,9 @@ Polyline downstream_face(const Section& section)
     return face;
 }
 
+const char* sliding_body(const Scene& scene)
+{
+    return scene.wedge ? "wedge" : scene.section.rock_slope ? "block" : "dam";
+}
+
 } // namespace damslip

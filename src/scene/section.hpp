@@ -2,7 +2,7 @@
 
 #include "scene/scene.hpp"
 
-/// Geometry of the section that both the rigid block and the FE model use.
+/// The section that both the rigid block and the FE model use.
 namespace damslip {
 
 double area(const Section& section);                     ///< [m^2], positive
@@ -15,5 +15,8 @@ double crest_level(const Section& section);              ///< highest y [m]
 double width_at_level(const Section& section, double y); ///< from the first to the last crossing of the level y [m]
 Polyline upstream_face(const Section& section);          ///< from the heel up to the crest's upstream end
 Polyline downstream_face(const Section& section);        ///< from the toe up to the crest's downstream end
+
+/// What slides, as a sentence calls it: "dam", "block" of a rock slope, "wedge".
+const char* sliding_body(const Scene& scene);
 
 } // namespace damslip

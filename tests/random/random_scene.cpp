@@ -28,7 +28,22 @@ struct Writer {
     }
     void word(const char* name, const std::string& value) { key(name, '"' + value + '"'); }
     void words(const char* name, std::initializer_list<const char*> choices) { word(name, draw.word(choices)); }
+    /// A key more for a table that is there already.
+    template <class T>
+    void late_key(const char* table, const char* name, const T& value)
+    {
+        const std::string head = fmt::format("[{}]\n", table);
+        text.insert(text.find(head) + head.size(), fmt::format("{} = {}\n", name, value));
+    }
+    bool has(const char* words) const { return text.find(words) != std::string::npos; }
 };
+
+std::string without_line(std::string text, const char* start)
+{
+    const std::size_t from = text.find(start);
+    if (from != std::string::npos) text.erase(from, text.find('\n', from) + 1 - from);
+    return text;
+}
 
 std::string points(const Polyline& line)
 {
@@ -343,6 +358,24 @@ void add_sliding(Writer& w)
     if (draw.chance(0.1)) w.key("scale_to_pga_m_s2", draw.between(0.5, 15));
 }
 
+/// Models of more effort. Drawn last, so that a seed keeps its scene but for these.
+void add_breadth(Writer& w)
+{
+    Draw& draw = w.draw;
+    if (w.rock && draw.chance(0.25)) {
+        w.late_key("foundation", "mass", "\"with-mass\"");
+        if (!w.has("density_kg_m3 = 2500")) w.late_key("foundation", "density_kg_m3", draw.between(2000, 3000));
+        if (draw.chance(0.6)) w.late_key("foundation", "boundary", "\"viscous\"");
+        if (draw.chance(0.5)) w.late_key("mesh", "rock_size_m", w.base / draw.between(0.5, 4));
+    }
+    if (!w.has("element = ") && draw.chance(0.15))
+        w.late_key("mesh", "element", draw.word({"\"q8\"", "\"q9\"", "\"t6\""}));
+    if (!w.rock && !w.has("scheme = \"newmark\"") && !w.has("alpha") && draw.chance(0.2)) {
+        w.late_key("time", "scheme", "\"central-difference\"");
+        w.text = without_line(w.text, "dt_s = ");
+    }
+}
+
 /// One value of the text, taken at random, becomes what no one should write.
 void spoil(SceneFiles& files, Draw& draw)
 {
@@ -370,6 +403,7 @@ SceneFiles random_scene(Draw& draw)
     add_model(w);
     add_time(w);
     add_sliding(w);
+    add_breadth(w);
     SceneFiles files;
     random_motion(draw, files);
     w.text += "[[motion.record]]\nname = \"drawn\"\nhorizontal = \"horizontal.csv\"\n";

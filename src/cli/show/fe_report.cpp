@@ -5,6 +5,7 @@
 #include "cli/show/fe_page.hpp"
 #include "cli/show/open_records.hpp"
 #include "core/units.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,11 +67,12 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
     const ContactRun& worst = worst_of(runs);
     const double slip = std::abs(worst.fe.max_slip);
     std::string out =
-        slip < 1e-7 ? fmt::format("The dam does not slide in {}",
-                                  runs.size() > 1 ? fmt::format("any of the {} records", runs.size())
-                                                  : "the record " + worst.record)
-                    : fmt::format("The dam slides {:.4g} mm at most by finite elements{} (record {})", slip / mm,
-                                  runs.size() > 1 ? fmt::format(" over {} records", runs.size()) : "", worst.record);
+        slip < 1e-7
+            ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                          runs.size() > 1 ? fmt::format("any of the {} records", runs.size())
+                                          : "the record " + worst.record)
+            : fmt::format("The {} slides {:.4g} mm at most by finite elements{} (record {})", sliding_body(scene),
+                          slip / mm, runs.size() > 1 ? fmt::format(" over {} records", runs.size()) : "", worst.record);
     if (std::isfinite(worst.fe.slip_error) && worst.fe.slip_error > 0.0)
         out += fmt::format(", ± {:.2g} mm {}", worst.fe.slip_error / mm, error_source);
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)

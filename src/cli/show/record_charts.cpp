@@ -5,6 +5,7 @@
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -210,7 +211,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
         slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     const SlipRow* hv = worse_with_vertical(s, number);
     if (h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0))
-        slip.note = scene.wedge ? "The wedge does not slide in this record." : "The dam does not slide in this record.";
+        slip.note = fmt::format("The {} does not slide in this record.", sliding_body(scene));
     if (!hv) {
         add(std::move(slip));
     } else {

@@ -14,6 +14,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "report/page_html.hpp"
+#include "scene/section.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
@@ -62,21 +63,16 @@ const SlipRow& largest(const Screening& s)
 }
 
 /// What slides.
-const char* subject(const Scene& scene)
-{
-    return scene.wedge ? "wedge" : "dam";
-}
-
 std::string slip_sentence(const Scene& scene, const Screening& s)
 {
     const SlipRow& worst = largest(s);
     const std::size_t n = s.slips.size() / 2;
     const double slip = worst.judged().max_slip;
     std::string out =
-        slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", subject(scene),
+        slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", sliding_body(scene),
                                slip / mm, n > 1 ? fmt::format(" over {} records", n) : "", worst.record, worst.polarity,
                                worst.with_vertical ? ", with vertical motion" : "")
-                 : fmt::format("The {} does not slide in {}", subject(scene),
+                 : fmt::format("The {} does not slide in {}", sliding_body(scene),
                                n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst.record);
     if (n > 1 && slip > 0) {
         std::vector<double> worse;
@@ -258,17 +254,19 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
                             model.wedge->still.factor_of_safety),
                 Outcome::fail, "FAIL"};
     if (model.state == sliding::StaticState::lifts_off)
-        return {"The uplift carries more than the weight: the dam floats without any earthquake.", Outcome::fail,
-                "FAIL"};
+        return {fmt::format("The uplift carries more than the weight: the {} floats without any earthquake.",
+                            sliding_body(scene)),
+                Outcome::fail, "FAIL"};
     if (model.state != sliding::StaticState::at_rest)
-        return {fmt::format("The dam slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
-                            model.block.friction, model.critical_friction),
+        return {fmt::format("The {} slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
+                            sliding_body(scene), model.block.friction, model.critical_friction),
                 Outcome::fail, "FAIL"};
     if (s.slips.empty()) {
-        const std::string sentence = fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
-                                                 "given.",
-                                                 subject(scene), metres_per_second2(model.downstream.law.constant)) +
-                                     checks_sentence(checks) + standing_sentence(s);
+        const std::string sentence =
+            fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
+                        "given.",
+                        sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
+            checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
         return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : "PASS"};
     }

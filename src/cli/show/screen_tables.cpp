@@ -76,7 +76,7 @@ Table yield_table(const Screening& s)
                           m.downstream.law.constant / standard_gravity, m.upstream.law.constant, m.critical_friction,
                           state_word(m)});
     }
-    t.notes.push_back("a_y: ground acceleration at which the dam starts to slide; critical μ: friction that just holds "
+    t.notes.push_back("a_y: ground acceleration at which it starts to slide; critical μ: friction that just holds "
                       "it without an earthquake.");
     return t;
 }
