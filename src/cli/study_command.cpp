@@ -35,13 +35,19 @@ SweepArguments grid_arguments(const StudyArguments& a)
 
 void check_scene(const Scene& scene)
 {
-    const auto usage = [](const char* problem, const char* expected, const char* fix) {
-        throw UsageError(Diagnostic{"", 0, 0, problem, expected, fix});
+    const auto usage = [&scene](const std::string& problem, const char* expected, const std::string& fix) {
+        throw UsageError(Diagnostic{scene.file.string(), 0, 0, problem, expected, fix});
     };
-    if (!scene.reservoir || !scene.curtain || !scene.foundation)
-        usage("the scene has no reservoir, no curtain or no foundation.",
-              "the study varies uplift and water of a dam with a curtain",
-              "add [reservoir], [curtain] and [foundation]");
+    std::string missing;
+    const auto need = [&missing](bool given, const char* table) {
+        if (!given) missing += (missing.empty() ? "" : ", ") + std::string(table);
+    };
+    need(scene.reservoir.has_value(), "[reservoir]");
+    need(scene.curtain.has_value(), "[curtain]");
+    need(scene.foundation.has_value(), "[foundation]");
+    if (!missing.empty())
+        usage("damslip study needs " + missing + ".", "a dam with water, curtain and rock: the study varies them",
+              "add " + missing + ", or take damslip sweep, which needs none of them");
     if (scene.motion.records.empty())
         usage("there is no record.", "a [[motion.record]] in the scene or --record", "add  --record FILE");
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -106,9 +107,22 @@ void check_contact_row(Checker& check, const json& row)
                  "fe: slip {} mm above the largest", row["slip_mm"].get<double>());
 }
 
+/// What round-off may do [J/m]: the work of the weight over 1e-12 of the dam's height; and of the stiffer body over the last
+/// digits of how far the weight presses the softer one down, W/E.
+double largest_rounding(const Scene& scene)
+{
+    double top = 0.0;
+    for (const Point& p : scene.section.polygon) top = std::max(top, p.y);
+    const double weight = scene.dam.density * scene.gravity * area(scene.section);
+    const double dam = scene.dam.young_modulus.value_or(0.0);
+    const double rock = scene.foundation ? scene.foundation->material.young_modulus.value_or(dam) : dam;
+    const double pressed = weight / std::min(dam, rock);
+    return 1e-12 * weight * top + std::numeric_limits<double>::epsilon() * std::max(dam, rock) * pressed * pressed;
+}
+
 /// Friction's work goes by the trapezoid: a step in which shear turns, or that a dam spends hopping, may give some back.
 /// @param elastic  contact gives way before it slips, and its friction column holds what that stores and gives back
-/// @param rounding  work of the weight over 1e-12 of the dam's height [J/m]
+/// @param rounding  largest_rounding() [J/m]
 void check_energy(Checker& check, const json& fe, bool elastic, double rounding)
 {
     for (const json& row : fe["energy"]) {
@@ -185,13 +199,11 @@ CheckedRuns check_run(const std::filesystem::path& scene)
         check.demand(without_seconds(answer_of({"fe", scene.string(), "--json"}).out) == without_seconds(fe.out),
                      "fe: other bytes when run again");
         const Scene read = read_scene(scene);
-        double top = 0.0;
-        for (const Point& p : read.section.polygon) top = std::max(top, p.y);
         if (proper)
             check_energy(check, ran,
                          read.contact.enforcement != ContactEnforcement::exact ||
                              read.contact.normal != NormalContact::hard,
-                         1e-12 * read.dam.density * read.gravity * area(read.section) * top);
+                         largest_rounding(read));
         if (screened.contains("yield")) check_critical_friction(check, read, screened, ran);
     }
     return runs;
