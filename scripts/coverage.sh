@@ -10,7 +10,7 @@ cmake --build --preset coverage --target "${targets[@]}"
 find build/coverage -name '*.gcda' -delete   # of runs before
 ctest --preset coverage --parallel "$(nproc)" --label-regex '^(unit|property|input|random)$' --timeout 3600
 gcovr --root . --object-directory build/coverage --filter 'src/' --filter 'records/' --filter 'sliding/' --filter 'fe2d/' \
-      --exclude-throw-branches --exclude-unreachable-branches -j "$(nproc)" \
+      --exclude 'build/' --exclude-throw-branches --exclude-unreachable-branches -j "$(nproc)" \
       --csv build/coverage/coverage.csv --html-details build/coverage/coverage.html
 awk -F, '
     NR > 1 {

@@ -31,4 +31,28 @@ OscillatorStep::OscillatorStep(double circular_frequency, double ratio, double s
     b_[2] = -h * (phi1[1] - phi2[1]), b_[3] = -h * phi2[1];
 }
 
+OscillatorStep OscillatorStep::in_turn(const OscillatorStep& first, int p, const OscillatorStep& second, int q)
+{
+    const double f = static_cast<double>(p) / (p + q); // acceleration between: (1 - f) a_0 + f a_1
+    OscillatorStep both;
+    for (const int row : {0, 2}) {
+        const double* a = second.a_ + row;
+        for (const int column : {0, 1}) {
+            both.a_[row + column] = a[0] * first.a_[column] + a[1] * first.a_[2 + column];
+            const double through = a[0] * first.b_[1] + a[1] * first.b_[3] + second.b_[row]; // of the one between
+            both.b_[row + column] = column == 0 ? a[0] * first.b_[0] + a[1] * first.b_[2] + (1.0 - f) * through
+                                                : f * through + second.b_[row + 1];
+        }
+    }
+    return both;
+}
+
+OscillatorStep OscillatorStep::repeated(int count) const
+{
+    assert(count >= 1);
+    if (count == 1) return *this;
+    const OscillatorStep half = repeated(count / 2), twice = in_turn(half, 1, half, 1);
+    return count % 2 == 0 ? twice : in_turn(twice, count - 1, *this, 1);
+}
+
 } // namespace damslip::records

@@ -21,6 +21,10 @@ public:
     /// @param step  h [s], > 0, with w h (1 + 2 zeta) <= 2 so that the series converges to round-off (asserted)
     OscillatorStep(double circular_frequency, double ratio, double step);
 
+    /// `count` such steps as one, under ground acceleration that is linear over them all.
+    /// @param count  >= 1
+    OscillatorStep repeated(int count) const;
+
     /// @param a0, a1  ground acceleration at the start and the end of the step [m/s^2]
     OscillatorState advance(const OscillatorState& s, double a0, double a1) const
     {
@@ -29,6 +33,10 @@ public:
     }
 
 private:
+    OscillatorStep() = default;
+    /// `first` over p parts of the time, `second` over q more.
+    static OscillatorStep in_turn(const OscillatorStep& first, int p, const OscillatorStep& second, int q);
+
     double a_[4]; ///< rows (u, u')
     double b_[4]; ///< rows (u, u'), columns (a_0, a_1)
 };

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double rigid_below = 1e-3; // T / dt
 constexpr double steps_per_period = 16.0;
+constexpr int all_fine = 64;       // steps of an interval that are not worth a plan
+constexpr double forgotten = 37.0; // e^-37: below the last digit
 
 /// Largest |y| of the cubic with values y0, y1 and rates r0, r1 at the ends of a step h, given r0 r1 < 0: one extreme
 /// inside.
@@ -31,25 +33,63 @@ double cubic_peak(double y0, double r0, double y1, double r1, double h)
 /// Follows one response quantity y with rate r and keeps its largest |y|.
 struct PeakKeeper {
     double y = 0.0, r = 0.0, peak = 0.0;
-    void next(double y1, double r1, double h)
+    /// @param inside  whether extremes inside the step h count
+    void next(double y1, double r1, double h, bool inside)
     {
         peak = std::max(peak, std::abs(y1));
         // An extreme below the peak found so far cannot matter: within a step it exceeds the ends by less than h |r|.
-        if (r * r1 < 0.0 && std::max(std::abs(y), std::abs(y1)) + h * std::min(std::abs(r), std::abs(r1)) > peak)
+        if (inside && r * r1 < 0.0 &&
+            std::max(std::abs(y), std::abs(y1)) + h * std::min(std::abs(r), std::abs(r1)) > peak)
             peak = std::max(peak, cubic_peak(y, r, y1, r1, h));
         y = y1;
         r = r1;
     }
 };
 
+/// Steps of one kind in the plan of an interval.
+struct Stretch {
+    int count = 0, size = 1; ///< of steps; of each, in the smallest steps
+    bool peaks = true;       ///< false: no extreme lies inside
+};
+
+/// How an interval of n smallest steps is walked, `per_period` of them a period. Between samples a response is a straight
+/// line and what the oscillator remembers of the start. An oscillation that decays makes the largest value the first
+/// or the last of its extremes: their curves, straight line ± decaying exponential, are convex and concave. From the
+/// critical damping on, steps grow as the fast part is forgotten; once all is, one step takes the straight line.
+std::vector<Stretch> plan_of(int n, double per_period, double ratio)
+{
+    using std::numbers::pi;
+    if (n <= all_fine) return {{n}};
+    if (ratio <= 0.5) { // the damped period is 1.155 T at most
+        const int ends = static_cast<int>(std::ceil(1.25 * per_period));
+        if (2 * ends >= n) return {{n}};
+        return {{ends}, {1, n - 2 * ends, false}, {ends}};
+    }
+    const double decay = 2.0 * pi / per_period * (ratio - std::sqrt(std::max(0.0, ratio * ratio - 1.0))); // a step
+    std::vector<Stretch> plan;
+    for (int done = 0, size = 1; done < n;) {
+        if (done * decay > forgotten) {
+            plan.push_back({1, n - done, false});
+            break;
+        }
+        const int count = std::min(static_cast<int>(steps_per_period), (n - done) / size);
+        plan.push_back(count > 0 ? Stretch{count, size} : Stretch{1, n - done});
+        done += plan.back().count * plan.back().size;
+        if (ratio >= 1.0 && 2 * size * decay < 0.2) size *= 2;
+    }
+    return plan;
+}
+
 class Oscillator {
 public:
-    Oscillator(double period, double ratio, double dt)
-        : w_(2.0 * std::numbers::pi / period), ratio_(ratio),
-          steps_(std::max(1, static_cast<int>(std::ceil(
-                                 dt / period * std::max(steps_per_period, std::numbers::pi * (1.0 + 2.0 * ratio)))))),
-          h_(dt / steps_), step_(w_, ratio, h_)
+    Oscillator(double period, double ratio, double dt) : w_(2.0 * std::numbers::pi / period), ratio_(ratio)
     {
+        const double per_period = std::max(steps_per_period, 3.0 * std::numbers::pi * (1.0 + 2.0 * ratio));
+        steps_ = std::max(1, static_cast<int>(std::ceil(dt / period * per_period)));
+        const double h = dt / steps_;
+        const OscillatorStep smallest(w_, ratio, h);
+        for (const Stretch& stretch : plan_of(steps_, per_period, ratio))
+            walk_.push_back({stretch, h * stretch.size, smallest.repeated(stretch.size)});
     }
 
     /// One interval of the record, ground acceleration from a0 to a1.
@@ -57,11 +97,15 @@ public:
     {
         const double change = (a1 - a0) / steps_;
         if (a0 != accel_end_) jump(a0);
-        for (int j = 0; j < steps_; ++j) {
-            const double before = a0 + j * change, after = j + 1 == steps_ ? a1 : a0 + (j + 1) * change;
-            state_ = step_.advance(state_, before, after);
-            keep(after);
-        }
+        int done = 0;
+        for (const Walk& walk : walk_)
+            for (int j = 0; j < walk.stretch.count; ++j) {
+                const double before = a0 + done * change;
+                done += walk.stretch.size;
+                const double after = done == steps_ ? a1 : a0 + done * change;
+                state_ = walk.step.advance(state_, before, after);
+                keep(after, walk.h, walk.stretch.peaks);
+            }
         accel_end_ = a1;
     }
 
@@ -71,13 +115,19 @@ public:
     }
 
 private:
-    void keep(double ground)
+    struct Walk {
+        Stretch stretch;
+        double h;
+        OscillatorStep step;
+    };
+
+    void keep(double ground, double h, bool peaks)
     {
         const double absolute = -w_ * (w_ * state_.displacement + 2.0 * ratio_ * state_.velocity); // u'' + a_g
         const double relative = absolute - ground;                                                 // u''
-        displacement_.next(state_.displacement, state_.velocity, h_);
-        velocity_.next(state_.velocity, relative, h_);
-        absolute_.next(absolute, -w_ * (w_ * state_.velocity + 2.0 * ratio_ * relative), h_);
+        displacement_.next(state_.displacement, state_.velocity, h, peaks);
+        velocity_.next(state_.velocity, relative, h, peaks);
+        absolute_.next(absolute, -w_ * (w_ * state_.velocity + 2.0 * ratio_ * relative), h, peaks);
     }
 
     /// The ground acceleration jumps (first sample, end of the record): so do the rates that contain it.
@@ -90,9 +140,8 @@ private:
     }
 
     double w_, ratio_;
-    int steps_;
-    double h_;
-    OscillatorStep step_;
+    int steps_; ///< smallest steps of an interval
+    std::vector<Walk> walk_;
     OscillatorState state_;
     double accel_end_ = 0.0;
     PeakKeeper displacement_, velocity_, absolute_;

@@ -21,9 +21,10 @@ struct ResponseSpectrum {
 
 /// Elastic response spectrum of acceleration linear between samples, by the exact recursion of Nigam & Jennings (1969).
 ///
-/// Peaks between samples are not missed: each interval is divided into equal steps of at most T/16 (the recursion stays
+/// Peaks between samples are not missed: each interval is divided into equal steps of at most T/16, with damping shorter yet (the recursion stays
 /// exact), and where the rate of a response changes its sign inside a step, the extreme of the cubic through values and
-/// rates at both ends counts. The error of a peak is then below (w h)^4/384 = 6e-5 of it. The oscillator starts from
+/// rates at both ends counts. The error of a peak is then below (w h)^4/384 = 6e-5 of it. Of intervals much longer than T only
+/// the parts where a largest value can be are divided. The oscillator starts from
 /// rest; a first sample other than zero is a jump of the ground acceleration. It is followed for one period T after the
 /// record's end (free vibration).
 ///

@@ -107,25 +107,31 @@ void check_contact_row(Checker& check, const json& row)
                  "fe: slip {} mm above the largest", row["slip_mm"].get<double>());
 }
 
-/// What round-off may do [J/m]: the work of the weight over 1e-12 of the dam's height; and of the stiffer body over the last
-/// digits of how far the weight presses the softer one down, W/E.
-double largest_rounding(const Scene& scene)
+/// What round-off may do in a run [J/m], the sum of
+/// - the work of the weight W over 1e-12 of the dam's height,
+/// - that of the stiffer body over the last digits of how far the weight presses the softer one down, W/E,
+/// - drift: a step solves M/dt² beside E, so contact knows its forces to the last digits times E dt²/M and no better, and
+///   the dam moves by that share of g dt² a step.
+double largest_rounding(const Scene& scene, double dt, double steps)
 {
+    const double last_digit = std::numeric_limits<double>::epsilon();
     double top = 0.0;
     for (const Point& p : scene.section.polygon) top = std::max(top, p.y);
-    const double weight = scene.dam.density * scene.gravity * area(scene.section);
+    const double mass = scene.dam.density * area(scene.section), weight = mass * scene.gravity;
     const double dam = scene.dam.young_modulus.value_or(0.0);
     const double rock = scene.foundation ? scene.foundation->material.young_modulus.value_or(dam) : dam;
     const double pressed = weight / std::min(dam, rock);
-    return 1e-12 * weight * top + std::numeric_limits<double>::epsilon() * std::max(dam, rock) * pressed * pressed;
+    return 1e-12 * weight * top + last_digit * std::max(dam, rock) * pressed * pressed +
+           steps * weight * last_digit * (dam * dt * dt / mass) * scene.gravity * dt * dt;
 }
 
 /// Friction's work goes by the trapezoid: a step in which shear turns, or that a dam spends hopping, may give some back.
 /// @param elastic  contact gives way before it slips, and its friction column holds what that stores and gives back
-/// @param rounding  largest_rounding() [J/m]
-void check_energy(Checker& check, const json& fe, bool elastic, double rounding)
+void check_energy(Checker& check, const json& fe, const Scene& scene, bool elastic)
 {
-    for (const json& row : fe["energy"]) {
+    for (std::size_t k = 0; k < fe["energy"].size(); ++k) {
+        const json &row = fe["energy"][k], &run = fe["runs"][k];
+        const double rounding = largest_rounding(scene, run["dt_s"], run["steps"]);
         demand_numbers(
             check, "fe", row,
             {"kinetic_J_m", "strain_J_m", "friction_J_m", "external_J_m", "imbalance_J_m", "imbalance_share"});
@@ -200,10 +206,9 @@ CheckedRuns check_run(const std::filesystem::path& scene)
                      "fe: other bytes when run again");
         const Scene read = read_scene(scene);
         if (proper)
-            check_energy(check, ran,
+            check_energy(check, ran, read,
                          read.contact.enforcement != ContactEnforcement::exact ||
-                             read.contact.normal != NormalContact::hard,
-                         largest_rounding(read));
+                             read.contact.normal != NormalContact::hard);
         if (screened.contains("yield")) check_critical_friction(check, read, screened, ran);
     }
     return runs;

@@ -97,6 +97,45 @@ TEST(RecordSpectrum, jagged_record_against_dense_sampling)
         }
 }
 
+// Seven steps at once are seven steps, under the same straight line; the terms are of the size of the state.
+TEST(RecordSpectrum, repeated_steps_are_one)
+{
+    for (const double zeta : {0.0, 0.05, 1.0, 5.0}) {
+        const double w = 30.0, h = 2.0 / (w * (1.0 + 2.0 * zeta)) * 0.9;
+        const OscillatorStep step(w, zeta, h);
+        for (const int count : {1, 2, 7, 32}) {
+            OscillatorState one{0.01, -0.2};
+            const OscillatorState at_once = step.repeated(count).advance(one, -3.0, 4.0);
+            for (int k = 0; k < count; ++k)
+                one = step.advance(one, -3.0 + 7.0 * k / count, -3.0 + 7.0 * (k + 1) / count);
+            EXPECT_NEAR(at_once.displacement, one.displacement, 1e-14);
+            EXPECT_NEAR(at_once.velocity, one.velocity, 1e-13);
+        }
+    }
+}
+
+// Intervals much longer than the period are divided where a largest value can be only. On a grid so fine that every interval
+// is a few steps the same record gives the same peaks.
+TEST(RecordSpectrum, long_intervals_hide_no_peak)
+{
+    const std::vector<double> a = jagged();
+    const double dt = 0.01;
+    const int parts = 128;
+    std::vector<double> fine;
+    for (std::size_t k = 0; k + 1 < a.size(); ++k)
+        for (int j = 0; j < parts; ++j) fine.push_back(a[k] + (a[k + 1] - a[k]) * j / parts);
+    fine.push_back(a.back());
+    for (const double period : {dt / 5.0, dt / 30.0, dt / 200.0})
+        for (const double zeta : {0.0, 0.02, 0.3, 0.5, 0.6, 0.95, 1.0, 1.5, 4.0, 10.0}) {
+            const SpectrumPoint whole = response_spectrum(a, dt, std::vector{period}, zeta).points[0];
+            const SpectrumPoint divided = response_spectrum(fine, dt / parts, std::vector{period}, zeta).points[0];
+            EXPECT_NEAR(whole.displacement / divided.displacement, 1.0, 1e-4) << dt / period << " " << zeta;
+            EXPECT_NEAR(whole.velocity / divided.velocity, 1.0, 1e-4) << dt / period << " " << zeta;
+            EXPECT_NEAR(whole.absolute_acceleration / divided.absolute_acceleration, 1.0, 1e-4)
+                << dt / period << " " << zeta;
+        }
+}
+
 // A half cycle shorter than T/2 reaches its peak after the record's end: impulse I on a slow oscillator gives S_d =
 // I/w, S_v = I. The triangle of duration 0.02 s on T = 10 s: relative error of the impulse limit (w t_d)^2/24 with t_d
 // = 0.01: 2e-6.
