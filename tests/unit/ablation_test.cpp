@@ -16,7 +16,6 @@ using namespace damslip;
 using cli::AblationPlan;
 using cli::make_ablations;
 using sweep_tests::Answer;
-using sweep_tests::answer_of;
 using sweep_tests::content_of;
 using sweep_tests::SweepScene;
 

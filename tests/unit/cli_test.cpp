@@ -1,5 +1,5 @@
-#include "cli/program.hpp"
 #include "cli/run/screening.hpp"
+#include "program_answer.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,18 +13,6 @@
 namespace {
 
 using namespace damslip;
-
-struct ProgramAnswer {
-    int code;
-    std::string out, talk;
-};
-
-ProgramAnswer answer_of(const std::vector<std::string>& arguments)
-{
-    std::ostringstream out, talk;
-    const int code = cli::run_program(arguments, out, talk, false);
-    return {code, out.str(), talk.str()};
-}
 
 /// A folder with a dry 2500 kg/m3 block on friction 0.1 and one triangular pulse of 2 m/s2 over 2 s.
 class CliScene : public testing::Test {

@@ -1,12 +1,11 @@
 // The commands that print what is verified, and the one that prints a mesh.
-#include "cli/program.hpp"
 #include "core/file.hpp"
+#include "program_answer.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <sstream>
 #include <unistd.h>
 
 namespace {
@@ -14,35 +13,23 @@ namespace {
 using namespace damslip;
 using nlohmann::json;
 
-struct CommandAnswer {
-    int code;
-    std::string out, talk;
-};
-
-CommandAnswer run(const std::vector<std::string>& arguments)
-{
-    std::ostringstream out, talk;
-    const int code = cli::run_program(arguments, out, talk, false);
-    return {code, out.str(), talk.str()};
-}
-
 TEST(CliVerify, CountsItsChecks)
 {
-    const CommandAnswer a = run({"verify", "records.measure.triangle", "--json"});
+    const ProgramAnswer a = answer_of({"verify", "records.measure.triangle", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const json j = json::parse(a.out);
     EXPECT_EQ(j["cases"], 1);
     EXPECT_EQ(j["failed"], 0);
     EXPECT_EQ(j["checks"].get<std::size_t>(), j["results"].size());
     EXPECT_GT(j["results"].size(), 5u);
-    const CommandAnswer text = run({"verify", "records.measure.triangle"});
+    const ProgramAnswer text = answer_of({"verify", "records.measure.triangle"});
     EXPECT_NE(text.out.find("1 cases, "), std::string::npos);
     EXPECT_NE(text.out.find(", 0 failed"), std::string::npos);
 }
 
 TEST(CliVerify, MarkdownHasClaimSourceAndTolerance)
 {
-    const CommandAnswer a = run({"verify", "records.measure.triangle", "--markdown"});
+    const ProgramAnswer a = answer_of({"verify", "records.measure.triangle", "--markdown"});
     ASSERT_EQ(a.code, 0) << a.talk;
     for (const char* words : {"## records.measure.triangle", "Source: ", "Tolerance: ", "| quantity | unit |"})
         EXPECT_NE(a.out.find(words), std::string::npos) << words;
@@ -50,18 +37,18 @@ TEST(CliVerify, MarkdownHasClaimSourceAndTolerance)
 
 TEST(CliVerify, HardCasesShowBothAnswers)
 {
-    const CommandAnswer a = run({"verify", "--hard", "one-spike", "--json"});
+    const ProgramAnswer a = answer_of({"verify", "--hard", "one-spike", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const json row = json::parse(a.out)["results"].at(0);
     EXPECT_NEAR(row["value_a"].get<double>(), row["value_b"].get<double>(), row["tolerance"].get<double>());
     EXPECT_NE(row["value_a"], row["value_b"]);
-    EXPECT_NE(run({"verify", "--hard", "one-spike"}).out.find("hard.record.one-spike"), std::string::npos);
+    EXPECT_NE(answer_of({"verify", "--hard", "one-spike"}).out.find("hard.record.one-spike"), std::string::npos);
 }
 
 TEST(CliVerify, AFilterThatFindsNothingIsRefused)
 {
     for (const char* kind : {"--markdown", "--hard"}) {
-        const CommandAnswer a = run({"verify", "no.such.case", kind});
+        const ProgramAnswer a = answer_of({"verify", "no.such.case", kind});
         EXPECT_EQ(a.code, 2);
         EXPECT_NE(a.talk.find("no case has \"no.such.case\" in its name"), std::string::npos) << a.talk;
     }
@@ -90,42 +77,42 @@ protected:
 
 TEST_F(CliMesh, SaysWhatTheMeshIs)
 {
-    const CommandAnswer a = run({"mesh", scene("size_m = 1\ncontact_size_m = 1\n"), "--json"});
+    const ProgramAnswer a = answer_of({"mesh", scene("size_m = 1\ncontact_size_m = 1\n"), "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const json row = json::parse(a.out)["mesh"].at(0);
     EXPECT_EQ(row["dam_elements"], 16);
     EXPECT_EQ(row["base_nodes_dam"], 5);
     EXPECT_EQ(row["base_nodes_rock"], 5);
     EXPECT_NEAR(row["smallest_edge_m"].get<double>(), 1.0, 1e-12);
-    EXPECT_NE(run({"mesh", scene("size_m = 1\n")}).out.find("face each other along the base"), std::string::npos);
+    EXPECT_NE(answer_of({"mesh", scene("size_m = 1\n")}).out.find("face each other along the base"), std::string::npos);
 }
 
 TEST_F(CliMesh, WhatIsWrittenIsReadAgain)
 {
     const std::string own = scene("size_m = 1\ncontact_size_m = 1\nelement = \"q8\"\n");
     const std::string file = (folder / "block.msh").string();
-    const json made = json::parse(run({"mesh", own, "--json"}).out)["mesh"];
+    const json made = json::parse(answer_of({"mesh", own, "--json"}).out)["mesh"];
     for (const std::vector<std::string>& more :
          {std::vector<std::string>{"--format", "2.2"}, {"--format", "4.1", "--base", "shared"}}) {
         std::vector<std::string> arguments{"mesh", own, "--out", file};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const CommandAnswer written = run(arguments);
+        const ProgramAnswer written = answer_of(arguments);
         ASSERT_EQ(written.code, 0) << written.talk;
         EXPECT_NE(written.out.find("written: " + file), std::string::npos);
         const std::string imported = scene("file = \"block.msh\"\nelement = \"q8\"\n");
-        const CommandAnswer read = run({"mesh", imported, "--json"});
+        const ProgramAnswer read = answer_of({"mesh", imported, "--json"});
         ASSERT_EQ(read.code, 0) << read.talk;
         for (const char* count : {"nodes", "quadrilaterals", "triangles", "dam_elements", "base_nodes_dam"})
             EXPECT_EQ(json::parse(read.out)["mesh"].at(0)[count], made.at(0)[count]) << count;
-        EXPECT_NE(run({"mesh", imported}).out.find("clockwise elements turned"), std::string::npos);
+        EXPECT_NE(answer_of({"mesh", imported}).out.find("clockwise elements turned"), std::string::npos);
         scene("size_m = 1\ncontact_size_m = 1\nelement = \"q8\"\n");
     }
 }
 
 TEST_F(CliMesh, OneNodeForBothSidesNeedsSidesThatMatch)
 {
-    const CommandAnswer a = run({"mesh", scene("size_m = 1\ncontact_size_m = 1\nrock_contact_size_m = 0.5\n"), "--out",
-                                 (folder / "block.msh").string(), "--base", "shared"});
+    const ProgramAnswer a = answer_of({"mesh", scene("size_m = 1\ncontact_size_m = 1\nrock_contact_size_m = 0.5\n"),
+                                       "--out", (folder / "block.msh").string(), "--base", "shared"});
     EXPECT_EQ(a.code, 2);
     EXPECT_NE(a.talk.find("write  --base twice"), std::string::npos) << a.talk;
     EXPECT_FALSE(std::filesystem::exists(folder / "block.msh"));

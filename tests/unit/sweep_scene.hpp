@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/program.hpp"
+#include "program_answer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,17 +14,7 @@
 /// What the tests of `damslip sweep` share.
 namespace damslip::sweep_tests {
 
-struct Answer {
-    int code;
-    std::string out, talk;
-};
-
-inline Answer answer_of(const std::vector<std::string>& arguments)
-{
-    std::ostringstream out, talk;
-    const int code = cli::run_program(arguments, out, talk, false);
-    return {code, out.str(), talk.str()};
-}
+using Answer = ProgramAnswer;
 
 inline std::string content_of(const std::filesystem::path& file)
 {
@@ -44,7 +34,8 @@ protected:
         write("late.csv", "time_s,accel_m_s2\n0,0\n1,0\n2,2.5\n3,0\n4,0\n");
         write("block.toml",
               "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
-              "young_modulus_GPa = 2500\n[contact]\nfriction = 0.1\n[reservoir]\nlevel_m = 1\nmodel = \"added-mass\"\n[uplift]\n"
+              "young_modulus_GPa = 2500\n[contact]\nfriction = 0.1\n[reservoir]\nlevel_m = 1\nmodel = "
+              "\"added-mass\"\n[uplift]\n"
               "model = \"linear\"\n[mesh]\nsize_m = 1\ncontact_size_m = 1\n[time]\ndt_s = 0.02\nsubsteps = 0\n"
               "[[motion.record]]\nhorizontal = \"pulse.csv\"\n[[motion.record]]\nhorizontal = \"late.csv\"\n");
     }

@@ -11,7 +11,7 @@ namespace damslip::cli {
 
 namespace {
 
-constexpr double width = 880, height = 560, left = 74, right = 20, top = 78, bottom = 54;
+constexpr double width = 880, height = 576, left = 74, right = 20, top = 94, bottom = 54;
 constexpr std::array<RungKind, 7> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
                                         RungKind::variant,    RungKind::finite_elements, RungKind::acoustic,
                                         RungKind::quadratic};
