@@ -95,14 +95,17 @@ void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
         loads.impounding.push_back(water("tailwater on the ground", model, model.mesh.ground, level, unit_weight));
 }
 
-/// What stands on the crest when the dam is overtopped, by the higher of both sides.
+/// What stands on the crest: each side's water once it is above its end of it, the higher of both. A crest that falls to one
+/// side is wet from there before the dam is overtopped.
 void add_crest_water(const Scene& scene, const Model& model, StaticLoads& loads)
 {
     const Mesh& mesh = model.mesh;
-    const double dry = mesh.nodes[mesh.crest.front()].y,
-                 level = std::max(scene.reservoir ? scene.reservoir->level : dry,
-                                  scene.tailwater ? scene.tailwater->level : dry),
-                 density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
+    const double upstream = mesh.nodes[mesh.crest.back()].y, downstream = mesh.nodes[mesh.crest.front()].y;
+    const double dry = std::min(upstream, downstream);
+    double level = dry;
+    if (scene.reservoir && scene.reservoir->level > upstream) level = std::max(level, scene.reservoir->level);
+    if (scene.tailwater && scene.tailwater->level > downstream) level = std::max(level, scene.tailwater->level);
+    const double density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
     if (level > dry)
         loads.impounding.push_back(water("water on the crest", model, mesh.crest, level, density * scene.gravity));
 }

@@ -79,11 +79,11 @@ EarthquakeRun::Rest EarthquakeRun::rest(const Lane& lane) const
     return rest;
 }
 
-/// On the unknowns of model(); edges that are free in motion but not there are left out.
-VectorXd EarthquakeRun::displacement_of(const DynamicState& state) const
+/// @param moving  in the order of in_motion()   @param rock  of massless rock's contact nodes
+VectorXd EarthquakeRun::displacement_of(const VectorXd& moving, const VectorXd& rock) const
 {
-    if (!moving_) return structure_->assemble(state.u, state.rock, stages_.last());
-    return without_edges(*model_, *moving_model_, moving_->with_rock_to_model(state.u));
+    if (!moving_) return structure_->assemble(moving, rock, stages_.last());
+    return without_edges(*model_, *moving_model_, moving_->with_rock_to_model(moving));
 }
 
 namespace {
@@ -214,7 +214,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(),
                                 largest(h.slip), largest(h.largest_opening), largest(h.rocking)});
     }
-    result.displacement = displacement_of(end);
+    result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
     result.bytes = dynamics.bytes();
     result.seconds.contact += result.counts.contact_seconds;
@@ -265,13 +265,15 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     std::vector<RunResult> results(contacts.size());
     std::vector<std::unique_ptr<Lane>> lanes;
     std::vector<Lane*> going;
+    const int first = options_.halvings.value_or(0);
+    const double step = scene_.time.dt.value_or(motion.dt) / (1 << first);
+    const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
     for (const Contact& contact : contacts) {
-        if (!usable_) break;
+        if (!usable_ || !movable) break;
         lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}}));
         stand(contact, *lanes.back());
         if (lanes.back()->result.status != RunStatus::static_failure) going.push_back(lanes.back().get());
     }
-    const int first = options_.halvings.value_or(0);
     if (!going.empty()) {
         std::vector<RunResult> coarse = shake(motion, first, going);
         for (std::size_t i = 0; i < going.size(); ++i) {
@@ -288,11 +290,12 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
         if (!now.empty()) refine(motion, k, now);
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
-        if (usable_) {
+        if (usable_ && movable) {
             results[i] = std::move(lanes[i]->result);
             if (results[i].status != RunStatus::static_failure) judge(results[i]);
         } else {
-            results[i].message = why_not_;
+            results[i].message =
+                usable_ ? fmt::format("The equations of a step of {:.4g} s could not be factorised.", step) : why_not_;
         }
         results[i].seconds.model = seconds_;
         results[i].damping = damping_.constants;

@@ -125,6 +125,10 @@ public:
     /// order, the same bits as run() of each. Their dynamic seconds are equal shares of the common ones.
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts) const;
 
+    /// Displacements of a kept state on the unknowns of model() [m]; edges of the rock box that are free in motion but not
+    /// there are left out.
+    Eigen::VectorXd displacement_of(const StoredState& state) const { return displacement_of(state.dam, state.rock); }
+
     /// The stages before the earthquake alone; `memory` ends in the last state of equilibrium.
     std::vector<StageResult> statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const;
 
@@ -136,7 +140,7 @@ private:
         StaticState start;
     };
     Rest rest(const Lane& lane) const;
-    Eigen::VectorXd displacement_of(const DynamicState& state) const;
+    Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
     void find_damping();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;

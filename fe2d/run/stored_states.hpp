@@ -15,12 +15,12 @@ enum class Instant {
     end
 };
 
-/// Displacements of one instant as the run has them; ContactStructure::assemble() makes them those of the model.
+/// Displacements of one instant as the run has them; EarthquakeRun::displacement_of() makes them those of the model.
 struct StoredState {
     Instant instant = Instant::start;
     double time = 0.0;    ///< [s]
     double slip = 0.0;    ///< area mean since the static state [m]
-    Eigen::VectorXd dam;  ///< in the dam's node order [m]
+    Eigen::VectorXd dam;  ///< of what moves, in its node order [m]
     Eigen::VectorXd rock; ///< of the rock's contact nodes, plane [m]
 };
 

@@ -27,13 +27,13 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
         for (KeyGroup& g : more) groups.push_back(std::move(g));
     };
     append(wedge_groups());
-    groups.push_back(
-        group("dam", "Concrete of the dam, or rock of the block.", &Scene::dam,
-              {number("density", density, Range::above(0), "required", "density", "2500", at(&Material::density)),
-               number("young_modulus", modulus, Range::above(0), "none; FE commands ask for it", "Young's modulus",
-                      "25", at(&Material::young_modulus)),
-               number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.17",
-                      at(&Material::poisson_ratio))}));
+    groups.push_back(group(
+        "dam", "Concrete of the dam, or rock of the block.", &Scene::dam,
+        {number("density", density, Range::half_open(0, 1e5), "required", "density", "2500", at(&Material::density)),
+         number("young_modulus", modulus, Range::above(0), "none; FE commands ask for it", "Young's modulus", "25",
+                at(&Material::young_modulus)),
+         number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.17",
+                at(&Material::poisson_ratio))}));
     append(base_groups());
     append(water_groups());
     using F = PointForce;

@@ -184,7 +184,7 @@ std::vector<KeyGroup> base_groups()
                 at(&Drains::gallery_level)),
          number("lost_at_slip", small_length, Range::at_least(0), "never", "slip at which the drains shear off", "0.05",
                 at(&Drains::lost_at_slip))}));
-    Key rock_density = number("density", density, Range::at_least(0), "0",
+    Key rock_density = number("density", density, Range::between(0, 1e5), "0",
                               "rock density: weight where stages.gravity asks for it, inertia where mass does", "2650",
                               [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.density; });
     groups.push_back(optional_group(

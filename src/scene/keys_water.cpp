@@ -10,7 +10,8 @@ std::vector<KeyGroup> water_groups()
         "reservoir", "Water upstream. Without this table there is none.", &Scene::reservoir,
         {number("level", length, Range::at_least(0), "crest level", "water surface above the heel", "62.5",
                 at(&Reservoir::level)),
-         number("density", density, Range::above(0), "1000", "density of water", "1000", at(&Reservoir::density)),
+         number("density", density, Range::half_open(0, 1e5), "1000", "density of water", "1000",
+                at(&Reservoir::density)),
          number("bulk_modulus", bulk, Range::above(0), "2200", "bulk modulus of water", "2200",
                 at(&Reservoir::bulk_modulus)),
          number("length", length, Range::above(0), "1 x level with an absorbing far end, else 2.4",
@@ -50,7 +51,7 @@ std::vector<KeyGroup> water_groups()
                 "wave reflection coefficient of the bottom under acoustic water: 1 rigid, 0 absorbs all, -1 p = 0; "
                 "measured at dams: up to 0.77, rock 0.5 and more, sediments 0.1 ... 0.5 (Ghanaat & Redpath 1995)",
                 "1", at(&Reservoir::bottom_reflection)),
-         number("bottom_density", density, Range::above(0), "none",
+         number("bottom_density", density, Range::half_open(0, 1e5), "none",
                 "of the bottom's material; gives the reflection coefficient together with bottom_modulus", "2600",
                 at(&Reservoir::bottom_density)),
          number("bottom_modulus", modulus, Range::above(0), "none", "Young's modulus of the bottom's material", "30",

@@ -145,7 +145,7 @@ report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& 
     return {sentence, Outcome::pass, "PASS"};
 }
 
-FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model.structure(), input.model.stages().last()) {}
+FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
 
 void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {

@@ -54,10 +54,9 @@ std::vector<Polyline> dam_mesh_lines(const fe2d::Mesh& mesh)
     return lines;
 }
 
-StressView::StressView(const fe2d::ContactStructure& structure, Eigen::VectorXd load)
-    : structure_(structure), load_(std::move(load))
+StressView::StressView(const fe2d::EarthquakeRun& run) : run_(run)
 {
-    const fe2d::Mesh& mesh = structure.model().mesh;
+    const fe2d::Mesh& mesh = run.model().mesh;
     view_.title = "Stresses on the deformed mesh";
     view_.nodes = mesh.nodes;
     for (const fe2d::Element& e : mesh.elements) view_.elements.push_back(e.nodes);
@@ -83,10 +82,10 @@ void StressView::add(const std::string& record, const fe2d::RunResult& result)
 
 void StressView::add_state(const std::string& name, const fe2d::StoredState& state, const Eigen::VectorXd& zero)
 {
-    const fe2d::Model& model = structure_.model();
-    const Eigen::VectorXd u = structure_.assemble(state.dam, state.rock, load_);
+    const fe2d::Model& model = run_.model();
+    const Eigen::VectorXd u = run_.displacement_of(state);
     const fe2d::StressField stress = fe2d::stress_field(model.mesh, model.dofs, model.materials, u);
-    const Eigen::Vector2d shift = state.slip * structure_.plane().tangent;
+    const Eigen::Vector2d shift = state.slip * run_.structure().plane().tangent;
     const Eigen::MatrixXd at_nodes = node_vectors(model.dofs, zero.size() ? Eigen::VectorXd(u - zero) : u);
 
     report::MeshView::State shown;

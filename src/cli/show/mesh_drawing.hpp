@@ -12,8 +12,8 @@ std::vector<Polyline> dam_mesh_lines(const fe2d::Mesh& mesh);
 /// Stresses of the kept states of runs on the deformed mesh.
 class StressView {
 public:
-    /// @param load  the static loads before the earthquake, on all unknowns of the model [N/m]
-    StressView(const fe2d::ContactStructure& structure, Eigen::VectorXd load);
+    /// @param run  outlives this
+    explicit StressView(const fe2d::EarthquakeRun& run);
 
     /// The kept states of one run, its start only for the first run.
     void add(const std::string& record, const fe2d::RunResult& result);
@@ -24,8 +24,7 @@ public:
 private:
     void add_state(const std::string& name, const fe2d::StoredState& state, const Eigen::VectorXd& zero);
 
-    const fe2d::ContactStructure& structure_;
-    Eigen::VectorXd load_;
+    const fe2d::EarthquakeRun& run_;
     report::MeshView view_;
 };
 
