@@ -189,7 +189,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
                          << (rung.modes ? fmt::format(" --reduced --modes {}", *rung.modes) : "") << " --out "
                          << quoted(a.out.string()) << "\n";
     }
-    return result.done() ? exit_ok : exit_no_convergence;
+    return result.done() ? exit_ok : exit_no_answer;
 }
 
 std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner,
@@ -263,7 +263,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
         write_file(a.report, page());
         if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
     }
-    return judgement.choice && !interrupt.interrupted() ? exit_ok : exit_no_convergence;
+    return judgement.choice && !interrupt.interrupted() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

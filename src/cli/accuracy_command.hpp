@@ -19,7 +19,7 @@ struct AccuracyArguments {
 };
 
 /// Climbs the ladder of methods on a scene: slip, its error, its cost; names the cheapest rung within the tolerance.
-/// @returns exit_no_convergence where no rung is within it, or after an interrupt; what was computed is written all the
+/// @returns exit_no_answer where no rung is within it, or after an interrupt; what was computed is written all the
 /// same.
 int accuracy(const AccuracyArguments& arguments, const Streams& streams);
 

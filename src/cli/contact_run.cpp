@@ -168,7 +168,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     }
     const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };
     return runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), converged) ? exit_ok
-                                                                                             : exit_no_convergence;
+                                                                                             : exit_no_answer;
 }
 
 } // namespace damslip::cli

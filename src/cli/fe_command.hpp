@@ -15,7 +15,7 @@ struct FeArguments {
     std::optional<int> polarity; ///< -1 flips the horizontal component
 };
 
-/// Staged finite-element run of every record of the scene. @returns exit_no_convergence when a run did not end properly; what was
+/// Staged finite-element run of every record of the scene. @returns exit_no_answer when a run did not end properly; what was
 /// computed is written all the same.
 int fe(const FeArguments& arguments, const Streams& streams);
 

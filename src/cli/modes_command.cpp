@@ -250,7 +250,7 @@ int modes(const ModesArguments& arguments, const Streams& streams)
                        report::csv(*transfer,
                                    {"damslip " + program_version() + " modes --frf", "scene " + scene_hash(given)}));
     }
-    return answer.complete ? exit_ok : exit_no_convergence;
+    return answer.complete ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -52,8 +52,11 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
         report_error(error.what(), error.diagnostics(), exit_usage, form, out, talk);
         return exit_usage;
     } catch (const NotConverged& error) {
-        report_error(error.what(), error.diagnostics(), exit_no_convergence, form, out, talk);
-        return exit_no_convergence;
+        report_error(error.what(), {error.diagnostic()}, exit_no_answer, form, out, talk);
+        return exit_no_answer;
+    } catch (const Interrupted& error) {
+        report_error(error.what(), {}, exit_no_answer, form, out, talk);
+        return exit_no_answer;
     } catch (const InputError& error) {
         report_error(error.what(), error.diagnostics(), exit_input, form, out, talk);
         return exit_input;

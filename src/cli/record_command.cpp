@@ -285,7 +285,7 @@ int record_generate(const RecordGenerateArguments& arguments, const Streams& str
             result.record.source.title, 100.0 * result.worst_deviation, records::matched_from, records::matched_to,
             result.worst_period, result.passes);
     put(result.record, arguments.destination, "record-generate", streams);
-    return result.within_tolerance ? exit_ok : exit_no_convergence;
+    return result.within_tolerance ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -125,7 +125,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     const bool all = runs.size() == records.size() &&
                      std::all_of(runs.begin(), runs.end(),
                                  [](const ReducedRecord& run) { return ended_properly(run.result.status); });
-    return all ? exit_ok : exit_no_convergence;
+    return all ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -124,7 +124,7 @@ int exit_code(const Screening& s)
         return row.judged().status == sliding::SlideStatus::unresolved ||
                row.horizontal.status == sliding::SlideStatus::unresolved;
     };
-    return std::any_of(s.slips.begin(), s.slips.end(), unresolved) ? exit_no_convergence : exit_ok;
+    return std::any_of(s.slips.begin(), s.slips.end(), unresolved) ? exit_no_answer : exit_ok;
 }
 
 } // namespace

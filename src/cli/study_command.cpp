@@ -110,7 +110,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     if (!outcome.complete()) {
         streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
                                     outcome.rows.size(), outcome.wanted);
-        return exit_no_convergence;
+        return exit_no_answer;
     }
 
     // 3. what they say of the chapter's findings
@@ -139,7 +139,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
                                     page.string());
-    return outcome.all_good() ? exit_ok : exit_no_convergence;
+    return outcome.all_good() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

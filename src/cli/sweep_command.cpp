@@ -84,7 +84,7 @@ int merge(const SweepArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows of {} parts{}\n", merged.rows, merged.parts,
                                     arguments.out.empty() ? "" : " in " + arguments.out.string());
-    return merged.not_converged == 0 ? exit_ok : exit_no_convergence;
+    return merged.not_converged == 0 ? exit_ok : exit_no_answer;
 }
 
 /// The commands of all parts, or a job script that runs them.
@@ -202,7 +202,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
     put_report(job, records, grid, table, wanted, outcome, streams);
-    return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_convergence;
+    return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
 
 int run(const Job& job, const std::vector<RecordPair>& records, const Streams& streams)
@@ -222,7 +222,7 @@ int run(const Job& job, const std::vector<RecordPair>& records, const Streams& s
     if (journal && !outcome.complete()) { // a table with gaps would look like the whole
         streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
                                     outcome.rows.size(), outcome.wanted);
-        return exit_no_convergence;
+        return exit_no_answer;
     }
     const int code = finish(job, identity, grid, records, wanted, outcome, streams);
     if (journal) journal->mark_done();

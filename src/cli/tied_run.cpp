@@ -246,7 +246,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {
                          return r.history.status == fe2d::TiedRunStatus::complete;
                      });
-    return all ? exit_ok : exit_no_convergence;
+    return all ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

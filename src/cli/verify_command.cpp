@@ -108,7 +108,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
                     << fmt::format("{} cases, {} checks, {} failed, {:.2f} s\n", outcomes.size(), checks, failed,
                                    seconds);
     }
-    return failed == 0 ? exit_ok : exit_no_convergence;
+    return failed == 0 ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -10,7 +10,7 @@ struct VerifyArguments {
     bool hard = false;     ///< the hard cases instead
 };
 
-/// Runs the verification cases, or the hard ones. @returns exit_ok when every check passes, else exit_no_convergence.
+/// Runs the verification cases, or the hard ones. @returns exit_ok when every check passes, else exit_no_answer.
 int verify(const VerifyArguments& arguments, const Streams& streams);
 
 } // namespace damslip::cli

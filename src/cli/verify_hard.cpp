@@ -89,7 +89,7 @@ int verify_hard(const std::string& filter, const Streams& streams)
         streams.out << report::text(hard_table(outcomes))
                     << fmt::format("{} hard cases, {} failed, {:.2f} s\n", outcomes.size(), failed, seconds);
     }
-    return failed == 0 ? exit_ok : exit_no_convergence;
+    return failed == 0 ? exit_ok : exit_no_answer;
 }
 
 std::string hard_markdown()

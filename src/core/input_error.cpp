@@ -50,6 +50,13 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
 {
 }
 
+NotConverged::NotConverged(Diagnostic diagnostic)
+    : std::runtime_error(diagnostic.text()), diagnostic_(std::move(diagnostic))
+{
+}
+
+Interrupted::Interrupted(const std::string& where) : std::runtime_error("Interrupted during " + where + ".") {}
+
 void refuse(const std::filesystem::path& file, std::string problem, std::string expected, std::string fix)
 {
     throw InputError(Diagnostic{file.string(), 0, 0, std::move(problem), std::move(expected), std::move(fix)});

@@ -35,6 +35,24 @@ private:
 /// A file whose lines are in order one by one, but not what they make together. @throws InputError, naming the file
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string expected, std::string fix);
 
+/// A solver that found no answer, or lost its accuracy, where only an answer can be returned (exit code 4). Not an error of
+/// the input: the scene is allowed, and says nothing wrong.
+class NotConverged : public std::runtime_error {
+public:
+    explicit NotConverged(Diagnostic diagnostic);
+    const Diagnostic& diagnostic() const { return diagnostic_; }
+
+private:
+    Diagnostic diagnostic_;
+};
+
+/// The user stopped a computation where nothing can be returned (exit code 4).
+class Interrupted : public std::runtime_error {
+public:
+    /// @param where  what was going on: "the set-up of the finite elements"
+    explicit Interrupted(const std::string& where);
+};
+
 /// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is
 /// near.
 std::string_view nearest(std::string_view word, const std::vector<std::string>& candidates);
