@@ -85,7 +85,7 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     record(dynamics, result.history);
     result.dt = dt / parts;
     result.max_slip = 0.0;
-    result.status = RunStatus::sliding_at_end;
+    result.status = Status::sliding_at_end;
     const auto record_steps = static_cast<long>(std::ceil(ground.duration() / dt - 1e-9));
     const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
     const auto rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
@@ -99,16 +99,16 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
         result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
         if (options_.progress &&
             options_.progress({dynamics.state().time, ground.duration(), n + 1, record_steps}) == RunAnswer::stop) {
-            result.status = RunStatus::interrupted;
+            result.status = Status::interrupted;
             break;
         }
         if (!std::isfinite(dynamics.kinetic())) {
-            result.status = RunStatus::diverged;
+            result.status = Status::diverged;
             break;
         }
         if (n + 1 >= record_steps + rest_steps &&
             at_rest(result.history.time, result.history.slip, options_.rest_time)) {
-            result.status = RunStatus::at_rest;
+            result.status = Status::at_rest;
             break;
         }
     }
@@ -136,7 +136,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
         strength.follow(memory);
         ReducedResult result;
         shake(coarse_motion, coarse_.plane(), system, strength, memory, result);
-        interrupted = interrupted || result.status == RunStatus::interrupted;
+        interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;
     };
     const double modes = static_cast<double>(coarse_system_->modes.count() - 3);
@@ -193,7 +193,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.stages = full_.statics(statics, strength, memory);
     result.seconds.statics = clock.seconds();
     if (result.stages.back().status != StageStatus::ok) {
-        result.status = RunStatus::static_failure;
+        result.status = status_of(result.stages.back().status);
         result.message = result.stages.back().text();
         return result;
     }
@@ -208,6 +208,9 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         shake(loop, structure.plane(), *system_, strength, memory, result);
         result.halvings = halvings;
     };
+    const auto wanted = [&] {
+        return *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip);
+    };
     const int first = options_.halvings.value_or(0);
     shake_with(first);
     result.step_error = std::numeric_limits<double>::quiet_NaN();
@@ -215,11 +218,11 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         const double coarser = result.slip;
         shake_with(k);
         result.step_error = std::abs(result.slip - coarser);
-        if (result.step_error <= *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip))
-            break;
+        if (result.step_error <= wanted()) break;
     }
+    if (result.status == Status::at_rest && result.step_error > wanted()) result.status = Status::tolerance_missed;
     const std::optional<double> error = truncation_error(loop, contact.value_or(scene_.contact), memory);
-    if (!error) result.status = RunStatus::interrupted;
+    if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
     result.seconds.dynamics = clock.seconds();
 
@@ -232,7 +235,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.after = solve_stage(statics, structure, "after the earthquake", structure.split(after), strength, end);
     result.seconds.statics += clock.seconds();
 
-    if (result.status != RunStatus::interrupted && result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
     result.message = fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * result.slip,
                                  1e3 * result.truncation_error, result.modes);
     return result;

@@ -26,7 +26,7 @@ struct ReducedSeconds {
 };
 
 struct ReducedResult {
-    RunStatus status = RunStatus::model_failed;
+    Status status = Status::not_resolved;
     std::string message;             ///< one sentence with the numbers
     std::vector<StageResult> stages; ///< before the earthquake, by the full model
     StageResult after;               ///< after it, by the full model

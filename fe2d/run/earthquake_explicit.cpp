@@ -60,11 +60,11 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
         result.dt = step;
         result.halvings = halvings;
         result.max_slip = 0.0;
-        result.status = RunStatus::sliding_at_end;
+        result.status = Status::sliding_at_end;
         HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
         recorder.add();
         std::vector<GroundAcceleration> ahead(static_cast<std::size_t>(strength.constant() ? parts : 1));
-        for (long n = 0; n < all_steps && result.status == RunStatus::sliding_at_end; ++n) {
+        for (long n = 0; n < all_steps && result.status == Status::sliding_at_end; ++n) {
             for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
                 for (std::size_t k = 0; k < ahead.size(); ++k)
                     ahead[k] =
@@ -78,11 +78,11 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
             result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
             if (options_.progress &&
                 options_.progress(progress_of(halvings, record_steps, n + 1, row)) == RunAnswer::stop)
-                result.status = RunStatus::interrupted;
+                result.status = Status::interrupted;
             else if (has_diverged(dynamics, result.history.energy.front().strain))
-                result.status = RunStatus::diverged;
+                result.status = Status::diverged;
             else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
-                result.status = RunStatus::at_rest;
+                result.status = Status::at_rest;
         }
         end_lane(dynamics, strength, *lane, result);
         result.seconds.dynamics += clock.seconds();

@@ -15,6 +15,11 @@ struct EarthquakeRun::Lane {
     std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
     double local_error = 0.0;                   ///< of the worst steps of the first pass, for adaptive steps [m]
 
+    /// Do the static stages end in equilibrium?
+    bool stands() const
+    {
+        return !result.stages.empty() && result.stages.back().status == StageStatus::ok;
+    }
     void note_slips()
     {
         slips.resize(1 + result.lifts.size());

@@ -47,7 +47,7 @@ double worst(std::vector<double> errors)
 
 } // namespace
 
-/// The static stages. lane.result.status stays model_failed where they end in equilibrium.
+/// The static stages. Where they do not end in equilibrium, lane.result.status says why.
 void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
 {
     const Stopwatch clock;
@@ -60,7 +60,7 @@ void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
     if (result.stages.back().status == StageStatus::ok) {
         lane.start = contact_statics.displacements(split(stages_.loads.size() - 1), lane.memory);
     } else {
-        result.status = RunStatus::static_failure;
+        result.status = status_of(result.stages.back().status);
         result.message = result.stages.back().text();
     }
     result.seconds.statics = clock.seconds();
@@ -101,7 +101,7 @@ struct Pass {
     {
         recorder.add();
     }
-    void end(RunStatus status)
+    void end(Status status)
     {
         result.status = status;
         going = false;
@@ -138,7 +138,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         result.dt = step;
         result.halvings = halvings;
         result.max_slip = 0.0;
-        result.status = RunStatus::sliding_at_end;
+        result.status = Status::sliding_at_end;
     }
 
     const auto record_steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
@@ -165,13 +165,13 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
             pass->recorder.add();
             result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
             if (stopped)
-                pass->end(RunStatus::interrupted);
+                pass->end(Status::interrupted);
             else if (!pass->dynamics.within_reach())
-                pass->end(RunStatus::left_plane);
+                pass->end(Status::left_plane);
             else if (diverges(pass->dynamics))
-                pass->end(RunStatus::diverged);
+                pass->end(Status::diverged);
             else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
-                pass->end(RunStatus::at_rest);
+                pass->end(Status::at_rest);
         }
     }
     const double seconds = clock.seconds() / static_cast<double>(lanes.size());
@@ -220,7 +220,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     result.seconds.contact += result.counts.contact_seconds;
 
     const VectorXd after = load_with(stages_, *model_, options_.uplift_after);
-    if (result.status == RunStatus::left_plane) return;
+    if (result.status == Status::left_plane) return;
     Strength strength = strength_at_end;
     ContactMemory memory = end.contact;
     std::optional<StaticContact> statics;
@@ -240,8 +240,8 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
     for (std::size_t i = 0; i < lanes.size(); ++i) {
         Lane& lane = *lanes[i];
         lane.next = 0;
-        if (finer[i].status == RunStatus::interrupted) { // the whole coarser run tells more than part of the finer
-            lane.result.status = RunStatus::interrupted;
+        if (finer[i].status == Status::interrupted) { // the whole coarser run tells more than part of the finer
+            lane.result.status = Status::interrupted;
             lane.result.message = fmt::format("Interrupted with sub-steps of {:.4g} s; slip {:.4g} mm with {:.4g} s.",
                                               finer[i].dt, 1e3 * lane.result.slip, lane.result.dt);
             continue;
@@ -254,7 +254,7 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
             excess =
                 std::max(excess, step_error(plane) / (*options_.slip_tolerance *
                                                       std::max(std::abs(plane.back().slip), options_.smallest_slip)));
-        if (lane.result.status == RunStatus::left_plane || excess <= 1.0) continue;
+        if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
         lane.next = next_halvings(lane.slips.front(), excess);
         if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
     }
@@ -272,7 +272,7 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
         if (!usable_ || !movable) break;
         lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}}));
         stand(contact, *lanes.back());
-        if (lanes.back()->result.status != RunStatus::static_failure) going.push_back(lanes.back().get());
+        if (lanes.back()->stands()) going.push_back(lanes.back().get());
     }
     if (!going.empty()) {
         std::vector<RunResult> coarse = shake(motion, first, going);
@@ -286,13 +286,16 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
         std::vector<Lane*> now;
         for (Lane* lane : going)
-            if (lane->next == k && lane->result.status != RunStatus::interrupted) now.push_back(lane);
+            if (lane->next == k && lane->result.status != Status::interrupted) now.push_back(lane);
         if (!now.empty()) refine(motion, k, now);
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (usable_ && movable) {
+            const bool stands = lanes[i]->stands();
+            if (lanes[i]->next != 0 && !options_.halvings && lanes[i]->result.status == Status::at_rest)
+                lanes[i]->result.status = Status::tolerance_missed;
             results[i] = std::move(lanes[i]->result);
-            if (results[i].status != RunStatus::static_failure) judge(results[i]);
+            if (stands) judge(results[i]);
         } else {
             results[i].message =
                 usable_ ? fmt::format("The equations of a step of {:.4g} s could not be factorised.", step) : why_not_;

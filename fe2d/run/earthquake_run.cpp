@@ -213,29 +213,35 @@ RunProgress EarthquakeRun::progress_of(int halvings, long record_steps, long ste
 
 void EarthquakeRun::judge(RunResult& result) const
 {
-    if (result.status != RunStatus::interrupted && result.counts.unresolved > 0) result.status = RunStatus::unresolved;
+    if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
     switch (result.status) {
-    case RunStatus::at_rest:
+    case Status::at_rest:
         result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
         break;
-    case RunStatus::sliding_at_end:
+    case Status::tolerance_missed:
+        result.message =
+            fmt::format("Slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} allows. "
+                        "Give a smaller time.dt_s, or a larger slip_tolerance.",
+                        1e3 * result.slip, 1e3 * result.slip_error, result.dt, *options_.slip_tolerance);
+        break;
+    case Status::sliding_at_end:
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
                                      1e3 * result.slip, scene_.sliding.run_out_max);
         break;
-    case RunStatus::unresolved:
+    case Status::not_resolved:
         result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
                                      result.counts.unresolved, result.counts.steps, result.counts.largest_residual);
         break;
-    case RunStatus::interrupted:
+    case Status::interrupted:
         if (result.message.empty())
             result.message =
                 fmt::format("Interrupted at {:.2f} s, slip so far {:.4g} mm.", result.end_time, 1e3 * result.slip);
         break;
-    case RunStatus::left_plane:
+    case Status::left_plane:
         result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
                                      result.end_time, result.slip, *options_.max_slip);
         break;
-    case RunStatus::diverged: {
+    case Status::diverged: {
         const Energy& energy = result.history.energy.back();
         const bool scheme = -energy.numerical > energy.contact_normal;
         result.message = fmt::format("Stopped at {:.2f} s: {} has put {:.3g} J/m into the motion. Use a smaller "

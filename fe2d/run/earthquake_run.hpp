@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/status.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
@@ -44,17 +45,6 @@ struct RunOptions {
 /// What the options leave open, from the scene: separation, contact law, sub-steps.
 RunOptions completed(RunOptions options, const Scene& scene);
 
-enum class RunStatus {
-    at_rest,        ///< the dam has come to rest: the slip is final
-    sliding_at_end, ///< still sliding when the run-out ended
-    static_failure, ///< no equilibrium before the earthquake: see the last stage
-    unresolved,     ///< some steps' contact was not resolved (counts.unresolved)
-    interrupted,    ///< stopped by RunOptions::progress; the history ends there
-    left_plane,     ///< slid further than RunOptions::max_slip: the rest of the record was not run
-    diverged,       ///< energy grew beyond all that the ground put in: step too large for an undamped, stiff model
-    model_failed    ///< a matrix could not be factorised
-};
-
 /// Seconds of each part.
 struct RunSeconds {
     double model = 0.0; ///< mesh, matrices, modes for the damping, condensation
@@ -74,7 +64,7 @@ struct LiftResult {
 };
 
 struct RunResult {
-    RunStatus status = RunStatus::model_failed;
+    Status status = Status::not_resolved; ///< not_resolved until the record has run
     std::string message;             ///< one sentence with the numbers
     std::vector<StageResult> stages; ///< before the earthquake
     StageResult after;               ///< after it, with residual strength and uplift_after

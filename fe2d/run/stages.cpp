@@ -159,6 +159,22 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
     return result;
 }
 
+Status status_of(StageStatus stage)
+{
+    switch (stage) {
+    case StageStatus::slides:
+        return Status::static_failure;
+    case StageStatus::floats:
+        return Status::floats;
+    case StageStatus::overturns:
+        return Status::overturns;
+    case StageStatus::ok:
+    case StageStatus::not_resolved:
+        break;
+    }
+    return Status::not_resolved;
+}
+
 std::string StageResult::text() const
 {
     const PlaneBalance* weakest = this; // the base where it fails, else the first joint that does

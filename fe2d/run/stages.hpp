@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/status.hpp"
 #include "fe2d/model/static_loads.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/strength.hpp"
@@ -25,6 +26,9 @@ enum class StageStatus {
     overturns,   ///< N' acts outside the base
     not_resolved ///< resultants allow equilibrium, but the contact problem has none or was not solved: see the report
 };
+
+/// What a dam comes to whose static stage ends so. @param stage  not ok
+Status status_of(StageStatus stage);
 
 /// One plane at the end of a stage.
 struct PlaneBalance {

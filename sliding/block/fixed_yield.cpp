@@ -105,7 +105,7 @@ public:
         : down_(down), up_(up), yield_(yield), options_(options), dt_(dt), intervals_(intervals)
     {
         const bool slides_statically = yield.downstream.law.constant < 0.0 || yield.upstream.law.constant < 0.0;
-        if (slides_statically) summary_.status = SlideStatus::static_sliding;
+        if (slides_statically) summary_.status = Status::static_failure;
     }
 
     template <typename Find>
@@ -180,11 +180,11 @@ private:
         const Yield& yield = direction == SlipDirection::downstream ? yield_.downstream : yield_.upstream;
         double slip = yield.factor * m.slip;
         if (m.k == intervals_ && m.rate > 0.0) {
-            const bool run_out = summary_.status != SlideStatus::static_sliding;
+            const bool run_out = summary_.status != Status::static_failure;
             const Coasting coasting =
                 coast(m.rate, yield.law.constant, yield.factor, run_out ? options_.run_out_max : 0.0);
             slip += coasting.slip;
-            if (run_out && !coasting.stops) summary_.status = SlideStatus::sliding_at_end;
+            if (run_out && !coasting.stops) summary_.status = Status::sliding_at_end;
         }
         (direction == SlipDirection::downstream ? summary_.downstream_slip : summary_.upstream_slip) += slip;
         summary_.max_slip = std::max(summary_.max_slip, std::abs(summary_.downstream_slip - summary_.upstream_slip));

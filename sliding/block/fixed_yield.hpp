@@ -36,7 +36,7 @@ struct FixedYieldOptions {
 
 /// What a sweep keeps of each run; meanings as in SlideResult.
 struct SlipSummary {
-    SlideStatus status = SlideStatus::at_rest;
+    Status status = Status::at_rest;
     double slip = 0.0;            ///< [m]
     double max_slip = 0.0;        ///< [m]
     double downstream_slip = 0.0; ///< [m]

@@ -85,12 +85,13 @@ SlideResult slide_slammer(const GroundMotion& motion, const SlipStages& stages, 
     result.slip = state.slip();
     result.downstream_slip = state.downstream;
     result.upstream_slip = state.upstream;
-    result.status = static_state(stages.front().block) != StaticState::at_rest ? SlideStatus::static_sliding
-                    : state.rate != 0.0                                        ? SlideStatus::sliding_at_end
-                                                                               : SlideStatus::at_rest;
+    const StaticState still = static_state(stages.front().block);
+    result.status = still != StaticState::at_rest ? status_of(still)
+                    : state.rate != 0.0           ? Status::sliding_at_end
+                                                  : Status::at_rest;
     result.notes.push_back(
         "SLAMMER's trapezoid scheme: second order in the time step, no run-out; the default scheme is exact.");
-    if (result.status == SlideStatus::sliding_at_end)
+    if (result.status == Status::sliding_at_end)
         result.notes.push_back(
             "Still sliding at the record's end, where this scheme stops: the slip is a lower bound.");
     return result;

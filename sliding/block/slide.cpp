@@ -37,11 +37,11 @@ std::string static_note(const SlipStages& stages, StaticState state)
 
 void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& options, SlideResult& result)
 {
-    if (result.status == SlideStatus::static_sliding) result.notes.push_back(static_note(stages, state));
-    if (result.status == SlideStatus::sliding_at_end)
+    if (state != StaticState::at_rest) result.notes.push_back(static_note(stages, state));
+    if (result.status == Status::sliding_at_end)
         result.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
                                " s after the record's end: the slip is a lower bound.");
-    if (result.status == SlideStatus::unresolved)
+    if (result.status == Status::not_resolved)
         result.notes.push_back("More events in one sample interval than a motion can have; the slip up to " +
                                shortest(result.end_time) + " s is given.");
     if (result.accuracy == SlideAccuracy::series)
@@ -85,10 +85,10 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
 
     block.write(result);
     if (!block.unresolved()) result.end_time = std::max(result.end_time, static_cast<double>(last) * motion.dt);
-    result.status = block.unresolved()              ? SlideStatus::unresolved
-                    : state != StaticState::at_rest ? SlideStatus::static_sliding
-                    : block.at_rest()               ? SlideStatus::at_rest
-                                                    : SlideStatus::sliding_at_end;
+    result.status = block.unresolved()              ? Status::not_resolved
+                    : state != StaticState::at_rest ? status_of(state)
+                    : block.at_rest()               ? Status::at_rest
+                                                    : Status::sliding_at_end;
     add_notes(stages, state, options, result);
     return result;
 }

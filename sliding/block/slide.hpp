@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/status.hpp"
 #include "records/record.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/skipping_motion.hpp"
@@ -21,15 +22,9 @@ struct SlideOptions {
     HistoryOutput history = HistoryOutput::none; ///< samples: values at every sample, run-out included
 };
 
-enum class SlideStatus {
-    at_rest,        ///< the block has come to rest (or never moved): the slip is final
-    sliding_at_end, ///< still moving when the integration ended: the slip is a lower bound
-    static_sliding, ///< a_y < 0 (or a_y^- < 0, or N' <= 0) before the earthquake: it slides by itself; slip up to the
-                    ///< record's end, no run-out
-    unresolved      ///< more events in one interval than any motion has (freak combination of cohesion, incline and
-                    ///< lift-off); see notes
-};
-
+/// What becomes of a rigid block: at_rest, sliding_at_end; static_failure or floats (a_y < 0, a_y^- < 0, or N' <= 0 before
+/// the earthquake: it slides by itself; slip up to the record's end, no run-out); not_resolved (more events in one interval
+/// than any motion has, a freak combination of cohesion, incline and lift-off; see notes).
 /// How the slip was found between events.
 enum class SlideAccuracy {
     closed_form, ///< polynomials, sines and hyperbolic sines: exact up to round-off
@@ -49,7 +44,7 @@ struct SlideHistory {
 };
 
 struct SlideResult {
-    SlideStatus status = SlideStatus::at_rest;
+    Status status = Status::at_rest;
     SlideAccuracy accuracy = SlideAccuracy::closed_form;
     double slip = 0.0;            ///< at the end, positive downstream [m]
     double max_slip = 0.0;        ///< largest |slip| on the way [m]

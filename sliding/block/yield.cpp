@@ -54,6 +54,12 @@ StaticState static_state(const RigidBlock& block)
     return StaticState::at_rest;
 }
 
+Status status_of(StaticState state)
+{
+    if (state == StaticState::at_rest) return Status::at_rest;
+    return state == StaticState::lifts_off ? Status::floats : Status::static_failure;
+}
+
 double critical_friction(const RigidBlock& block)
 {
     const BaseEquations equations = base_equations(block);

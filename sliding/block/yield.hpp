@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/status.hpp"
 #include "sliding/block/base_equations.hpp"
 
 /// Ground accelerations at which the block starts to slide.
@@ -60,6 +61,8 @@ enum class StaticState {
     lifts_off          ///< N' <= 0: the uplift carries more than the weight
 };
 StaticState static_state(const RigidBlock& block);
+/// The same for a block that does not stand: static_failure or floats.
+Status status_of(StaticState state);
 
 /// Static normal force N' before the earthquake [N/m]; negative: the block floats.
 double static_normal_force(const RigidBlock& block);

@@ -79,8 +79,8 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
     check_motion(motion);
     check_flexible(flexible, stages);
     FlexibleSlide result;
-    if (static_state(stages.front().block) != StaticState::at_rest) {
-        result.slide.status = SlideStatus::static_sliding;
+    if (const StaticState still = static_state(stages.front().block); still != StaticState::at_rest) {
+        result.slide.status = status_of(still);
         result.slide.notes.push_back(
             "The block slides or floats without an earthquake: its vibration is not followed.");
         return result;
@@ -104,7 +104,7 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
     block.write(result.slide);
     result.peak_acceleration = block.peak_acceleration();
     if (block.moving()) {
-        result.slide.status = SlideStatus::sliding_at_end;
+        result.slide.status = Status::sliding_at_end;
         result.slide.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
                                      " s after the record's end: the slip is a lower bound.");
     }

@@ -77,7 +77,7 @@ SlideResult slide_wedge(const GroundMotion& motion, const WedgeYields& yields, c
     if (yield.law.constant == std::numeric_limits<double>::infinity()) return at_rest(motion, options);
     if (!(yield.factor > 0.0) || !std::isfinite(yield.law.constant)) { // slides without, and no shaking pushes it on
         SlideResult r = at_rest(motion, options);
-        r.status = SlideStatus::static_sliding;
+        r.status = Status::static_failure;
         return r;
     }
     SlideOptions level = options;
@@ -86,7 +86,7 @@ SlideResult slide_wedge(const GroundMotion& motion, const WedgeYields& yields, c
     SlideResult r = slide(driving(motion, yield.law.per_a_v, options.polarity), level_block(yields), level);
     scale(r, yield.factor);
     restore_yield(r.history, motion, yield.law.per_a_v);
-    if (r.status == SlideStatus::static_sliding)
+    if (r.status == Status::static_failure)
         r.notes = {"The wedge slides without an earthquake. The slip is the one up to the record's end."};
     return r;
 }

@@ -38,7 +38,7 @@ std::vector<std::string> run_messages(const Scene& scene, const std::vector<Cont
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
     for (const ContactRun& r : runs)
-        if (r.fe.status != fe2d::RunStatus::at_rest) messages.push_back(r.record + ": " + r.fe.message);
+        if (r.fe.status != Status::at_rest) messages.push_back(r.record + ": " + r.fe.message);
     return messages;
 }
 
@@ -166,7 +166,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
-    const auto converged = [](const ContactRun& r) { return ended_properly(r.fe.status); };
+    const auto converged = [](const ContactRun& r) { return is_answer(r.fe.status); };
     return runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), converged) ? exit_ok
                                                                                              : exit_no_answer;
 }

@@ -95,7 +95,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     }
     std::vector<std::string> messages;
     for (const ReducedRecord& run : runs)
-        if (run.result.status != fe2d::RunStatus::at_rest) messages.push_back(run.record + ": " + run.result.message);
+        if (run.result.status != Status::at_rest) messages.push_back(run.record + ": " + run.result.message);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["base"] = "contact";
@@ -124,7 +124,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     }
     const bool all = runs.size() == records.size() &&
                      std::all_of(runs.begin(), runs.end(),
-                                 [](const ReducedRecord& run) { return ended_properly(run.result.status); });
+                                 [](const ReducedRecord& run) { return is_answer(run.result.status); });
     return all ? exit_ok : exit_no_answer;
 }
 

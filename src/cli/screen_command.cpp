@@ -121,8 +121,8 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
 int exit_code(const Screening& s)
 {
     const auto unresolved = [](const SlipRow& row) {
-        return row.judged().status == sliding::SlideStatus::unresolved ||
-               row.horizontal.status == sliding::SlideStatus::unresolved;
+        return row.judged().status == Status::not_resolved ||
+               row.horizontal.status == Status::not_resolved;
     };
     return std::any_of(s.slips.begin(), s.slips.end(), unresolved) ? exit_no_answer : exit_ok;
 }

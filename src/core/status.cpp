@@ -83,6 +83,16 @@ int worse_exit_code(int a, int b)
     return std::max(a, b);
 }
 
+bool is_answer(Status status)
+{
+    return status_row(status).exit_code == exit_ok;
+}
+
+bool fails_statically(Status status)
+{
+    return status == static_failure || status == overturns || status == floats;
+}
+
 std::optional<double> reported(Status status, double slip)
 {
     if (status_row(status).slip == SlipMeaning::none || !std::isfinite(slip)) return std::nullopt;

@@ -67,6 +67,11 @@ std::optional<Status> status_of_word(std::string_view word);
 /// The graver of two: exit_no_answer before exit_input before exit_ok.
 int worse_exit_code(int a, int b);
 
+/// Does it answer the question, the recognised failure of a dam that does not stand included?
+bool is_answer(Status status);
+/// Does the dam fail under its static loads alone?
+bool fails_statically(Status status);
+
 /// The slip as it may be printed, in its own unit: none where the status has none, or where the number is not finite.
 std::optional<double> reported(Status status, double slip);
 

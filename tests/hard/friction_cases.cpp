@@ -82,7 +82,7 @@ void add_friction_cases(HardCases& cases)
                      .method_a = "FE stages",
                      .method_b = "rigid block",
                      .tolerance = "1e-9: both sum the same loads",
-                     .expected_status = "slides statically",
+                     .expected_status = "static failure",
                      .run = [] { return fails_statically(soft_dam(0.7), 0.99); }});
     cases.push_back({.id = "hard.friction.zero-with-water",
                      .why = "nothing resists the water",
@@ -91,7 +91,7 @@ void add_friction_cases(HardCases& cases)
                      .method_a = "FE stages",
                      .method_b = "rigid block",
                      .tolerance = "1e-9: both sum the same loads",
-                     .expected_status = "slides statically",
+                     .expected_status = "static failure",
                      .run = [] {
                          Scene scene = soft_dam(0.7);
                          scene.uplift.reset();

@@ -61,29 +61,6 @@ Scene with_friction_over(Scene scene, double factor)
     return scene;
 }
 
-std::string status_word(fe2d::RunStatus status)
-{
-    switch (status) {
-    case fe2d::RunStatus::at_rest:
-        return "at rest";
-    case fe2d::RunStatus::sliding_at_end:
-        return "sliding at end";
-    case fe2d::RunStatus::static_failure:
-        return "slides statically";
-    case fe2d::RunStatus::unresolved:
-        return "unresolved";
-    case fe2d::RunStatus::interrupted:
-        return "interrupted";
-    case fe2d::RunStatus::left_plane:
-        return "left the plane";
-    case fe2d::RunStatus::diverged:
-        return "diverged";
-    case fe2d::RunStatus::model_failed:
-        return "model failed";
-    }
-    return "";
-}
-
 HardResult result_of(const fe2d::RunResult& run)
 {
     HardResult result;
@@ -95,7 +72,7 @@ HardResult result_of(const fe2d::RunResult& run)
         imbalance = std::max(imbalance, std::abs(run.history.imbalance[k]));
     }
     if (scale > 0.0) result.energy_closure = imbalance / scale;
-    result.status = status_word(run.status);
+    result.status = word(run.status);
     return result;
 }
 

@@ -25,7 +25,6 @@ sliding::SlideResult rigid_run(const Scene& scene, const GroundMotion& motion);
 double friction_that_holds(const Scene& scene);       ///< statically, by the rigid block [-]
 Scene with_friction_over(Scene scene, double factor); ///< friction: `factor` times that which holds
 
-std::string status_word(fe2d::RunStatus status);
 
 /// Status, complementarity and energy closure of a run; value_a is its slip.
 HardResult result_of(const fe2d::RunResult& run);

@@ -79,7 +79,7 @@ HardResult one_mode()
     HardResult result = compared(whole, whole.slip, 3.0 * reduced.truncation_error);
     result.value_a = reduced.slip;
     result.complementarity = std::max(*result.complementarity, reduced.counts.largest_residual);
-    result.status = status_word(reduced.status);
+    result.status = word(reduced.status);
     if (reduced.modes != 1) result.status = fmt::format("{} modes", reduced.modes);
     return result;
 }

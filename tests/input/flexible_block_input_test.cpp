@@ -72,7 +72,7 @@ TEST(FlexibleBlockInput, TinyPeriodEnds)
 TEST(FlexibleBlockInput, StaticSlidingIsSaid)
 {
     const FlexibleSlide r = slide_coupled(soft_motion(), soft_block(0.1, 0.2), {0.4, 0.05, 0.8});
-    EXPECT_EQ(r.slide.status, SlideStatus::static_sliding);
+    EXPECT_EQ(r.slide.status, Status::static_failure);
     EXPECT_EQ(r.slide.notes.size(), 1u);
 }
 

@@ -95,7 +95,7 @@ TEST(ZeroRecord, NothingDrifts)
         d.scene.contact.friction = 1.001 * sliding::critical_friction(sliding::make_rigid_block(d.scene));
         const GroundMotion silence = times(d.motion, 0.0);
         const fe2d::RunResult run = fe_run(d.scene, silence);
-        if (run.status == fe2d::RunStatus::static_failure) // overturned, or a rotation takes the last 0.1 %
+        if (run.status == Status::static_failure) // overturned, or a rotation takes the last 0.1 %
             EXPECT_NE(run.stages.back().status, fe2d::StageStatus::slides) << run.message;
         else
             EXPECT_LT(run.max_slip, 1e-15) << run.message;

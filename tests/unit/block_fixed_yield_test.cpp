@@ -95,13 +95,13 @@ TEST(BlockFixedYield, coasts_after_the_record_and_says_when_it_does_not_stop)
     const GroundMotion motion = steady(5.0, 1.0);
     const SlipSummary rest = slide_constant_yield(motion.accel_h, motion.dt, 2.0);
     EXPECT_LT(relative(rest.slip, exact::slip_under_rectangle(5.0, 1.0, 2.0)), 1e-14);
-    EXPECT_EQ(rest.status, SlideStatus::at_rest);
+    EXPECT_EQ(rest.status, Status::at_rest);
     const SlipSummary cut =
         slide_constant_yield(motion.accel_h, motion.dt, 2.0, FixedYield::never_slides, {1, 1.0, Scan::every_sample});
-    EXPECT_EQ(cut.status, SlideStatus::sliding_at_end);
+    EXPECT_EQ(cut.status, Status::sliding_at_end);
     EXPECT_LT(relative(cut.slip, 1.5 + 3.0 - 1.0), 1e-14);
     const SlipSummary fixed = slide_constant_yield(motion.accel_h, motion.dt, -0.5);
-    EXPECT_EQ(fixed.status, SlideStatus::static_sliding);
+    EXPECT_EQ(fixed.status, Status::static_failure);
     EXPECT_LT(relative(fixed.slip, 0.5 * 5.5), 1e-14);
 }
 

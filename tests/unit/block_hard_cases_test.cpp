@@ -75,7 +75,7 @@ TEST(BlockHardCases, reversals_on_samples)
 TEST(BlockHardCases, zero_yield_never_stops)
 {
     const SlideResult result = slide(samples({0.0, 1.0, 0.0}, 0.1), block_with_yields(0.0, 1.0));
-    EXPECT_EQ(result.status, SlideStatus::sliding_at_end);
+    EXPECT_EQ(result.status, Status::sliding_at_end);
     EXPECT_NEAR(result.slip, 0.01 + 0.1 * 60.0, 1e-9);
 }
 
@@ -154,7 +154,7 @@ TEST(BlockHardCases, coincidences_are_resolved)
         const RandomCase c(random, true);
         const SlideResult result = slide(c.motion, c.stages, c.options);
         EXPECT_TRUE(std::isfinite(result.slip)) << trial;
-        EXPECT_NE(result.status, SlideStatus::unresolved)
+        EXPECT_NE(result.status, Status::not_resolved)
             << trial << " theta " << c.stages[0].block.base_inclination << " cohesion "
             << c.stages.back().block.cohesion_force << " slope " << c.stages[0].friction_slope << " flight "
             << (c.options.sliding.lift_off == LiftOff::ballistic) << " mu " << c.stages[0].block.friction;
@@ -179,7 +179,7 @@ TEST(BlockHardCases, random_cases_do_not_depend_on_subdivision)
         if (!c.options.sliding.two_way && c.stages[0].block.base_inclination != 0.0)
             c.options.sliding.lift_off = LiftOff::no_friction;
         const SlideResult result = slide(c.motion, c.stages, c.options);
-        EXPECT_NE(result.status, SlideStatus::unresolved)
+        EXPECT_NE(result.status, Status::not_resolved)
             << trial << " theta " << c.stages[0].block.base_inclination << " cohesion "
             << c.stages.back().block.cohesion_force << " slope " << c.stages[0].friction_slope << " flight "
             << (c.options.sliding.lift_off == LiftOff::ballistic) << " mu " << c.stages[0].block.friction;

@@ -27,7 +27,7 @@ TEST(BlockSlide, rectangle)
     for (const int n : {1, 2, 10, 77}) {
         const SlideResult result = slide(steady(5.0, 1.0, n), block_with_yield(2.0));
         EXPECT_LT(relative(result.slip, exact::slip_under_rectangle(5.0, 1.0, 2.0)), 1e-13);
-        EXPECT_EQ(result.status, SlideStatus::at_rest);
+        EXPECT_EQ(result.status, Status::at_rest);
         EXPECT_NEAR(result.peak_slip_rate, 3.0, 1e-13);
         EXPECT_NEAR(result.last_slip_time, 2.5, 1e-13);
         EXPECT_EQ(result.first_slip_time, 0.0);

@@ -142,7 +142,7 @@ TEST(BlockVertical, ballistic_landing)
                 << A << " " << n;
             EXPECT_EQ(result.lift_offs, 1);
             EXPECT_NEAR(result.max_gap, 1.0 + 4.0 * 4.0 / 20.0, 1e-12); // y_T = 1 m, y_T' = 4 m/s
-            EXPECT_EQ(result.status, SlideStatus::at_rest);
+            EXPECT_EQ(result.status, Status::at_rest);
         }
 }
 
@@ -231,7 +231,7 @@ TEST(BlockVertical, static_sliding_is_told)
     RigidBlock block = friction_block(0.3);
     block.horizontal_force = 4.0;
     const SlideResult result = slide(sampled([](double) { return 0.0; }, 0.1, 10), block);
-    EXPECT_EQ(result.status, SlideStatus::static_sliding);
+    EXPECT_EQ(result.status, Status::static_failure);
     EXPECT_LT(relative(result.slip, 0.5), 1e-13); // s'' = 1 for the record's 1 s, no run-out
     ASSERT_FALSE(result.notes.empty());
     EXPECT_NE(result.notes.front().find("0.4"), std::string::npos) << result.notes.front();

@@ -317,7 +317,7 @@ TEST_F(CliScene, StaticSlidingHasNoSlip)
     std::ofstream(folder / "block.toml", std::ios::app) << "[reservoir]\nlevel_m = 10\n";
     const auto j = nlohmann::json::parse(answer_of({"screen", scene(), "--json"}).out);
     for (const auto& row : j["displacements"]) {
-        EXPECT_EQ(row["status"], "slides statically");
+        EXPECT_EQ(row["status"], "static failure");
         for (const char* key : {"slip_h_mm", "max_slip_m", "upstream_slip_mm"}) EXPECT_TRUE(row[key].is_null()) << key;
     }
     EXPECT_EQ(j["displacements"].size(), 2u);

@@ -37,7 +37,7 @@ TEST(FeAdaptiveStep, CostsFewerStepsAndKeepsTheAccuracy)
     fine.halvings = 6;
     const double exact = EarthquakeRun(scene, fine).run(motion).slip;
     const RunResult r = EarthquakeRun(scene, adaptive(scene)).run(motion);
-    ASSERT_EQ(r.status, RunStatus::at_rest) << r.message;
+    ASSERT_EQ(r.status, Status::at_rest) << r.message;
     EXPECT_GT(exact, 0.01);
     EXPECT_GT(r.halvings, 1);
     EXPECT_NEAR(r.slip, exact, 0.011 * exact);

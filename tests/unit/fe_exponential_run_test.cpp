@@ -151,7 +151,7 @@ TEST(FeExponentialRun, slip_tends_to_that_of_hard_contact)
     const GroundMotion motion = sines(1.5, 6.0);
     const auto slip = [&](const Scene& s) {
         const RunResult r = EarthquakeRun(s, options_of(s)).run(motion);
-        EXPECT_EQ(r.status, RunStatus::at_rest) << r.message;
+        EXPECT_EQ(r.status, Status::at_rest) << r.message;
         EXPECT_EQ(r.counts.unresolved, 0);
         EXPECT_LT(r.energy_error, 1e-10);
         return r.slip;

@@ -125,7 +125,7 @@ TEST(FeFiniteSliding, slides_metres_over_flexible_rock)
     for (const auto& [acceleration, seconds] : pushes) {
         const GroundMotion motion = push(acceleration, seconds, 14.0);
         const RunResult a = small.run(motion), b = finite.run(motion);
-        ASSERT_EQ(b.status, RunStatus::at_rest) << b.message;
+        ASSERT_EQ(b.status, Status::at_rest) << b.message;
         EXPECT_NEAR(b.slip, a.slip, 1e-4 * a.slip) << acceleration;
         EXPECT_EQ(b.counts.unresolved, 0);
         EXPECT_LT(b.energy_error, 1e-10) << acceleration;
@@ -153,7 +153,7 @@ TEST(FeFiniteSliding, leaving_the_meshed_plane_is_a_status)
     options.range = SlidingRange::finite;
     options.max_slip = 0.1;
     const RunResult result = EarthquakeRun(scene, options).run(push(3.0, 2.4, 8.0));
-    EXPECT_EQ(result.status, RunStatus::left_plane);
+    EXPECT_EQ(result.status, Status::left_plane);
     EXPECT_NE(result.message.find("max_slip"), std::string::npos) << result.message;
     EXPECT_GT(result.slip, 0.1);
     EXPECT_GT(result.history.time.size(), 100u);

@@ -31,7 +31,7 @@ double contact_slip_of(const Scene& scene)
     RunOptions options;
     options.halvings = 1;
     const RunResult result = EarthquakeRun(scene, options).run(sine_pulses());
-    EXPECT_EQ(result.status, RunStatus::at_rest) << result.message;
+    EXPECT_EQ(result.status, Status::at_rest) << result.message;
     return result.slip;
 }
 

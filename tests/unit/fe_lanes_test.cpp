@@ -45,7 +45,7 @@ TEST(FeLanes, RunsInStepHaveTheBitsOfSingleRuns)
     EXPECT_EQ(run.factorisations(), 1);
     ASSERT_EQ(together.size(), contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) expect_same(together[i], run.run(motion, contacts[i]));
-    EXPECT_EQ(together[3].status, RunStatus::static_failure);
+    EXPECT_EQ(together[3].status, Status::static_failure);
     EXPECT_GT(together[7].slip, together[4].slip);
     EXPECT_EQ(run.factorisations(), 1); // the single runs took what was there
 }

@@ -98,7 +98,7 @@ TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
     const double rigid = sliding::slide(motion, sliding::make_rigid_block(upper)).slip;
     ASSERT_GT(std::abs(rigid), 0.05);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
-    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << result.message;
     ASSERT_EQ(result.lifts.size(), 1u);
     EXPECT_NEAR(result.lifts[0].slip, rigid, 0.01 * std::abs(rigid)); // as the dam itself: first order in the step
     EXPECT_LT(std::abs(result.slip), 1e-6); // single pairs at heel and toe, where the traction is singular
@@ -116,7 +116,7 @@ TEST(FePlanes, BothPlanesOfTwoStiffBlocksSlide)
     ASSERT_GT(std::abs(rigid.base), 0.02);
     ASSERT_GT(std::abs(rigid.joint), 0.02);
     const RunResult result = EarthquakeRun(scene, stiff_options(scene)).run(motion);
-    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << result.message;
     EXPECT_NEAR(result.slip, rigid.base, 0.01 * std::abs(rigid.base));
     EXPECT_NEAR(result.lifts[0].slip, rigid.joint, 0.01 * std::abs(rigid.joint));
     EXPECT_LT(result.energy_error, 1e-9);
@@ -140,7 +140,7 @@ TEST(FePlanes, FlexibleDamWithTwoJointsIsInEquilibriumAndItsEnergyCloses)
     EXPECT_NEAR(top.resultant.position, 6.0 + water * 11.0 / 3.0 / weight, 1e-9);
     EXPECT_NEAR(result.history.lifts[1].normal_force[0], weight, 1e-9 * weight);
     EXPECT_NEAR(result.history.normal_force[0], result.stages.back().resultant.normal_force, 1.0);
-    ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+    ASSERT_EQ(result.status, Status::at_rest) << result.message;
     EXPECT_GT(result.lifts[1].largest_slip, 1e-4);
     EXPECT_LT(result.energy_error, 1e-10);
     EXPECT_LT(result.counts.largest_residual, 1e-8);
@@ -158,7 +158,7 @@ TEST(FePlanes, JointThatHoldsChangesNothing)
     options.halvings = 0;
     const GroundMotion motion = sines(0.15, 6.0); // the neck stays in compression
     const RunResult one = EarthquakeRun(whole, options).run(motion), two = EarthquakeRun(cut, options).run(motion);
-    ASSERT_EQ(two.status, RunStatus::at_rest);
+    ASSERT_EQ(two.status, Status::at_rest);
     ASSERT_EQ(two.lifts[0].largest_opening, 0.0);
     EXPECT_EQ(two.lifts[0].largest_slip, 0.0);
     ASSERT_GT(one.slip, 1e-5);
@@ -172,7 +172,7 @@ TEST(FePlanes, WeakJointFailsBeforeTheEarthquake)
     Scene scene = sliding_dam(0.77, 1.0, 5.0);
     scene.lift_joints.push_back(joint_at(51.5, 0.1)); // needs water/weight = 0.183
     const RunResult result = EarthquakeRun(scene, options_of(scene)).run(sines(1.0, 1.0));
-    EXPECT_EQ(result.status, RunStatus::static_failure);
+    EXPECT_EQ(result.status, Status::static_failure);
     EXPECT_NE(result.message.find("above the lift joint at 51.5 m slides"), std::string::npos) << result.message;
     EXPECT_NE(result.message.find("mu >= 0.183"), std::string::npos) << result.message;
 }

@@ -51,7 +51,7 @@ TEST(FePoreRun, ADamThatSticksStandsWhereTheTiedDamDoes)
     for (const PorePressure form : {PorePressure::total, PorePressure::effective}) {
         const Scene scene = sticking_dam(form);
         const RunResult result = at_rest(scene, crest);
-        ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << result.message;
         EXPECT_LT(result.pair_slip.cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_EQ(result.stages.back().open_length, 0.0);
         const double moved = (crest - dry).norm();
@@ -67,7 +67,7 @@ TEST(FePoreRun, SidesThatDoNotMatch)
     Scene scene = sticking_dam(PorePressure::total);
     at_rest(scene, matching);
     scene.mesh.rock_contact_size = 1.7;
-    ASSERT_EQ(at_rest(scene, other).status, RunStatus::at_rest);
+    ASSERT_EQ(at_rest(scene, other).status, Status::at_rest);
     EXPECT_LT((other - matching).norm(), 0.05 * matching.norm()); // finer rock below a coarse base
 }
 

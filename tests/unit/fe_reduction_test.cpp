@@ -97,12 +97,12 @@ TEST(FeReduction, stopped_at_any_moment_it_is_interrupted)
     long asked = 0, stop_at = 0;
     options.progress = [&](const RunProgress&) { return ++asked == stop_at ? RunAnswer::stop : RunAnswer::go_on; };
     const ReducedRun reduced(full, scene, options, 6);
-    EXPECT_NE(reduced.run(motion).status, RunStatus::interrupted);
+    EXPECT_NE(reduced.run(motion).status, Status::interrupted);
     const long all = asked;
     ASSERT_GT(all, 4 * 200); // one run and three for its error
     for (stop_at = all; stop_at > 0; stop_at -= 100) {
         asked = 0;
-        EXPECT_EQ(reduced.run(motion).status, RunStatus::interrupted) << stop_at << " of " << all;
+        EXPECT_EQ(reduced.run(motion).status, Status::interrupted) << stop_at << " of " << all;
     }
 }
 

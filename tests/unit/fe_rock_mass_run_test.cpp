@@ -90,7 +90,7 @@ TEST(FeRockMassRun, StepsThatCannotBeFactorisedAreAStatus)
     options.damping = RayleighConstants{0.0, 0.0};
     scene.dam.density = 1e304;
     const RunResult result = EarthquakeRun(scene, options).run(test::sines(1.0, 1.0));
-    EXPECT_NE(result.status, RunStatus::at_rest);
+    EXPECT_NE(result.status, Status::at_rest);
     EXPECT_FALSE(result.message.empty());
 }
 

@@ -216,7 +216,7 @@ TEST(FeRunDissipation, impacts_that_give_energy_are_a_status)
     GroundMotion motion = sines(15.0, 6.0);
     for (double& a : motion.accel_v) a *= 1.5;
     const RunResult result = EarthquakeRun(scene, options).run(motion);
-    ASSERT_EQ(result.status, RunStatus::diverged) << result.message;
+    ASSERT_EQ(result.status, Status::diverged) << result.message;
     EXPECT_GT(result.end_time, 0.5); // not before it was thrown up
     EXPECT_LT(result.end_time, 6.0);
     ASSERT_FALSE(result.history.time.empty());
@@ -244,7 +244,7 @@ TEST(FeRunDissipation, a_scheme_that_gives_energy_is_a_status)
     options.halvings = 0;
     const GroundMotion motion = sines(4.0, 2.0);
     const RunResult result = EarthquakeRun(scene, options).run(motion);
-    ASSERT_EQ(result.status, RunStatus::diverged) << result.message;
+    ASSERT_EQ(result.status, Status::diverged) << result.message;
     EXPECT_LT(result.end_time, 1.0);
     EXPECT_LT(result.history.energy.back().numerical, -10.0);
     EXPECT_NE(result.message.find("the time scheme has put"), std::string::npos) << result.message;

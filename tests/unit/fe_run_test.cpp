@@ -61,10 +61,10 @@ TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
     EXPECT_NEAR(result.stages.back().friction_needed, expected, 1e-9);
 
     const RunResult fails = run.run(silence(0.5, 0.01), with_friction(expected - 1e-5));
-    EXPECT_EQ(fails.status, RunStatus::static_failure);
+    EXPECT_EQ(fails.status, Status::static_failure);
     EXPECT_NE(fails.message.find("slides without any earthquake"), std::string::npos) << fails.message;
     EXPECT_TRUE(fails.history.time.empty());
-    EXPECT_NE(run.run(silence(0.5, 0.01), with_friction(expected + 1e-4)).status, RunStatus::static_failure);
+    EXPECT_NE(run.run(silence(0.5, 0.01), with_friction(expected + 1e-4)).status, Status::static_failure);
 }
 
 // Displacements counted from the end of the gravity stage: the rest of the run does not know. What gravity alone makes
@@ -113,7 +113,7 @@ TEST(FeRun, stiff_dam_slides_as_the_rigid_block)
     const EarthquakeRun run(scene, options);
     for (const GroundMotion& motion : {sines(1.0, 10.0), flipped(sines(1.0, 10.0))}) {
         const RunResult result = run.run(motion);
-        ASSERT_EQ(result.status, RunStatus::at_rest) << result.message;
+        ASSERT_EQ(result.status, Status::at_rest) << result.message;
         const double rigid = sliding::slide(motion, sliding::make_rigid_block(scene)).slip;
         EXPECT_GT(rigid, 0.02);
         EXPECT_NEAR(result.slip, rigid, 0.01 * rigid);
@@ -194,7 +194,7 @@ TEST(FeRun, can_be_interrupted)
     const EarthquakeRun run(scene, options);
     stop_after = 0.5;
     const RunResult half = run.run(sines(1.0, 5.0));
-    EXPECT_EQ(half.status, RunStatus::interrupted);
+    EXPECT_EQ(half.status, Status::interrupted);
     EXPECT_EQ(half.history.time.size(), 251u); // 250 of 500 steps, and the start
     EXPECT_NEAR(half.end_time, 2.5, 1e-9);
     EXPECT_NE(half.message.find("Interrupted at 2.50 s"), std::string::npos) << half.message;
@@ -202,7 +202,7 @@ TEST(FeRun, can_be_interrupted)
     last = 0;
     stop_after = 1.5; // in the second pass
     const RunResult one = run.run(sines(1.0, 5.0));
-    EXPECT_EQ(one.status, RunStatus::interrupted);
+    EXPECT_EQ(one.status, Status::interrupted);
     EXPECT_EQ(one.halvings, 0);
     EXPECT_GT(one.end_time, 5.0);
     EXPECT_TRUE(std::isnan(one.slip_error));

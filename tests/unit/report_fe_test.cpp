@@ -194,9 +194,9 @@ TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::none);
     runs[1].fe.after.status = fe2d::StageStatus::slides;
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
-    runs[1].fe.status = fe2d::RunStatus::unresolved;
+    runs[1].fe.status = Status::not_resolved;
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
-    runs[1].fe.status = fe2d::RunStatus::static_failure;
+    runs[1].fe.status = Status::static_failure;
     EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
     EXPECT_EQ(fe_headline(scene, {}).outcome, report::Outcome::none);
 }

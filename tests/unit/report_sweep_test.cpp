@@ -134,11 +134,11 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
     EXPECT_TRUE(page.warnings.empty());
 
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
-    rows.rows[1][16] = std::string("UNRESOLVED");
+    rows.rows[1][16] = std::string("not resolved");
     page = sweep_page({&scene, rows, {}, {}, "results.csv"});
     EXPECT_EQ(page.headline.outcome, report::Outcome::unresolved);
     ASSERT_EQ(page.warnings.size(), 1u);
-    EXPECT_NE(page.warnings[0].find("UNRESOLVED"), std::string::npos);
+    EXPECT_NE(page.warnings[0].find("not resolved"), std::string::npos);
 }
 
 TEST(SweepReport, ATableWithoutRowsHasAPageToo)

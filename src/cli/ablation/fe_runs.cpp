@@ -38,12 +38,12 @@ RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
 {
     RecordOutcome o;
     o.status = word(r.status);
-    o.answered = ended_properly(r.status);
-    if (r.status != fe2d::RunStatus::at_rest && r.status != fe2d::RunStatus::sliding_at_end) {
+    o.answered = is_answer(r.status);
+    if (r.status != Status::at_rest && r.status != Status::sliding_at_end) {
         o.message = r.message;
         return o;
     }
-    o.still_sliding = r.status == fe2d::RunStatus::sliding_at_end && run_out > 0.0;
+    o.still_sliding = r.status == Status::sliding_at_end && run_out > 0.0;
     o.slip = r.slip;
     o.crest = crest_motion(r.history);
     for (const fe2d::LiftResult& lift : r.lifts) o.lift_slips.push_back(lift.slip);
@@ -85,7 +85,7 @@ SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Interr
     for (const RecordPair& pair : ready.records) {
         runs.records.emplace_back();
         if (interrupt.interrupted()) {
-            runs.records.back().status = word(fe2d::RunStatus::interrupted);
+            runs.records.back().status = word(Status::interrupted);
             continue;
         }
         const GroundMotion motion = ground_motion(scene, pair);

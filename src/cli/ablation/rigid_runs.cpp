@@ -32,22 +32,22 @@ double shortest_time(Task&& task)
 
 std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
 {
-    if (r.status == sliding::SlideStatus::static_sliding)
+    if (fails_statically(r.status))
         return model.state == sliding::StaticState::lifts_off
                    ? "the uplift carries more than the weight"
                    : fmt::format("friction {:.4g} is below the {:.4g} that holds it", model.block.friction,
                                  model.critical_friction);
-    return r.status == sliding::SlideStatus::unresolved && !r.notes.empty() ? r.notes.front() : "";
+    return r.status == Status::not_resolved && !r.notes.empty() ? r.notes.front() : "";
 }
 
 RecordOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
 {
     RecordOutcome o;
-    o.status = status_word(r.status);
-    o.answered = r.status != sliding::SlideStatus::unresolved;
+    o.status = word(r.status);
+    o.answered = r.status != Status::not_resolved;
     o.message = sentence(r, model);
-    o.still_sliding = r.status == sliding::SlideStatus::sliding_at_end;
-    if (r.status == sliding::SlideStatus::at_rest || r.status == sliding::SlideStatus::sliding_at_end) o.slip = r.slip;
+    o.still_sliding = r.status == Status::sliding_at_end;
+    if (r.status == Status::at_rest || r.status == Status::sliding_at_end) o.slip = r.slip;
     return o;
 }
 
@@ -66,7 +66,7 @@ SceneRuns run_rigid(const ReadyScene& ready, const InterruptGuard& interrupt)
     for (const RecordPair& pair : ready.records) {
         runs.records.emplace_back();
         if (interrupt.interrupted()) {
-            runs.records.back().status = "INTERRUPTED";
+            runs.records.back().status = word(Status::interrupted);
             continue;
         }
         const GroundMotion motion = ground_motion(ready.scene, pair);

@@ -36,8 +36,8 @@ bool take(const Run& run, RungResult& result)
 {
     result.steps = result.steps.value_or(0) + run.counts.steps;
     result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
-    if (run.status == fe2d::RunStatus::interrupted) result.outcome = RungOutcome::stopped;
-    if (run.status != fe2d::RunStatus::at_rest) {
+    if (run.status == Status::interrupted) result.outcome = RungOutcome::stopped;
+    if (run.status != Status::at_rest) {
         result.remark = run.message;
         return false;
     }
@@ -171,8 +171,8 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
         GroundMotion motion = ground_motion(scene, pair);
         if (!scene.motion.vertical) motion = horizontal_only(std::move(motion));
         const sliding::SlideResult r = slide_model(scene, model, motion, 1);
-        if (r.status != sliding::SlideStatus::at_rest) {
-            result.remark = status_word(r.status);
+        if (r.status != Status::at_rest) {
+            result.remark = word(r.status);
             return;
         }
         result.slip.push_back(r.slip);

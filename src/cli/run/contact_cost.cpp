@@ -89,7 +89,7 @@ ContactCost contact_cost(const Scene& given, const EffectPlan& plan)
     const fe2d::EarthquakeRun model(scene, options);
     const GroundMotion motion = trial_motion(scene.time.dt.value_or(0.01));
     fe2d::RunResult trial = model.run(motion);
-    if (trial.status == fe2d::RunStatus::static_failure) { // costs do not depend on friction: try one that holds
+    if (fails_statically(trial.status)) { // costs do not depend on friction: try one that holds
         const double needed = trial.stages.back().friction_needed;
         if (std::isfinite(needed)) {
             Contact holds = scene.contact;

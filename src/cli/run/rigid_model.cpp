@@ -111,19 +111,4 @@ GroundMotion horizontal_only(GroundMotion motion)
     return motion;
 }
 
-std::string status_word(sliding::SlideStatus status)
-{
-    switch (status) {
-    case sliding::SlideStatus::at_rest:
-        return "at rest";
-    case sliding::SlideStatus::sliding_at_end:
-        return "sliding at end";
-    case sliding::SlideStatus::static_sliding:
-        return "slides statically";
-    case sliding::SlideStatus::unresolved:
-        return "UNRESOLVED";
-    }
-    return "";
-}
-
 } // namespace damslip::cli

@@ -40,7 +40,4 @@ sliding::RegressionInputs regression_inputs(const RecordPair& pair, const Ground
 /// The same motion without its vertical component.
 GroundMotion horizontal_only(GroundMotion motion);
 
-/// "at rest", "sliding at end", ...
-std::string status_word(sliding::SlideStatus status);
-
 } // namespace damslip::cli

@@ -140,7 +140,7 @@ SetStatistics statistics_of(const std::string& quantity, const std::vector<std::
 /// Largest slip, where it means something: none of a block that slides without an earthquake.
 std::optional<double> dynamic_slip(const sliding::SlideResult& r)
 {
-    return r.status == sliding::SlideStatus::static_sliding ? std::nullopt : std::optional(r.max_slip);
+    return fails_statically(r.status) ? std::nullopt : std::optional(r.max_slip);
 }
 
 /// Rows come in pairs of polarities: the worse one of each record.
@@ -198,11 +198,11 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     for (const SlipRow& row : s.slips)
         for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
             if (!r) continue;
-            if (r->status == sliding::SlideStatus::sliding_at_end)
+            if (r->status == Status::sliding_at_end)
                 warnings.push_back(fmt::format(
                     "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
                     row.record, row.polarity, scene.sliding.run_out_max));
-            if (r->status == sliding::SlideStatus::unresolved)
+            if (r->status == Status::not_resolved)
                 for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
         }
 }

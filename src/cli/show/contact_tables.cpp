@@ -5,35 +5,6 @@
 
 namespace damslip::cli {
 
-std::string word(fe2d::RunStatus status)
-{
-    switch (status) {
-    case fe2d::RunStatus::at_rest:
-        return "at rest";
-    case fe2d::RunStatus::sliding_at_end:
-        return "sliding at end";
-    case fe2d::RunStatus::static_failure:
-        return "static failure";
-    case fe2d::RunStatus::unresolved:
-        return "UNRESOLVED";
-    case fe2d::RunStatus::interrupted:
-        return "INTERRUPTED";
-    case fe2d::RunStatus::left_plane:
-        return "LEFT THE PLANE";
-    case fe2d::RunStatus::diverged:
-        return "DIVERGED";
-    case fe2d::RunStatus::model_failed:
-        return "MODEL FAILED";
-    }
-    return "";
-}
-
-bool ended_properly(fe2d::RunStatus status)
-{
-    return status == fe2d::RunStatus::at_rest || status == fe2d::RunStatus::sliding_at_end ||
-           status == fe2d::RunStatus::static_failure;
-}
-
 Table contact_stage_table(const std::vector<ContactRun>& runs)
 {
     Table t;

@@ -18,12 +18,6 @@ struct ContactRun {
     std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
 };
 
-/// "at rest", "sliding at end", "static failure", ...
-std::string word(fe2d::RunStatus status);
-
-/// Is the answer final, a recognised static failure included?
-bool ended_properly(fe2d::RunStatus status);
-
 // One row per run (or stage).
 Table contact_stage_table(const std::vector<ContactRun>& runs);
 Table contact_run_table(const std::vector<ContactRun>& runs);

@@ -103,7 +103,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     std::vector<std::pair<std::string, std::string>> list;
     if (runs.empty()) return list;
     const ContactRun& worst = worst_of(runs);
-    const bool failure = worst.fe.status == fe2d::RunStatus::static_failure;
+    const bool failure = fails_statically(worst.fe.status);
     list.emplace_back("Largest slip, FE",
                       failure ? "slides statically" : fmt::format("{:.4g} mm", std::abs(worst.fe.max_slip) / mm));
     list.emplace_back("Rigid block, same record",
@@ -125,16 +125,16 @@ report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& 
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r =
-            find(runs, [](const ContactRun& run) { return run.fe.status == fe2d::RunStatus::static_failure; }))
+            find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
         return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
-    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !ended_properly(run.fe.status); }))
+    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !is_answer(run.fe.status); }))
         return {r->record + ": " + r->fe.message, Outcome::unresolved, "UNRESOLVED"};
 
     const std::string sentence = slip_sentence(scene, runs, error_source);
     if (const ContactRun* r = find(runs, falls_after))
         return {sentence + " After the earthquake it does not stand: " + r->fe.after.text(), Outcome::fail, "FAIL"};
     if (const ContactRun* r =
-            find(runs, [](const ContactRun& run) { return run.fe.status == fe2d::RunStatus::sliding_at_end; }))
+            find(runs, [](const ContactRun& run) { return run.fe.status == Status::sliding_at_end; }))
         return {sentence + " " + r->record + ": " + r->fe.message, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
     const double allowable = *scene.criteria.allowable_slip, slip = std::abs(worst_of(runs).fe.max_slip),

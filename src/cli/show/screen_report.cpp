@@ -50,7 +50,7 @@ CheckCount count_checks(const Screening& s)
     return count;
 }
 
-bool any_status(const Screening& s, sliding::SlideStatus status)
+bool any_status(const Screening& s, Status status)
 {
     return std::any_of(s.slips.begin(), s.slips.end(), [&](const SlipRow& r) { return r.judged().status == status; });
 }
@@ -169,7 +169,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
-    const bool slides = !s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding;
+    const bool slides = !s.slips.empty() && fails_statically(s.slips.front().horizontal.status);
     if (s.flexible) section.parts.push_back(TablePart{flexible_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
@@ -224,7 +224,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     }
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
-        list.emplace_back("Largest slip", largest(s).judged().status == sliding::SlideStatus::static_sliding
+        list.emplace_back("Largest slip", fails_statically(largest(s).judged().status)
                                               ? "slides statically"
                                               : fmt::format("{:.4g} mm", largest(s).judged().max_slip / mm));
     }
@@ -272,9 +272,9 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
     }
     const std::string standing = standing_sentence(s);
     const std::string sentence = slip_sentence(scene, s) + checks_sentence(checks) + standing;
-    if (any_status(s, sliding::SlideStatus::unresolved)) return {sentence, Outcome::unresolved, "UNRESOLVED"};
+    if (any_status(s, Status::not_resolved)) return {sentence, Outcome::unresolved, "UNRESOLVED"};
     const bool too_far = scene.criteria.allowable_slip && largest(s).judged().max_slip > *scene.criteria.allowable_slip;
-    if (too_far || checks.failed > 0 || any_status(s, sliding::SlideStatus::sliding_at_end))
+    if (too_far || checks.failed > 0 || any_status(s, Status::sliding_at_end))
         return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};

@@ -34,9 +34,9 @@ std::string state_word(const RigidModel& model)
 
 std::string verdict(const sliding::SlideResult& r, const std::optional<double>& allowable)
 {
-    if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::sliding_at_end)
+    if (fails_statically(r.status) || r.status == Status::sliding_at_end)
         return "FAIL";
-    if (r.status == sliding::SlideStatus::unresolved) return "unresolved";
+    if (r.status == Status::not_resolved) return "unresolved";
     if (!allowable) return "no criterion";
     return r.max_slip <= *allowable ? "PASS" : "FAIL";
 }
@@ -44,13 +44,13 @@ std::string verdict(const sliding::SlideResult& r, const std::optional<double>& 
 /// A slip means nothing where the block needs no earthquake to slide: it grows for as long as the record lasts.
 Cell slip_cell(const sliding::SlideResult& r, double slip)
 {
-    return r.status == sliding::SlideStatus::static_sliding ? Cell() : Cell(slip);
+    return fails_statically(r.status) ? Cell() : Cell(slip);
 }
 
 void note_static_sliding(const Screening& s, Table& table)
 {
     const RigidModel& m = s.bases.front().model;
-    if (!s.slips.empty() && s.slips.front().horizontal.status == sliding::SlideStatus::static_sliding)
+    if (!s.slips.empty() && fails_statically(s.slips.front().horizontal.status))
         table.notes.push_back(fmt::format(
             "slides statically: no slip is given, it would grow for as long as the record lasts; critical μ = {:.4g}.",
             m.critical_friction));
@@ -105,7 +105,7 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
                           slip_cell(row.horizontal, row.horizontal.slip / mm),
                           row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
                           slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
-                          static_cast<std::int64_t>(r.lift_offs), status_word(r.status), verdict(r, allowable)});
+                          static_cast<std::int64_t>(r.lift_offs), word(r.status), verdict(r, allowable)});
     }
     if (wedge)
         t.notes.push_back("slip: along the way of sliding at the yield, " +
@@ -148,7 +148,7 @@ Table flexible_table(const Screening& s)
                           slip_cell(row.judged(), row.judged().max_slip / mm), largest(decoupled), largest(coupled),
                           over_pga(decoupled), over_pga(coupled),
                           coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell(),
-                          status_word((coupled ? coupled : decoupled)->slide.status)});
+                          word((coupled ? coupled : decoupled)->slide.status)});
     }
     t.notes.push_back(fmt::format(
         "one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g} ({}); largest slips. Average: the horizontal "

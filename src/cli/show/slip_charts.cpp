@@ -70,7 +70,7 @@ std::vector<std::vector<double>> slip_grid(const Scene& scene, const RigidModel&
         double worst = 0.0;
         for (const int polarity : {1, -1}) {
             const sliding::SlideResult r = slide_model(scene, models[i], prepared[j], polarity);
-            if (r.status == sliding::SlideStatus::static_sliding || r.status == sliding::SlideStatus::unresolved)
+            if (fails_statically(r.status) || r.status == Status::not_resolved)
                 return; // no figure to draw
             worst = std::max(worst, r.max_slip);
         }

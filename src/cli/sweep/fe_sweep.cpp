@@ -39,8 +39,8 @@ FeSlip slip_of(const Result& r, double step_error)
 {
     FeSlip slip;
     slip.status = word(r.status);
-    slip.good = ended_properly(r.status);
-    slip.interrupted = r.status == fe2d::RunStatus::interrupted;
+    slip.good = is_answer(r.status);
+    slip.interrupted = r.status == Status::interrupted;
     if (!r.stages.empty()) slip.critical_friction = r.stages.back().friction_needed;
     if (r.history.time.empty()) return slip;
     slip.slip = r.slip;
@@ -53,7 +53,7 @@ template <class Result>
 void count(const Result& r, FeSweepCounts& counts)
 {
     ++counts.runs;
-    counts.static_failures += r.status == fe2d::RunStatus::static_failure;
+    counts.static_failures += fails_statically(r.status);
     counts.steps += r.counts.steps;
     counts.unresolved += r.counts.unresolved;
     counts.static_seconds += r.seconds.statics;

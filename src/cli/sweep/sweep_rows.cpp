@@ -56,7 +56,7 @@ Results block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
     results.slip = r.slip;
     results.max_slip = r.max_slip;
     results.upstream_slip = r.upstream_slip;
-    results.status = status_word(r.status);
+    results.status = word(r.status);
     return results;
 }
 
