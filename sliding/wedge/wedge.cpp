@@ -142,28 +142,24 @@ WedgeYield wedge_yield(const Wedge& wedge, const Vector3& push)
     };
     WedgeYield y;
     const double step = wedge.gravity / 200.0;
-    double below = 0.0;
     const bool stands = excess(0.0) <= 0.0;
-    if (stands) {
-        int k = 1;
-        while (k <= 2000 && excess(k * step) <= 0.0) ++k;
-        if (k > 2000) {
-            y.acceleration = infinity;
-            y.law = {infinity, 0.0};
-            return y;
-        }
-        below = bracketed_root(excess, (k - 1) * step, k * step);
+    const int way = stands ? 1 : -1; // one that slides is looked at pushed back, until it stands
+    int k = 1;
+    while (k <= 2000 && (excess(way * k * step) <= 0.0) == stands) ++k;
+    if (k > 2000) {
+        y.acceleration = way * infinity;
+        y.law = {y.acceleration, 0.0};
+        y.state = wedge_state(wedge);
+        return y;
     }
-    y.acceleration = below;
-    y.state = wedge_state(wedge, push, below);
+    y.acceleration =
+        stands ? bracketed_root(excess, (k - 1) * step, k * step) : bracketed_root(excess, -k * step, (1 - k) * step);
+    y.state = wedge_state(wedge, push, y.acceleration);
     // The forces are linear in a and a_v: m e and -m z per unit of each.
     y.factor = net_drive(wedge, y.state, push);
     const double per_a_v = -net_drive(wedge, y.state, {0.0, 0.0, 1.0});
-    y.law.constant = stands ? below : -infinity;
-    if (y.factor > 0.0) {
-        y.law.per_a_v = -per_a_v / y.factor;
-        if (!stands) y.law.constant = -(y.state.drive - y.state.resistance) / (wedge.mass * y.factor);
-    }
+    y.law.constant = y.acceleration;
+    if (y.factor > 0.0) y.law.per_a_v = -per_a_v / y.factor;
     return y;
 }
 
@@ -172,7 +168,7 @@ WedgeYield without_cohesion(const Wedge& wedge, WedgeYield yield)
     WedgeState& s = yield.state;
     if (std::isfinite(yield.law.constant) && yield.factor > 0.0)
         yield.law.constant -= s.cohesion / (wedge.mass * yield.factor);
-    yield.acceleration = std::max(0.0, yield.law.constant);
+    yield.acceleration = yield.law.constant;
     s.resistance -= s.cohesion;
     s.cohesion = 0.0;
     finish(s);

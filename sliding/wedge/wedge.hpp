@@ -55,12 +55,12 @@ WedgeState wedge_state(const Wedge& wedge, const Vector3& push = {}, double acce
 double critical_friction(const WedgeState& state);
 
 struct WedgeYield {
-    double acceleration = 0.0; ///< smallest a >= 0 with factor 1 [m/s^2]; 0: slides without; infinite: none below 10 g
-    double factor = 0.0;       ///< slip acceleration per excess ground acceleration, the way of sliding kept [-]
-    WedgeState state;          ///< at the yield
-    /// a_y = constant + per_a_v a_v of that way of sliding, beyond the yield found: negative where it slides without an
-    /// earthquake, infinite where there is none [m/s^2]
-    YieldLaw law;
+    /// Smallest a >= 0 with a factor of safety of 1. Negative, of the least size: slides without an earthquake, and would just
+    /// stand pushed the other way by as much. Infinite: none below 10 g either way [m/s^2]
+    double acceleration = 0.0;
+    double factor = 0.0; ///< slip acceleration per excess ground acceleration, the way of sliding kept [-]
+    WedgeState state;    ///< at the yield; without earthquake where there is none
+    YieldLaw law;        ///< a_y = constant + per_a_v a_v of that way of sliding; constant: `acceleration` [m/s^2]
 };
 
 /// Looks at a in steps of g/200 and locates the first crossing in a bracket.

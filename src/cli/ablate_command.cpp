@@ -101,7 +101,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
         write_file(arguments.report, report::page_html(ablation_page(ablations, given, effects)));
         if (!streams.quiet) streams.talk << "report: " << arguments.report.string() << "\n";
     }
-    return all_answered(runs) ? exit_ok : exit_no_answer;
+    return unanswered_runs(runs).exit_code();
 }
 
 } // namespace damslip::cli

@@ -109,10 +109,7 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
-                                           r.outcome == RungOutcome::skipped   ? "skipped"
-                                           : r.outcome == RungOutcome::refused ? "refused"
-                                                                               : "FAILED",
-                                           r.remark));
+                                           r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark));
     if (interrupted) messages.push_back("Interrupted: the rungs that were finished count.");
     return messages;
 }
@@ -176,10 +173,11 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
         auto j = json_header("accuracy");
         j["rung"] = rung_id(rung);
         j["runs"] = json_of(t);
+        j["status"] = word(result.status);
         j["remark"] = result.remark;
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << report::text(t);
+        streams.out << report::text(t) << "status: " << word(result.status) << "\n";
         if (!result.remark.empty()) streams.out << "note: " << result.remark << "\n";
     }
     if (!a.out.empty()) {
@@ -189,7 +187,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
                          << (rung.modes ? fmt::format(" --reduced --modes {}", *rung.modes) : "") << " --out "
                          << quoted(a.out.string()) << "\n";
     }
-    return result.done() ? exit_ok : exit_no_answer;
+    return status_row(result.status).exit_code;
 }
 
 std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner,
@@ -211,7 +209,8 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
             streams.talk << fmt::format("\r  {:<32} {:>10.5g} mm {:>9.3g} s\n", rung_id(r.rung),
                                         r.slip.front() / units::mm, r.seconds);
         else if (streams.terminal)
-            streams.talk << fmt::format("\r  {:<32} {}\n", rung_id(r.rung), r.remark);
+            streams.talk << fmt::format("\r  {:<32} {}: {}\n", rung_id(r.rung),
+                                        r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
         if (!a.out.empty()) write_csv(a.out, loaded, results, a.tolerance); // what is finished is not lost
     };
     return climb(facts, options, calls);
@@ -263,7 +262,8 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
         write_file(a.report, page());
         if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
     }
-    return judgement.choice && !interrupt.interrupted() ? exit_ok : exit_no_answer;
+    const bool answered = judgement.choice || all_fail_statically(results);
+    return answered && !interrupt.interrupted() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -24,12 +24,8 @@ int fe(const FeArguments& arguments, const Streams& streams)
             plan = make_effect_plan(given, Method::finite_elements);
         }
     const std::vector<RecordPair> records = read_records(scene, plan);
-    const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
-    if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass) && !acoustic) {
-        const DamPeriod period = resolve_dam_period(scene);
-        if (!streams.quiet)
-            streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period.frequency);
-    }
+    if (const auto period = resolve_dam_period(scene); period && !streams.quiet)
+        streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period->frequency);
     if (arguments.reduced) return run_reduced(arguments, scene, plan, records, streams);
     return arguments.base == "tied" ? run_tied(arguments, scene, plan, records, streams)
                                     : run_contact(arguments, scene, plan, records, streams);

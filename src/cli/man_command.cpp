@@ -140,7 +140,7 @@ command line
 input file
 .TP
 .B 4
-did not converge, or a check failed; the results so far are kept
+no answer (not resolved, tolerance missed, diverged, interrupted), or a check failed; the results so far are kept
 )";
 
 std::string page(const CommandSummary& given, const std::vector<CommandSummary>& all)

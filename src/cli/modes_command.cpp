@@ -201,13 +201,11 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     if (choice) notes.push_back(choice->reason);
     const bool acoustic =
         scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0;
-    if (!acoustic && scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) {
-        const DamPeriod period = resolve_dam_period(scene);
+    if (const auto period = resolve_dam_period(scene))
         notes.push_back(fmt::format("added_mass.period_s = \"dam\": T = {:.6g} s, f_1 = {:.5g} Hz (incompressible "
                                     "water: {:.5g} Hz), {} solutions",
-                                    1 / period.frequency, period.frequency, period.incompressible_frequency,
-                                    period.iterations));
-    }
+                                    1 / period->frequency, period->frequency, period->incompressible_frequency,
+                                    period->iterations));
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
     const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);

@@ -118,15 +118,6 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
 }
 
-int exit_code(const Screening& s)
-{
-    const auto unresolved = [](const SlipRow& row) {
-        return row.judged().status == Status::not_resolved ||
-               row.horizontal.status == Status::not_resolved;
-    };
-    return std::any_of(s.slips.begin(), s.slips.end(), unresolved) ? exit_no_answer : exit_ok;
-}
-
 } // namespace
 
 int screen(const ScreenArguments& arguments, const Streams& streams)
@@ -168,7 +159,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
             streams.talk << "written: " << (arguments.out / "summary.json").string()
                          << ", displacements.csv, scene.resolved.toml\nreport: " << page.string() << "\n";
     }
-    return exit_code(s);
+    return statuses_of(s).exit_code();
 }
 
 } // namespace damslip::cli

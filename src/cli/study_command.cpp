@@ -3,6 +3,7 @@
 #include "cli/study/study_page.hpp"
 #include "cli/sweep/sweep_arguments.hpp"
 #include "cli/sweep/sweep_identity.hpp"
+#include "cli/sweep/sweep_rows_view.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "records/measure/peaks.hpp"
@@ -139,7 +140,13 @@ int study(const StudyArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
                                     page.string());
-    return outcome.all_good() ? exit_ok : exit_no_answer;
+    if (const std::string words = unanswered_words(sweep_view(table)); !words.empty()) streams.talk << words << "\n";
+    int code = outcome.all_good() ? exit_ok : exit_no_answer;
+    for (const SettingsStep& step : settings) {
+        if (!step.unanswered.empty()) streams.talk << fmt::format("{}: {}\n", step.change, step.unanswered.words());
+        code = worse_exit_code(code, step.unanswered.exit_code());
+    }
+    return code;
 }
 
 } // namespace damslip::cli

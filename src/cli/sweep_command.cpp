@@ -4,6 +4,7 @@
 #include "cli/sweep/sweep_parts.hpp"
 #include "cli/sweep/sweep_plan.hpp"
 #include "cli/sweep/sweep_report.hpp"
+#include "cli/sweep/sweep_rows_view.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "report/table_text.hpp"
@@ -84,7 +85,9 @@ int merge(const SweepArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows of {} parts{}\n", merged.rows, merged.parts,
                                     arguments.out.empty() ? "" : " in " + arguments.out.string());
-    return merged.not_converged == 0 ? exit_ok : exit_no_answer;
+    if (merged.not_converged == 0) return exit_ok;
+    streams.talk << unanswered_words(sweep_view(sweep_rows_of(merged.text))) << "\n";
+    return exit_no_answer;
 }
 
 /// The commands of all parts, or a job script that runs them.
@@ -159,6 +162,18 @@ void talk_of_journal(const Journal& journal, const SweepOutcome& outcome, const 
                                     journal.damaged() == 1 ? "" : "s");
 }
 
+/// What of the rows is no answer, said even when quiet, and what has no error estimate.
+void talk_of_answers(const Table& table, const SweepOutcome& outcome, const Streams& streams)
+{
+    if (outcome.all_good() && !outcome.fe) return;
+    const SweepView view = sweep_view(table);
+    if (const std::string words = unanswered_words(view); !words.empty()) streams.talk << words << "\n";
+    if (outcome.fe)
+        for (const std::string& failure : outcome.fe->failures) streams.talk << "not resolved: " << failure << "\n";
+    if (const std::string words = unknown_error_words(view); !words.empty() && !streams.quiet)
+        streams.talk << "note: " << words << "\n";
+}
+
 /// A sweep, or one part of it, as the command line asks for it.
 struct Job {
     const SweepArguments& arguments;
@@ -201,6 +216,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
+    talk_of_answers(table, outcome, streams);
     put_report(job, records, grid, table, wanted, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }

@@ -1,5 +1,6 @@
 #include "scene/wedge_shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace damslip {
@@ -52,6 +53,20 @@ std::optional<WedgeShape> wedge_shape(const RockWedge& w)
     s.second_area = 0.5 * norm(cross(s.top, s.second_crest));
     if (!std::isfinite(s.volume) || !(s.volume > 0.0)) return std::nullopt;
     return s;
+}
+
+std::optional<double> line_length(const RockWedge& wedge)
+{
+    const auto shape = wedge_shape(wedge);
+    return shape ? std::optional(norm(shape->top)) : std::nullopt;
+}
+
+std::optional<double> plane_length(const RockWedge& wedge, std::size_t plane)
+{
+    const auto shape = wedge_shape(wedge);
+    if (!shape) return std::nullopt;
+    const Vector3& crest = plane == 0 ? shape->first_crest : shape->second_crest;
+    return std::max({norm(shape->top), norm(crest), norm(sum(shape->top, -1.0, crest))});
 }
 
 double wedge_volume(const RockWedge& w)

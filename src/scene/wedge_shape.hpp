@@ -23,6 +23,12 @@ struct WedgeShape {
 /// @pre two planes
 std::optional<WedgeShape> wedge_shape(const RockWedge& wedge);
 
+/// How far the wedge can slide on its planes [m]: the line of intersection. None where the scene gives no surfaces.
+std::optional<double> line_length(const RockWedge& wedge);
+
+/// How far it can slide on one of them alone: the plane's longest edge [m]; none as above.
+std::optional<double> plane_length(const RockWedge& wedge, std::size_t plane);
+
 /// Of the scene: from the shape, else as given [m^3], [m^2].
 double wedge_volume(const RockWedge& wedge);
 double wedge_area(const RockWedge& wedge, std::size_t plane);

@@ -18,7 +18,9 @@ struct CheckedRuns {
 ///
 /// - exit code 0, 3 or 4, never an internal error; 3 with at least one sentence, the scene's or record's name and what to
 ///   do about it; a scene refused by one command for what it says is not run by the other;
-/// - 4 exactly if some FE run did not end in a known way; the same bytes when run again;
+/// - every status one of the list (core/status.hpp); the exit code follows from them; slips exactly where the status has one, no
+///   verdict where it allows none; the same bytes when run again;
+/// - an answer comes from resolved steps, and at rest the step leaves no more open than time.slip_tolerance;
 /// - all numbers there and finite;
 /// - contact complementary to 1e-6 of N' where it was resolved; the work ledger closed to `energy_tolerance`, or to
 ///   round-off where hardly anything moves; friction takes energy;

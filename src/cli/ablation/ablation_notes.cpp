@@ -22,7 +22,10 @@ std::string step_note(const AblationStep& step)
         "time step: {} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs with {} and first "
         "order; that of a change is of the difference itself.",
         step_word(step.halvings), step.largest_dt,
-        step.chosen ? "what time.slip_tolerance asks for with all effects, but dt/8 at least" : "as time.substeps says",
+        step.missed
+            ? "the smallest there is: time.slip_tolerance asks for a smaller one with all effects (tolerance missed)"
+        : step.chosen ? "what time.slip_tolerance asks for with all effects, but dt/8 at least"
+                      : "as time.substeps says",
         step_word(step.other));
 }
 
@@ -59,6 +62,12 @@ std::vector<std::string> ablation_notes(const Ablations& in)
         notes.push_back("crest: largest horizontal distance of its upstream end from where it stood over the base "
                         "before the earthquake, so deformation and rocking without the slip; contact runs keep no "
                         "crest acceleration.");
+    for (std::size_t r = 0; r < in.records.size(); ++r)
+        if (const RecordOutcome& full = in.runs.scenes.front().records[r]; !full.slip)
+            notes.push_back(fmt::format("{}: with all effects {}, so there is no slip that a removal could change. {}",
+                                        in.records[r].files.name, word(full.status), full.message));
+    if (const StatusCount unanswered = unanswered_runs(in.runs); !unanswered.empty())
+        notes.push_back("runs without an answer: " + unanswered.words() + ".");
     if (in.records.empty())
         notes.push_back("no record is given: no slip. Name one with --record or [[motion.record]].");
     if (auto note = interaction_note(in)) notes.push_back(std::move(*note));

@@ -48,7 +48,7 @@ report::Drawing slip_bars(const Ablations& in, std::size_t record)
         Bar b{r.name,
               {},
               r.change_error.value_or(0.0) / mm,
-              r.slip.value ? "no change to show" : r.status,
+              r.slip.value ? "no change to show" : word(r.status),
               r.within_step_error};
         if (r.still_sliding && r.slip.value)
             b.words = fmt::format("still sliding after {:.4g} mm", *r.slip.value / mm);
@@ -60,7 +60,7 @@ report::Drawing slip_bars(const Ablations& in, std::size_t record)
     }
     const auto& full = rows.front().slip.value;
     std::string note = full ? fmt::format("With all effects the dam slides {:.4g} mm. ", *full / mm)
-                            : "With all effects: " + rows.front().status + ". ";
+                            : "With all effects: " + word(rows.front().status) + ". ";
     note += "To the right: without the effect it slides further.";
     if (in.runs.step)
         note += " Whiskers: what the time step leaves open in the change; hollow: the change is within it.";
@@ -97,9 +97,14 @@ report::Drawing yield_bars(const Ablations& in)
 {
     const std::vector<std::string> names = scene_names(in.plan);
     std::vector<Bar> bars;
-    const double full = *in.runs.scenes.front().yield_acceleration;
+    const double full = in.runs.scenes.front().yield_acceleration.value_or(std::nan(""));
     for (std::size_t i = 1; i < names.size(); ++i) {
-        const double change = *in.runs.scenes[i].yield_acceleration - full;
+        const auto& own = in.runs.scenes[i].yield_acceleration;
+        if (!own) {
+            bars.push_back({names[i], {}, 0.0, word(Status::not_resolved), false});
+            continue;
+        }
+        const double change = *own - full;
         bars.push_back({names[i], change, 0.0, fmt::format("{:+.3g}", change), false});
     }
     return tornado("Change of the yield acceleration without each effect", std::move(bars), "change of a_y [m/s²]",
@@ -112,7 +117,7 @@ std::string record_sentence(const Ablations& in, std::size_t record)
     const AblationRow* most = strongest(in.plan, rows);
     const std::string name = in.records[record].files.name;
     if (!rows.front().slip.value)
-        return fmt::format("Record {}: the full scene ends as {}.", name, rows.front().status);
+        return fmt::format("Record {}: the full scene ends as {}.", name, word(rows.front().status));
     if (!most) return fmt::format("Record {}: the dam slides {:.4g} mm.", name, *rows.front().slip.value / mm);
     return fmt::format("Record {}: the dam slides {:.4g} mm; most depends on {}, without it {:+.4g} mm.", name,
                        *rows.front().slip.value / mm, most->name, *most->slip.change / mm);
@@ -125,7 +130,8 @@ report::Headline headline(const Ablations& in)
     if (in.records.empty())
         sentence = fmt::format("The dam starts to slide at a ground acceleration of {:.4g} m/s²; no record is given.",
                                in.runs.scenes.front().yield_acceleration.value_or(std::nan("")));
-    if (!all_answered(in.runs)) return {sentence, Outcome::unresolved, "Some runs did not end properly."};
+    if (const StatusCount unanswered = unanswered_runs(in.runs); !unanswered.empty())
+        return {sentence, Outcome::unresolved, "Runs without an answer: " + unanswered.words() + "."};
     return {sentence, Outcome::none, ""};
 }
 
@@ -151,7 +157,7 @@ std::vector<std::string> warnings(const Ablations& in)
             const std::string why = o.still_sliding ? "still sliding after the run-out" : o.message;
             list.push_back(fmt::format(
                 "{}, {}: {}{}{}", in.records[r].files.name, i == 0 ? "with all effects" : "without " + names[i],
-                o.still_sliding ? "" : o.status, why.empty() || o.still_sliding ? "" : ": ", why));
+                o.still_sliding ? "" : word(o.status), why.empty() || o.still_sliding ? "" : ": ", why));
         }
     return list;
 }

@@ -19,7 +19,7 @@ Change change_from(const std::optional<double>& full, const std::optional<double
 /// One scene under one record.
 struct AblationRow {
     std::string name; ///< of the effect that is removed; "all effects", "all removed"
-    std::string status;
+    Status status = Status::interrupted;
     Change slip;                                    ///< final [m]
     std::optional<double> slip_error, change_error; ///< of the time step, FE runs [m]
     Change crest;                                   ///< [m], FE runs

@@ -1,6 +1,7 @@
 #include "cli/ablation/ablation_runs.hpp"
 
 #include "cli/run/seepage_source.hpp"
+#include "core/input_error.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
@@ -20,6 +21,17 @@ std::vector<const Scene*> scenes_of(const AblationPlan& plan)
 }
 
 constexpr std::size_t bar_parts = 1000; ///< of one scene
+
+/// Runs of a scene whose model could not be made.
+SceneRuns without_model(const NotConverged& error, std::size_t records)
+{
+    RecordOutcome none;
+    none.status = Status::not_resolved;
+    none.message = error.diagnostic().problem;
+    SceneRuns runs;
+    runs.records.assign(records, none);
+    return runs;
+}
 
 } // namespace
 
@@ -76,7 +88,11 @@ AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPai
             progress.at(bar_parts * sum);
         };
         const ReadyScene scene = ready(*scenes[i], plan.method, records);
-        runs.scenes[i] = runs.step ? run_fe(scene, *runs.step, interrupt, done) : run_rigid(scene, interrupt);
+        try {
+            runs.scenes[i] = runs.step ? run_fe(scene, *runs.step, interrupt, done) : run_rigid(scene, interrupt);
+        } catch (const NotConverged& error) {
+            runs.scenes[i] = without_model(error, records.size());
+        }
         done(1.0);
     });
     return runs;

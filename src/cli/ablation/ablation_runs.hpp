@@ -4,6 +4,7 @@
 #include "cli/run/run_inputs.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
+#include "core/status.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -16,8 +17,7 @@ namespace damslip::cli {
 
 /// One scene under one record. Empty: the run does not give it.
 struct RecordOutcome {
-    std::string status = "not run";
-    bool answered = false;                 ///< ended properly; a recognised static failure does
+    Status status = Status::interrupted;
     std::string message;                   ///< one sentence where there is no slip to compare
     std::optional<double> slip;            ///< final, positive downstream, of runs that can be compared [m]
     std::optional<double> slip_other_step; ///< the same with AblationStep::other [m]
@@ -42,6 +42,7 @@ struct AblationStep {
     int other = 0;           ///< k of the runs that tell the error of the step: one less, or 1 beside 0
     bool chosen = false;     ///< by time.slip_tolerance on the full scene; else the scene's time.substeps
     double largest_dt = 0.0; ///< of the steps, over the records [s]
+    bool missed = false;     ///< chosen, but time.slip_tolerance is not met by it for some record
 };
 
 /// Error of a difference that is linear in slips, from the same difference at the other step, by first order, the worst

@@ -55,7 +55,7 @@ Table change_columns(const Ablations& in)
 
 std::vector<Cell> cells_of(const AblationRow& r, const Ablations& in)
 {
-    std::vector<Cell> cells{r.name, r.status, cell(r.slip.value, mm)};
+    std::vector<Cell> cells{r.name, word(r.status), cell(r.slip.value, mm)};
     if (fe(in)) cells.push_back(cell(r.slip_error, mm));
     cells.push_back(cell(r.slip.change, mm));
     if (fe(in)) cells.push_back(cell(r.change_error, mm));
@@ -193,11 +193,14 @@ Table seconds_table(const Ablations& in)
     return t;
 }
 
-bool all_answered(const AblationRuns& runs)
+StatusCount unanswered_runs(const AblationRuns& runs)
 {
-    return std::all_of(runs.scenes.begin(), runs.scenes.end(), [](const SceneRuns& s) {
-        return std::all_of(s.records.begin(), s.records.end(), [](const RecordOutcome& r) { return r.answered; });
-    });
+    StatusCount count;
+    for (const SceneRuns& scene : runs.scenes)
+        for (const RecordOutcome& r : scene.records)
+            if (!is_answer(r.status)) count.add(r.status);
+    if (runs.step && runs.step->missed) count.add(Status::tolerance_missed);
+    return count;
 }
 
 } // namespace damslip::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/ablation/ablation_rows.hpp"
+#include "core/status_count.hpp"
 #include "core/table.hpp"
 
 /// An ablation as tables.
@@ -27,7 +28,7 @@ Table seconds_table(const Ablations& in);
 /// What has to be known to read the tables, a sentence each; the same at each call.
 std::vector<std::string> ablation_notes(const Ablations& in);
 
-/// Every run ended properly or failed statically.
-bool all_answered(const AblationRuns& runs);
+/// Runs without an answer, by their status; one more where the step that all runs share misses time.slip_tolerance.
+StatusCount unanswered_runs(const AblationRuns& runs);
 
 } // namespace damslip::cli

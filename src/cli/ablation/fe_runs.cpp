@@ -17,8 +17,7 @@ constexpr int least_halvings = 3;
 
 fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records)
 {
-    const bool added_mass = make_effect_plan(scene, Method::finite_elements).on(Effect::hydrodynamic_mass);
-    if (scene.added_mass.period_of_dam && added_mass) resolve_dam_period(scene);
+    resolve_dam_period(scene);
     SeepageSource seepage;
     return contact_options(scene, records, seepage);
 }
@@ -37,8 +36,7 @@ std::optional<double> crest_motion(const fe2d::RunHistory& history)
 RecordOutcome outcome(const fe2d::RunResult& r, double run_out)
 {
     RecordOutcome o;
-    o.status = word(r.status);
-    o.answered = is_answer(r.status);
+    o.status = r.status;
     if (r.status != Status::at_rest && r.status != Status::sliding_at_end) {
         o.message = r.message;
         return o;
@@ -84,10 +82,7 @@ SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Interr
     };
     for (const RecordPair& pair : ready.records) {
         runs.records.emplace_back();
-        if (interrupt.interrupted()) {
-            runs.records.back().status = word(Status::interrupted);
-            continue;
-        }
+        if (interrupt.interrupted()) continue;
         const GroundMotion motion = ground_motion(scene, pair);
         const ProcessorClock run_clock;
         const fe2d::RunResult result = run(model, motion, step.halvings);
@@ -120,6 +115,7 @@ AblationStep choose_step(const ReadyScene& full, const InterruptGuard& interrupt
         for (const RecordPair& pair : full.records) {
             const fe2d::RunResult r = model.run(ground_motion(scene, pair));
             step.halvings = std::max({step.halvings, least_halvings, r.halvings});
+            step.missed = step.missed || r.status == Status::tolerance_missed;
             if (interrupt.interrupted()) break;
         }
     }

@@ -37,14 +37,14 @@ std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
                    ? "the uplift carries more than the weight"
                    : fmt::format("friction {:.4g} is below the {:.4g} that holds it", model.block.friction,
                                  model.critical_friction);
-    return r.status == Status::not_resolved && !r.notes.empty() ? r.notes.front() : "";
+    if (reported(r.status, r.slip) || r.notes.empty()) return "";
+    return r.status == Status::runs_away ? r.notes.back() : r.notes.front();
 }
 
 RecordOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
 {
     RecordOutcome o;
-    o.status = word(r.status);
-    o.answered = r.status != Status::not_resolved;
+    o.status = r.status;
     o.message = sentence(r, model);
     o.still_sliding = r.status == Status::sliding_at_end;
     if (r.status == Status::at_rest || r.status == Status::sliding_at_end) o.slip = r.slip;
@@ -65,10 +65,7 @@ SceneRuns run_rigid(const ReadyScene& ready, const InterruptGuard& interrupt)
     runs.critical_friction = model.critical_friction;
     for (const RecordPair& pair : ready.records) {
         runs.records.emplace_back();
-        if (interrupt.interrupted()) {
-            runs.records.back().status = word(Status::interrupted);
-            continue;
-        }
+        if (interrupt.interrupted()) continue;
         const GroundMotion motion = ground_motion(ready.scene, pair);
         sliding::SlideResult result;
         const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });

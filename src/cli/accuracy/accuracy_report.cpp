@@ -93,6 +93,7 @@ double element_factor(const RungResult& r)
 report::Headline headline(const AccuracyReportInput& in)
 {
     const std::string sentence = choice_sentence(in.results, in.judgement, in.tolerance);
+    if (all_fail_statically(in.results)) return {sentence, report::Outcome::fail, "FAIL"};
     if (in.judgement.choice) return {sentence, report::Outcome::none, ""};
     return {sentence, report::Outcome::unresolved, "No rung within the tolerance."};
 }
@@ -114,19 +115,30 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     return list;
 }
 
+/// Rungs that ran, or should have, and have no slip to draw, by their status.
+std::string not_drawn(const std::vector<RungResult>& results)
+{
+    std::string list;
+    for (const RungResult& r : results)
+        if (!r.done() && r.outcome != RungOutcome::skipped)
+            list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", rung_id(r.rung), word(r.status));
+    return list.empty() ? "" : " Not drawn: " + list + ".";
+}
+
 report::Section cost_section(const AccuracyReportInput& in)
 {
     report::Section section{"What accuracy costs", {}, Fold::open};
     const std::string svg =
         cost_figure(in.results, in.judgement, in.tolerance, figure_title(in.scene, in.records), FigureStyle::page);
     if (svg.empty()) {
-        section.parts.push_back(report::Paragraph{"No rung has a deviation to draw."});
+        section.parts.push_back(report::Paragraph{"No rung has a deviation to draw." + not_drawn(in.results)});
         return section;
     }
     section.parts.push_back(report::Drawing{
         "Deviation over time", svg,
         "The line joins rungs that no rung as fast beats. Filled: on that line. Ring: the cheapest rung within the "
-        "tolerance."});
+        "tolerance." +
+            not_drawn(in.results)});
     if (!in.command.empty()) section.parts.push_back(report::Paragraph{"To run that rung alone:  " + in.command});
     section.parts.push_back(cost_chart(in));
     return section;

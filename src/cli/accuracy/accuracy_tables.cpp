@@ -1,5 +1,6 @@
 #include "cli/accuracy/accuracy_tables.hpp"
 
+#include "core/status_count.hpp"
 #include "core/units.hpp"
 
 #include <cmath>
@@ -22,19 +23,25 @@ Cell optional_cell(const std::optional<Number>& value)
     return value ? Cell(*value) : Cell();
 }
 
-std::string outcome_word(const RungResult& r)
+/// Of the list; empty for a rung that was skipped, and for a regression, which gives an estimate and no run.
+Cell status_cell(const RungResult& r)
+{
+    if (r.outcome == RungOutcome::skipped) return {};
+    if (r.done() && r.rung.family == RungFamily::regression) return {};
+    return word(r.status);
+}
+
+std::string remark_of(const RungResult& r)
 {
     switch (r.outcome) {
     case RungOutcome::done:
-        return r.remark;
     case RungOutcome::failed:
-        return "FAILED: " + r.remark;
     case RungOutcome::refused:
-        return "refused: " + r.remark;
+        return r.remark;
     case RungOutcome::skipped:
         return "skipped: " + r.remark;
     case RungOutcome::stopped:
-        return "stopped";
+        return "";
     }
     return "";
 }
@@ -67,7 +74,8 @@ std::vector<Cell> rung_row(const RungResult& r, const RungVerdict& v, const Judg
             optional_cell(r.unknowns),
             optional_cell(r.time_step),
             optional_cell(r.steps),
-            outcome_word(r)};
+            status_cell(r),
+            remark_of(r)};
 }
 
 } // namespace
@@ -93,6 +101,7 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
                  {"unknowns", "unknowns", "", 4},
                  {"time_step_s", "step", "s", 4},
                  {"steps", "steps", "", 4},
+                 {"status", "status", "", 4},
                  {"remark", "remark", "", 4}};
     for (std::size_t i = 0; i < results.size(); ++i) t.rows.push_back(rung_row(results[i], j.rungs[i], j));
     t.notes = {
@@ -156,13 +165,38 @@ Table slip_table(const std::vector<RungResult>& results, const std::vector<std::
     return t;
 }
 
+bool all_fail_statically(const std::vector<RungResult>& results)
+{
+    bool any = false;
+    for (const RungResult& r : results) {
+        if (!r.ran()) continue;
+        if (r.done() || !fails_statically(r.status)) return false;
+        any = true;
+    }
+    return any;
+}
+
+namespace {
+
+std::string standing_sentence(const std::vector<RungResult>& results)
+{
+    StatusCount count;
+    for (const RungResult& r : results)
+        if (r.ran()) count.add(r.status);
+    return "The dam does not stand without an earthquake, by every rung that ran: " + count.words() + ".";
+}
+
+} // namespace
+
 std::string choice_sentence(const std::vector<RungResult>& results, const Judgement& j, double tolerance)
 {
+    if (all_fail_statically(results)) return standing_sentence(results);
     if (!j.top) return "No rung has a slip to compare.";
     const RungResult& top = results[*j.top];
     if (j.contradiction)
-        return fmt::format("No rung can be named: {}, finer than the others, has no final slip. {}",
-                           rung_id(results[*j.contradiction].rung), results[*j.contradiction].remark);
+        return fmt::format("No rung can be named: {}, finer than the others, has no final slip: {}. {}",
+                           rung_id(results[*j.contradiction].rung), word(results[*j.contradiction].status),
+                           results[*j.contradiction].remark);
     if (!j.top_error)
         return fmt::format("Nothing says how far the finest rung, {}, is from its limit: more steps are needed (larger "
                            "--budget).",

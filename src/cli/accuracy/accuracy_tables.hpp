@@ -14,6 +14,9 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& judge
 /// Slip of every rung for every record [m], for files.
 Table slip_table(const std::vector<RungResult>& results, const std::vector<std::string>& records);
 
+/// Did some rung run, and every one that did find that the dam does not stand without an earthquake? That is an answer.
+bool all_fail_statically(const std::vector<RungResult>& results);
+
 /// "slip 40.8 mm, 0.8 % off the finest rung, in 0.3 s" of the cheapest rung within the tolerance, or why there is none.
 std::string choice_sentence(const std::vector<RungResult>& results, const Judgement& judgement, double tolerance);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/accuracy/rung.hpp"
+#include "core/status.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -11,7 +12,7 @@ namespace damslip::cli {
 
 enum class RungOutcome {
     done,    ///< there is a slip
-    failed,  ///< it has no final slip, see the remark: no equilibrium, still sliding at the end, not resolved
+    failed,  ///< it ran and has no final slip: see status and remark
     refused, ///< this scene cannot be run so, see the remark
     skipped, ///< would have exceeded the budget
     stopped  ///< Ctrl-C: nothing of it counts
@@ -21,9 +22,10 @@ enum class RungOutcome {
 struct RungResult {
     Rung rung;
     RungOutcome outcome = RungOutcome::failed;
-    std::string remark;            ///< status, or why there is none
-    std::vector<double> slip;      ///< at the end, of each record, positive downstream [m]; `done` only
-    std::vector<double> low, high; ///< 16 and 84 % of a regression [m]; empty: no band
+    Status status = Status::not_resolved; ///< of what ran, the first record that does not come to rest
+    std::string remark;                   ///< what the status means here, or why there is none
+    std::vector<double> slip;             ///< at the end, of each record, positive downstream [m]; `done` only
+    std::vector<double> low, high;        ///< 16 and 84 % of a regression [m]; empty: no band
 
     // Over all records, processor time: what a user pays who runs this rung alone: the scene read, models made, records
     // run.
@@ -35,6 +37,7 @@ struct RungResult {
     std::optional<std::int64_t> unknowns; ///< of the FE model, the water's included; modes of a reduced run
     std::optional<std::int64_t> steps;    ///< of all records, of the pass that counts
     bool done() const { return outcome == RungOutcome::done; }
+    bool ran() const { return outcome == RungOutcome::done || outcome == RungOutcome::failed; }
 };
 
 } // namespace damslip::cli

@@ -36,6 +36,7 @@ bool take(const Run& run, RungResult& result)
 {
     result.steps = result.steps.value_or(0) + run.counts.steps;
     result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
+    result.status = run.status;
     if (run.status == Status::interrupted) result.outcome = RungOutcome::stopped;
     if (run.status != Status::at_rest) {
         result.remark = run.message;
@@ -71,13 +72,9 @@ std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& l
 
 bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
 {
-    try {
-        check_reducible(scene);
-        return true;
-    } catch (const InputError& error) {
-        left_out.push_back("Reduced runs are not on this ladder: " + first_line(error.diagnostics().front().problem));
-        return false;
-    }
+    const std::optional<Diagnostic> why_not = why_not_reducible(scene);
+    if (why_not) left_out.push_back("Reduced runs are not on this ladder: " + first_line(why_not->problem));
+    return !why_not;
 }
 
 std::vector<double> other_alphas(const TimeOptions& time)
@@ -126,8 +123,13 @@ RungResult RungRunner::run(const Rung& rung) const
         if (result.slip.size() == records_.size()) result.outcome = RungOutcome::done;
     } catch (const InputError& error) {
         result.outcome = RungOutcome::refused;
+        result.status = Status::refused;
         result.remark = first_line(error.diagnostics().front().problem);
+    } catch (const NotConverged& error) {
+        result.status = Status::not_resolved;
+        result.remark = first_line(error.diagnostic().problem);
     }
+    if (!result.done()) result.slip = result.low = result.high = {}; // of some records only
     result.seconds = read_seconds_ + clock.seconds();
     result.set_up_seconds += read_seconds_;
     result.bytes = memory.bytes();
@@ -146,9 +148,13 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
     for (const RecordPair& pair : records_) {
         const auto slip = regression_slip(rung.regression, scene, pair, model);
         if (!slip) {
+            result.status =
+                model.state == sliding::StaticState::at_rest ? Status::refused : sliding::status_of(model.state);
+            if (result.status == Status::refused) result.outcome = RungOutcome::refused;
             result.remark = "no valid value for record " + pair.files.name;
             return;
         }
+        result.status = Status::at_rest;
         result.slip.push_back(slip->median);
         if (slip->low && slip->high) {
             result.low.push_back(*slip->low);
@@ -171,8 +177,9 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
         GroundMotion motion = ground_motion(scene, pair);
         if (!scene.motion.vertical) motion = horizontal_only(std::move(motion));
         const sliding::SlideResult r = slide_model(scene, model, motion, 1);
+        result.status = r.status;
         if (r.status != Status::at_rest) {
-            result.remark = word(r.status);
+            result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : r.notes.front();
             return;
         }
         result.slip.push_back(r.slip);
@@ -184,7 +191,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     const ProcessorClock clock(ProcessorTimeOf::process);
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = fe_scene(given, plan);
-    if (scene.added_mass.period_of_dam && plan.on(Effect::hydrodynamic_mass)) resolve_dam_period(scene);
+    resolve_dam_period(scene);
     SeepageSource seepage;
     fe2d::RunOptions options = contact_options(scene, records_, seepage);
     options.progress = [this](const fe2d::RunProgress&) {

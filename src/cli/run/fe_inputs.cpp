@@ -93,8 +93,9 @@ Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model)
     return fe2d::water_in_rock(model.mesh, model.dofs, pore_pressure_on(scene, model), scene.stages.pore_pressure);
 }
 
-DamPeriod resolve_dam_period(Scene& scene)
+std::optional<DamPeriod> resolve_dam_period(Scene& scene)
 {
+    if (!scene.added_mass.period_of_dam || !added_mass_law(scene)) return std::nullopt;
     DamPeriod result;
     Scene trial = scene;
     trial.added_mass.period_of_dam = false;

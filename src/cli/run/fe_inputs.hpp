@@ -45,7 +45,9 @@ struct DamPeriod {
 
 /// Finds the period of the dam with the added mass that belongs to it: the root of T = 1/f_1(T), bracketed between the reservoir's own
 /// period, where the mass is infinite, and the incompressible answer. The scene gets the value as added_mass.period.
+/// @returns nothing, the scene as it was, where the period is not asked for or no added mass acts: without a reservoir, with an
+/// empty, hydrostatic or acoustic one.
 /// @throws InputError where the dam is so stiff that its period lies below the reservoir's.
-DamPeriod resolve_dam_period(Scene& scene);
+std::optional<DamPeriod> resolve_dam_period(Scene& scene);
 
 } // namespace damslip::cli

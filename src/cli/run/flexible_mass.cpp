@@ -61,7 +61,7 @@ std::string resolve_flexible_modes(Scene& scene)
     Scene tied = fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
     if (tied.reservoir && tied.reservoir->model == ReservoirModel::acoustic)
         tied.reservoir->model = ReservoirModel::added_mass;
-    if (tied.reservoir && tied.added_mass.period_of_dam) resolve_dam_period(tied);
+    resolve_dam_period(tied);
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(tied);
     const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(tied, options), 5);

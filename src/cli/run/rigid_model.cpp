@@ -3,7 +3,9 @@
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
+#include "scene/section.hpp"
 
+#include <fmt/format.h>
 #include <numbers>
 
 namespace damslip::cli {
@@ -24,7 +26,8 @@ RigidModel make_wedge_model(const Scene& scene)
     model.state = w.still.mode == sliding::WedgeMode::lifts ? sliding::StaticState::lifts_off
                   : w.still.factor_of_safety < 1.0          ? sliding::StaticState::slides_downstream
                                                             : sliding::StaticState::at_rest;
-    model.critical_friction = critical_first_friction(w);
+    model.critical_friction = critical_first_friction(w.wedge, w.still);
+    model.length = sliding_length(*scene.wedge, w.yields.at_rest.state.mode);
     return model;
 }
 
@@ -49,6 +52,7 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     model.upstream = sliding::yield_upstream(model.block);
     model.state = sliding::static_state(model.block);
     model.critical_friction = sliding::critical_friction(model.block);
+    model.length = base_length(scene.section);
     return model;
 }
 
@@ -61,19 +65,33 @@ sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::H
 
 } // namespace
 
+void check_length(const RigidModel& model, sliding::SlideResult& result)
+{
+    const bool slides = result.status == Status::at_rest || result.status == Status::sliding_at_end;
+    if (!slides || !model.length || !(result.max_slip > *model.length)) return;
+    result.status = Status::runs_away;
+    result.notes.push_back(
+        fmt::format("It slides further than the {:.4g} m it slides on: no slip is given.", *model.length));
+}
+
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
                                  int polarity, sliding::HistoryOutput history)
 {
-    if (model.wedge)
-        return sliding::slide_wedge(motion.motion(), model.wedge->yields, slide_options(scene, polarity, history));
-    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+    if (model.wedge) return slide_model(scene, model, motion.motion(), polarity, history);
+    sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+    check_length(model, result);
+    return result;
 }
 
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history)
 {
-    if (model.wedge) return sliding::slide_wedge(motion, model.wedge->yields, slide_options(scene, polarity, history));
-    return sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+    const sliding::SlideOptions options = slide_options(scene, polarity, history);
+    sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options)
+                                              : sliding::slide(motion, model.stages, options);
+    if (model.wedge && fails_statically(result.status)) result.status = sliding::status_of(model.state);
+    check_length(model, result);
+    return result;
 }
 
 sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,

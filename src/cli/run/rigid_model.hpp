@@ -19,12 +19,17 @@ struct RigidModel {
     sliding::StaticState state = sliding::StaticState::at_rest;
     double critical_friction = 0.0;  ///< [-]; of a wedge: of its first plane
     std::optional<RigidWedge> wedge; ///< takes the place of block and stages
+    std::optional<double> length;    ///< of what it slides on [m]; none: a wedge whose surfaces are not given
 };
 
 /// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
 /// @param crack    in place of the scene's uplift.crack, if given
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage,
                             std::optional<CrackRule> crack = std::nullopt);
+
+/// The one place where a slip that passes what it slides on loses its meaning: Status::runs_away in place of at_rest and
+/// sliding_at_end.
+void check_length(const RigidModel& model, sliding::SlideResult& result);
 
 /// Slip of the model under a motion with the scene's [sliding] options.
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,

@@ -112,66 +112,98 @@ std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel&
     return rows;
 }
 
-SetStatistics statistics_of(const std::string& quantity, const std::vector<std::pair<std::string, double>>& slip,
+/// Both polarities of one record.
+struct RecordSlides {
+    std::string record;
+    const sliding::SlideResult *positive, *negative;
+};
+
+/// Records that fail over those that can be judged; nothing where none can.
+std::optional<double> failing_share(const std::vector<RecordSlides>& records, const std::optional<double>& allowable)
+{
+    if (!allowable) return std::nullopt;
+    std::size_t judged = 0, failing = 0;
+    for (const RecordSlides& r : records) {
+        if (!is_answer(worse(*r.positive, *r.negative).status)) continue;
+        ++judged;
+        const auto fails = [&](const sliding::SlideResult& slide) {
+            return status_row(slide.status).judging == Judging::fails || slide.max_slip > *allowable;
+        };
+        failing += fails(*r.positive) || fails(*r.negative);
+    }
+    if (judged == 0) return std::nullopt;
+    return static_cast<double>(failing) / static_cast<double>(judged);
+}
+
+SetStatistics statistics_of(const std::string& quantity, const std::vector<RecordSlides>& records,
                             const std::optional<double>& allowable)
 {
+    SetStatistics s;
+    s.quantity = quantity;
     std::vector<double> values;
-    for (const auto& [record, value] : slip) values.push_back(value);
-    SetStatistics s{quantity,
-                    values.size(),
-                    percentile(values, 0.5),
-                    percentile(values, 0.16),
-                    percentile(values, 0.84),
-                    std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
-                    0.0,
-                    {},
-                    ""};
-    const auto worst =
-        std::max_element(slip.begin(), slip.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    s.largest = worst->second;
-    s.controlling_record = worst->first;
-    if (allowable)
-        s.share_above_allowable =
-            static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v > *allowable; })) /
-            static_cast<double>(values.size());
+    s.largest = std::nan("");
+    for (const RecordSlides& r : records) {
+        const sliding::SlideResult& slide = worse(*r.positive, *r.negative);
+        const std::optional<double> slip = reported(slide.status, slide.max_slip);
+        if (!slip) {
+            s.without_slip.add(slide.status);
+            continue;
+        }
+        values.push_back(*slip);
+        if (status_row(slide.status).slip == SlipMeaning::lower_bound) s.lower_bounds.add(slide.status);
+        if (s.largest >= *slip) continue;
+        s.largest = *slip;
+        s.controlling_record = r.record;
+    }
+    s.n = values.size();
+    s.median = percentile(values, 0.5);
+    s.percentile_16 = percentile(values, 0.16);
+    s.percentile_84 = percentile(values, 0.84);
+    s.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    s.share_above_allowable = failing_share(records, allowable);
     return s;
 }
 
-/// Largest slip, where it means something: none of a block that slides without an earthquake.
-std::optional<double> dynamic_slip(const sliding::SlideResult& r)
+/// Rows come in pairs of polarities. @param select  a row's slide; null: it has none of this kind
+template <class Select>
+std::vector<RecordSlides> slides_of(const std::vector<SlipRow>& rows, Select&& select)
 {
-    return fails_statically(r.status) ? std::nullopt : std::optional(r.max_slip);
+    std::vector<RecordSlides> records;
+    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
+        const sliding::SlideResult *a = select(rows[i]), *b = select(rows[i + 1]);
+        if (a && b) records.push_back({rows[i].record, a, b});
+    }
+    return records;
 }
 
-/// Rows come in pairs of polarities: the worse one of each record.
-template <class Select>
-std::vector<std::pair<std::string, double>> worse_polarity(const std::vector<SlipRow>& rows, Select&& slip)
+const sliding::SlideResult* slide_of(const std::optional<sliding::FlexibleSlide>& flexible)
 {
-    std::vector<std::pair<std::string, double>> worse;
-    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
-        const std::optional<double> a = slip(rows[i]), b = slip(rows[i + 1]);
-        if (a && b) worse.emplace_back(rows[i].record, std::max(*a, *b));
-    }
-    return worse;
+    return flexible ? &flexible->slide : nullptr;
 }
 
 std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, const std::optional<double>& allowable)
 {
     std::vector<SetStatistics> out;
     const auto add = [&](const std::string& name, auto&& select) {
-        const auto worse = worse_polarity(rows, select);
-        if (!worse.empty()) out.push_back(statistics_of(name, worse, allowable));
+        const std::vector<RecordSlides> records = slides_of(rows, select);
+        if (!records.empty()) out.push_back(statistics_of(name, records, allowable));
     };
-    add("rigid, horizontal", [](const SlipRow& r) { return dynamic_slip(r.horizontal); });
-    add("rigid, with vertical",
-        [](const SlipRow& r) { return r.with_vertical ? dynamic_slip(*r.with_vertical) : std::nullopt; });
-    add("flexible, decoupled", [](const SlipRow& r) {
-        return r.flexible && r.flexible->decoupled ? dynamic_slip(r.flexible->decoupled->slide) : std::nullopt;
-    });
-    add("flexible, coupled", [](const SlipRow& r) {
-        return r.flexible && r.flexible->coupled ? dynamic_slip(r.flexible->coupled->slide) : std::nullopt;
-    });
+    add("rigid, horizontal", [](const SlipRow& r) { return &r.horizontal; });
+    add("rigid, with vertical", [](const SlipRow& r) { return r.with_vertical ? &*r.with_vertical : nullptr; });
+    add("flexible, decoupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->decoupled) : nullptr; });
+    add("flexible, coupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->coupled) : nullptr; });
     return out;
+}
+
+/// All slides of a row.
+std::vector<const sliding::SlideResult*> all_slides(const SlipRow& row)
+{
+    std::vector<const sliding::SlideResult*> slides{&row.horizontal};
+    if (row.with_vertical) slides.push_back(&*row.with_vertical);
+    if (row.flexible)
+        for (const auto* slide : {slide_of(row.flexible->decoupled), slide_of(row.flexible->coupled)})
+            if (slide) slides.push_back(slide);
+    return slides;
 }
 
 void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
@@ -204,10 +236,40 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
                     row.record, row.polarity, scene.sliding.run_out_max));
             if (r->status == Status::not_resolved)
                 for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
+            if (r->status == Status::runs_away)
+                warnings.push_back(
+                    fmt::format("{}, polarity {:+d}: runs away. {}", row.record, row.polarity, r->notes.back()));
         }
 }
 
 } // namespace
+
+double slip_error(const sliding::SlideResult& slide)
+{
+    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : 0.0;
+}
+
+Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable)
+{
+    return judge(slide.status, slide.max_slip, slip_error(slide), allowable);
+}
+
+const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b)
+{
+    const auto rank = [](const sliding::SlideResult& r) {
+        return !is_answer(r.status) ? 2 : status_row(r.status).slip == SlipMeaning::none ? 1 : 0;
+    };
+    if (rank(a) != rank(b)) return rank(b) > rank(a) ? b : a;
+    return b.max_slip > a.max_slip ? b : a;
+}
+
+StatusCount statuses_of(const Screening& screening)
+{
+    StatusCount count;
+    for (const SlipRow& row : screening.slips)
+        for (const sliding::SlideResult* slide : all_slides(row)) count.add(slide->status);
+    return count;
+}
 
 double percentile(std::vector<double> samples, double q)
 {
@@ -229,6 +291,8 @@ FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& f
         slips.decoupled = sliding::slide_decoupled(motion, model.stages, flexible, options);
     if (method != FlexibleMethod::decoupled)
         slips.coupled = sliding::slide_coupled(motion, model.stages, flexible, options);
+    for (auto* flexibly : {&slips.decoupled, &slips.coupled})
+        if (*flexibly) check_length(model, (*flexibly)->slide);
     return slips;
 }
 

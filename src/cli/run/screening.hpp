@@ -3,6 +3,7 @@
 #include "cli/run/flexible_mass.hpp"
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/run_inputs.hpp"
+#include "core/status_count.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
 
@@ -44,13 +45,16 @@ struct RegressionRow {
     std::string remark;                      ///< outside its range, or why not defined
 };
 
-/// Over the records, each with the worse polarity. A block that slides statically has none.
+/// Over the records, each with the worse polarity. Records whose worse polarity has no slip are counted by their status.
 struct SetStatistics {
-    std::string quantity; ///< "rigid, horizontal", "rigid, with vertical"
-    std::size_t n = 0;
-    double median = 0.0, percentile_16 = 0.0, percentile_84 = 0.0, mean = 0.0, largest = 0.0; ///< [m]
-    std::optional<double> share_above_allowable;                                              ///< [-]
-    std::string controlling_record;
+    std::string quantity;     ///< "rigid, horizontal", "rigid, with vertical"
+    std::size_t n = 0;        ///< records with a slip, lower bounds included
+    StatusCount without_slip; ///< the others
+    StatusCount lower_bounds; ///< of the n
+    double median = 0.0, percentile_16 = 0.0, percentile_84 = 0.0, mean = 0.0, largest = 0.0; ///< [m]; NaN where n is 0
+    /// Records that fail against the allowable slip, over those that can be judged [-]
+    std::optional<double> share_above_allowable;
+    std::string controlling_record; ///< of the largest
 };
 
 struct Screening {
@@ -66,6 +70,18 @@ struct Screening {
     double largest_pga = 0.0; ///< of all records [m/s^2]
     std::vector<std::string> warnings;
 };
+
+/// Error of the slip that is numerical [m]: none where events are located exactly; NaN for a scheme whose own is not known.
+double slip_error(const sliding::SlideResult& slide);
+
+/// The slide's largest slip against the allowable [m].
+Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable);
+
+/// The one that decides: one that is no answer, else one without a slip, else the larger.
+const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b);
+
+/// Statuses of all slides of a screening.
+StatusCount statuses_of(const Screening& screening);
 
 /// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);

@@ -64,13 +64,29 @@ RigidWedge make_rigid_wedge(const Scene& scene)
     return w;
 }
 
-double critical_first_friction(const RigidWedge& w)
+double critical_first_friction(const sliding::Wedge& w, const sliding::WedgeState& state)
 {
-    const double by_friction = w.still.resistance - w.still.cohesion, missing = w.still.drive - w.still.cohesion;
-    if (w.still.mode == sliding::WedgeMode::lifts) return std::numeric_limits<double>::infinity();
+    if (!(w.first.friction > 0.0)) return critical_friction(state); // no share to keep: both get the same
+    const double by_friction = state.resistance - state.cohesion, missing = state.drive - state.cohesion;
+    if (state.mode == sliding::WedgeMode::lifts) return std::numeric_limits<double>::infinity();
     if (!(missing > 0.0)) return 0.0;
     if (!(by_friction > 0.0)) return std::numeric_limits<double>::infinity();
-    return w.wedge.first.friction * missing / by_friction;
+    return w.first.friction * missing / by_friction;
+}
+
+std::optional<double> sliding_length(const RockWedge& wedge, sliding::WedgeMode mode)
+{
+    switch (mode) {
+    case sliding::WedgeMode::both_planes:
+        return line_length(wedge);
+    case sliding::WedgeMode::first_plane:
+        return plane_length(wedge, 0);
+    case sliding::WedgeMode::second_plane:
+        return plane_length(wedge, 1);
+    case sliding::WedgeMode::lifts:
+        break;
+    }
+    return std::nullopt;
 }
 
 std::vector<double> yields_over_azimuth(const sliding::Wedge& wedge)

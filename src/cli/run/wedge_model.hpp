@@ -24,9 +24,12 @@ sliding::Wedge make_wedge(const RockWedge& wedge, double gravity);
 /// @pre scene.wedge
 RigidWedge make_rigid_wedge(const Scene& scene);
 
-/// Friction of the first plane at which the wedge just stands, the second keeping its share of it [-]; infinite when it lifts or
-/// no friction would do.
-double critical_first_friction(const RigidWedge& wedge);
+/// Friction of the first plane at which a wedge just stands as it is in `state`, the second keeping its share of it as
+/// with_friction() has it [-]; infinite when it lifts or no friction would do. Of planes alike it is that of both.
+double critical_first_friction(const sliding::Wedge& wedge, const sliding::WedgeState& state);
+
+/// How long the plane or line is that it slides on [m]; none where the scene gives no surfaces, or it lifts.
+std::optional<double> sliding_length(const RockWedge& wedge, sliding::WedgeMode mode);
 
 /// The yield under ground motion of one direction.
 struct WedgeYieldRow {

@@ -185,6 +185,19 @@ report::Chart flexible_chart(const Scene& scene, const Screening& s, const Groun
     return chart;
 }
 
+namespace {
+
+/// A slide that has no slip is named instead.
+void add_slip_curve(const sliding::SlideResult& slide, const std::string& name, int colour, report::Chart& chart)
+{
+    if (reported(slide.status, slide.max_slip))
+        chart.curves.push_back(slip_curve(slide.history, name, colour));
+    else
+        chart.note += fmt::format("{}{}: {}.", chart.note.empty() ? "" : " ", name, word(slide.status));
+}
+
+} // namespace
+
 std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion,
                                        std::size_t number, std::size_t records)
 {
@@ -192,6 +205,10 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
     const std::string together = fmt::format("record{}", number + 1);
     std::vector<report::Part> parts;
     const auto add = [&](report::Chart chart) {
+        if (chart.curves.empty()) {
+            parts.emplace_back(report::Paragraph{chart.title + ": none. " + chart.note});
+            return;
+        }
         chart.together = together;
         for (Curve& curve : chart.curves) on_record_grid(motion, curve);
         thin_for(chart, records);
@@ -206,17 +223,18 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
     const SlipRow& h = worse_horizontal(s, number);
     const auto horizontal =
         slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
-    slip.curves.push_back(slip_curve(horizontal.history, fmt::format("horizontal, polarity {:+d}", h.polarity), 0));
+    add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);
     if (scene.criteria.allowable_slip && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
         slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     const SlipRow* hv = worse_with_vertical(s, number);
-    if (h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0))
+    const bool still = h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0);
+    if (still && is_answer(horizontal.status) && !fails_statically(horizontal.status))
         slip.note = fmt::format("The {} does not slide in this record.", sliding_body(scene));
     if (!hv) {
         add(std::move(slip));
     } else {
         const auto both = slide_model(scene, model, motion, hv->polarity, sliding::HistoryOutput::samples);
-        slip.curves.push_back(slip_curve(both.history, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1));
+        add_slip_curve(both, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1, slip);
         add(std::move(slip));
         add(demand_chart(motion, both.history, hv->polarity));
     }

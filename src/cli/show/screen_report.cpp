@@ -50,36 +50,62 @@ CheckCount count_checks(const Screening& s)
     return count;
 }
 
-bool any_status(const Screening& s, Status status)
+/// Of the slides that are judged by.
+StatusCount judged_statuses(const Screening& s)
 {
-    return std::any_of(s.slips.begin(), s.slips.end(), [&](const SlipRow& r) { return r.judged().status == status; });
+    StatusCount count;
+    for (const SlipRow& row : s.slips) count.add(row.judged().status);
+    return count;
 }
 
-const SlipRow& largest(const Screening& s)
+/// The row with the largest slip; null where none has one.
+const SlipRow* largest(const Screening& s)
 {
-    return *std::max_element(s.slips.begin(), s.slips.end(), [](const SlipRow& a, const SlipRow& b) {
-        return a.judged().max_slip < b.judged().max_slip;
-    });
+    const SlipRow* worst = nullptr;
+    for (const SlipRow& row : s.slips)
+        if (reported(row.judged().status, row.judged().max_slip) &&
+            (!worst || row.judged().max_slip > worst->judged().max_slip))
+            worst = &row;
+    return worst;
+}
+
+/// The worse polarity's slip of each record that has one [m].
+std::vector<double> worse_slips(const Screening& s)
+{
+    std::vector<double> slips;
+    for (std::size_t i = 0; i + 1 < s.slips.size(); i += 2) {
+        const sliding::SlideResult& r = worse(s.slips[i].judged(), s.slips[i + 1].judged());
+        if (const auto slip = reported(r.status, r.max_slip)) slips.push_back(*slip);
+    }
+    return slips;
+}
+
+/// Runs that have no slip, by their status: "; without a slip: 2 runs away"; empty where all have one.
+std::string without_slip_words(const Screening& s)
+{
+    StatusCount count;
+    for (const SlipRow& row : s.slips)
+        if (!reported(row.judged().status, row.judged().max_slip)) count.add(row.judged().status);
+    return count.empty() ? "" : fmt::format("; without a slip: {} of {} runs", count.words(), s.slips.size());
 }
 
 /// What slides.
 std::string slip_sentence(const Scene& scene, const Screening& s)
 {
-    const SlipRow& worst = largest(s);
+    const SlipRow* worst = largest(s);
     const std::size_t n = s.slips.size() / 2;
-    const double slip = worst.judged().max_slip;
+    const double slip = worst ? worst->judged().max_slip : 0.0;
     std::string out =
-        slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", sliding_body(scene),
-                               slip / mm, n > 1 ? fmt::format(" over {} records", n) : "", worst.record, worst.polarity,
-                               worst.with_vertical ? ", with vertical motion" : "")
-                 : fmt::format("The {} does not slide in {}", sliding_body(scene),
-                               n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst.record);
-    if (n > 1 && slip > 0) {
-        std::vector<double> worse;
-        for (std::size_t i = 0; i < n; ++i)
-            worse.push_back(std::max(s.slips[2 * i].judged().max_slip, s.slips[2 * i + 1].judged().max_slip));
-        out += fmt::format(", median {:.4g} mm", percentile(worse, 0.5) / mm);
-    }
+        !worst     ? fmt::format("The {} has no slip to give", sliding_body(scene))
+        : slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", sliding_body(scene),
+                                 slip / mm, n > 1 ? fmt::format(" over {} records", n) : "", worst->record,
+                                 worst->polarity, worst->with_vertical ? ", with vertical motion" : "")
+                   : fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                 n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst->record);
+    const std::string without = without_slip_words(s);
+    if (n > 1 && slip > 0 && without.empty())
+        out += fmt::format(", median {:.4g} mm", percentile(worse_slips(s), 0.5) / mm);
+    out += without;
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
     return out + ".";
@@ -169,7 +195,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
-    const bool slides = !s.slips.empty() && fails_statically(s.slips.front().horizontal.status);
+    const bool slides = !largest(s); // nothing to draw
     if (s.flexible) section.parts.push_back(TablePart{flexible_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
@@ -224,9 +250,9 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     }
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
-        list.emplace_back("Largest slip", fails_statically(largest(s).judged().status)
-                                              ? "slides statically"
-                                              : fmt::format("{:.4g} mm", largest(s).judged().max_slip / mm));
+        const SlipRow* worst = largest(s);
+        list.emplace_back("Largest slip", worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
+        if (!without_slip_words(s).empty()) list.emplace_back("Statuses", judged_statuses(s).words());
     }
     if (scene.criteria.allowable_slip)
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
@@ -272,11 +298,16 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
     }
     const std::string standing = standing_sentence(s);
     const std::string sentence = slip_sentence(scene, s) + checks_sentence(checks) + standing;
-    if (any_status(s, Status::not_resolved)) return {sentence, Outcome::unresolved, "UNRESOLVED"};
-    const bool too_far = scene.criteria.allowable_slip && largest(s).judged().max_slip > *scene.criteria.allowable_slip;
-    if (too_far || checks.failed > 0 || any_status(s, Status::sliding_at_end))
-        return {sentence, Outcome::fail, "FAIL"};
+    if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
+    const auto any = [&](Verdict verdict) {
+        return std::any_of(s.slips.begin(), s.slips.end(), [&](const SlipRow& row) {
+            return judge(row.judged(), scene.criteria.allowable_slip) == verdict;
+        });
+    };
+    if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (any(Verdict::undecided))
+        return {sentence, Outcome::unresolved, "Undecided: the error of SLAMMER's scheme is not known."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
     return {sentence, Outcome::pass, "PASS"};
 }

@@ -19,7 +19,7 @@ struct ScreenReportInput {
 
 /// The whole answer in one sentence with its verdict: FAIL for a block that slides or floats without any earthquake, a
 /// slip above the allowable or without end, or a limit-equilibrium check not met; PASS when something was judged and
-/// nothing failed.
+/// nothing failed; neither where a run has no answer, or an error that is not known.
 report::Headline screen_headline(const Scene& scene, const Screening& s);
 
 /// Section, effects, limit equilibrium, yield acceleration, slip over friction and records, each record, provenance.

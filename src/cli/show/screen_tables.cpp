@@ -3,6 +3,8 @@
 #include "cli/show/wedge_tables.hpp"
 #include "core/units.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace damslip::cli {
@@ -32,28 +34,40 @@ std::string state_word(const RigidModel& model)
     return "";
 }
 
-std::string verdict(const sliding::SlideResult& r, const std::optional<double>& allowable)
+Cell verdict_cell(Verdict verdict)
 {
-    if (fails_statically(r.status) || r.status == Status::sliding_at_end)
-        return "FAIL";
-    if (r.status == Status::not_resolved) return "unresolved";
-    if (!allowable) return "no criterion";
-    return r.max_slip <= *allowable ? "PASS" : "FAIL";
+    return verdict == Verdict::none ? Cell() : Cell(word(verdict));
 }
 
-/// A slip means nothing where the block needs no earthquake to slide: it grows for as long as the record lasts.
+/// @param slip  one of the slide's slips, in the unit of its column
 Cell slip_cell(const sliding::SlideResult& r, double slip)
 {
-    return fails_statically(r.status) ? Cell() : Cell(slip);
+    return cell(reported(r.status, slip));
+}
+
+Cell finite(double value)
+{
+    return std::isfinite(value) ? Cell(value) : Cell();
 }
 
 void note_static_sliding(const Screening& s, Table& table)
 {
+    if (s.slips.empty() || !fails_statically(s.slips.front().horizontal.status)) return;
     const RigidModel& m = s.bases.front().model;
-    if (!s.slips.empty() && fails_statically(s.slips.front().horizontal.status))
-        table.notes.push_back(fmt::format(
-            "slides statically: no slip is given, it would grow for as long as the record lasts; critical μ = {:.4g}.",
-            m.critical_friction));
+    table.notes.push_back("slides statically: no slip is given, it would grow for as long as the record lasts; " +
+                          (std::isfinite(m.critical_friction) ? fmt::format("critical μ = {:.4g}.", m.critical_friction)
+                                                              : std::string("no friction would hold it.")));
+}
+
+/// What a verdict says, and what it cannot say.
+void note_verdict(const Screening& s, const std::optional<double>& allowable, Table& table)
+{
+    if (!allowable) return;
+    table.notes.push_back(
+        fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
+    if (std::any_of(s.slips.begin(), s.slips.end(),
+                    [](const SlipRow& row) { return std::isnan(slip_error(row.judged())); }))
+        table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
 }
 
 } // namespace
@@ -101,11 +115,11 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     for (const SlipRow& row : s.slips) {
         const sliding::SlideResult& r = row.judged();
         t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
-                          row.pga > 0 ? Cell(a_y / row.pga) : Cell(),
+                          row.pga > 0 ? finite(a_y / row.pga) : Cell(),
                           slip_cell(row.horizontal, row.horizontal.slip / mm),
                           row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
                           slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
-                          static_cast<std::int64_t>(r.lift_offs), word(r.status), verdict(r, allowable)});
+                          static_cast<std::int64_t>(r.lift_offs), word(r.status), verdict_cell(judge(r, allowable))});
     }
     if (wedge)
         t.notes.push_back("slip: along the way of sliding at the yield, " +
@@ -115,9 +129,7 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
         t.notes.push_back("slip: at the end, positive downstream; largest slip, status and verdict: with the vertical "
                           "component where the record has one.");
     note_static_sliding(s, t);
-    if (allowable)
-        t.notes.push_back(
-            fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
+    note_verdict(s, allowable, t);
     return t;
 }
 
@@ -173,6 +185,23 @@ Table regression_table(const Screening& s)
     return t;
 }
 
+namespace {
+
+Cell name_cell(const std::string& name)
+{
+    return name.empty() ? Cell() : Cell(name);
+}
+
+void note_lower_bounds(const Screening& s, Table& table)
+{
+    for (const SetStatistics& q : s.statistics)
+        if (!q.lower_bounds.empty())
+            table.notes.push_back(fmt::format("{}: {} of the {} slips are lower bounds ({}).", q.quantity,
+                                              q.lower_bounds.all(), q.n, q.lower_bounds.words()));
+}
+
+} // namespace
+
 Table statistics_table(const Screening& s)
 {
     Table t;
@@ -185,12 +214,15 @@ Table statistics_table(const Screening& s)
                  {"mean_mm", "mean", "mm", 4},
                  {"largest_mm", "largest", "mm", 4},
                  {"share_above_allowable_percent", "above allowable", "%", 3},
-                 {"controlling_record", "controlling record", "", 4}};
+                 {"controlling_record", "controlling record", "", 4},
+                 {"without_slip", "without a slip", "", 4}};
     for (const SetStatistics& q : s.statistics)
-        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), q.median / mm, q.percentile_16 / mm,
-                          q.percentile_84 / mm, q.mean / mm, q.largest / mm,
+        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), finite(q.median / mm),
+                          finite(q.percentile_16 / mm), finite(q.percentile_84 / mm), finite(q.mean / mm),
+                          finite(q.largest / mm),
                           q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(),
-                          q.controlling_record});
+                          name_cell(q.controlling_record), name_cell(q.without_slip.words())});
+    note_lower_bounds(s, t);
     note_static_sliding(s, t);
     return t;
 }

@@ -70,9 +70,9 @@ std::vector<std::vector<double>> slip_grid(const Scene& scene, const RigidModel&
         double worst = 0.0;
         for (const int polarity : {1, -1}) {
             const sliding::SlideResult r = slide_model(scene, models[i], prepared[j], polarity);
-            if (fails_statically(r.status) || r.status == Status::not_resolved)
-                return; // no figure to draw
-            worst = std::max(worst, r.max_slip);
+            const std::optional<double> largest = reported(r.status, r.max_slip);
+            if (!largest) return; // no figure to draw
+            worst = std::max(worst, *largest);
         }
         slip[i][j] = worst / mm;
     });
@@ -122,17 +122,27 @@ void add_set_curves(report::Chart& chart, const std::vector<double>& x, const st
 
 } // namespace
 
+namespace {
+
+/// For people [mm]; not a number where the slide has none.
+double largest_slip(const sliding::SlideResult& slide)
+{
+    return reported(slide.status, slide.max_slip).value_or(nothing) / mm;
+}
+
+} // namespace
+
 const SlipRow& worse_horizontal(const Screening& s, std::size_t number)
 {
     const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    return b.horizontal.max_slip > a.horizontal.max_slip ? b : a;
+    return &worse(a.horizontal, b.horizontal) == &b.horizontal ? b : a;
 }
 
 const SlipRow* worse_with_vertical(const Screening& s, std::size_t number)
 {
     const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
     if (!a.with_vertical || !b.with_vertical) return nullptr;
-    return b.with_vertical->max_slip > a.with_vertical->max_slip ? &b : &a;
+    return &worse(*a.with_vertical, *b.with_vertical) == &*b.with_vertical ? &b : &a;
 }
 
 std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screening& s,
@@ -181,10 +191,10 @@ report::Chart slip_by_record(const Screening& s, const std::optional<double>& al
     for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
         chart.x.categories.push_back(s.slips[2 * i].record);
         h.x.push_back(static_cast<double>(i));
-        h.y.push_back(worse_horizontal(s, i).horizontal.max_slip / mm);
+        h.y.push_back(largest_slip(worse_horizontal(s, i).horizontal));
         const SlipRow* row = worse_with_vertical(s, i);
         hv.x.push_back(static_cast<double>(i));
-        hv.y.push_back(row ? row->with_vertical->max_slip / mm : nothing);
+        hv.y.push_back(row ? largest_slip(*row->with_vertical) : nothing);
     }
     chart.curves.push_back(std::move(h));
     if (std::any_of(hv.y.begin(), hv.y.end(), [](double v) { return std::isfinite(v); }))
@@ -211,10 +221,10 @@ report::Chart slip_over_ratio(const Screening& s)
     for (const std::size_t i : order) {
         const double ratio = a_y / s.slips[2 * i].pga;
         h.x.push_back(ratio);
-        h.y.push_back(worse_horizontal(s, i).horizontal.max_slip / mm);
+        h.y.push_back(largest_slip(worse_horizontal(s, i).horizontal));
         if (const SlipRow* row = worse_with_vertical(s, i)) {
             hv.x.push_back(ratio);
-            hv.y.push_back(row->with_vertical->max_slip / mm);
+            hv.y.push_back(largest_slip(*row->with_vertical));
         }
     }
     if (a_y < 0) // the ratio falls with the PGA's fall: back into ascending order
@@ -244,9 +254,12 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
         curve.high.push_back(row.high.value_or(row.median.value_or(nothing)) / mm);
     }
     if (std::none_of(curve.y.begin(), curve.y.end(), [](double v) { return v > 0; })) return std::nullopt;
-    chart.horizontal.push_back({worse_horizontal(s, number).horizontal.max_slip / mm, "rigid block, horizontal"});
+    const auto add_line = [&chart](const sliding::SlideResult& slide, const char* name) {
+        if (reported(slide.status, slide.max_slip)) chart.horizontal.push_back({largest_slip(slide), name});
+    };
+    add_line(worse_horizontal(s, number).horizontal, "rigid block, horizontal");
     if (const SlipRow* row = worse_with_vertical(s, number))
-        chart.horizontal.push_back({row->with_vertical->max_slip / mm, "rigid block, with vertical"});
+        add_line(*row->with_vertical, "rigid block, with vertical");
     const bool any_zero = std::any_of(curve.low.begin(), curve.low.end(), [](double v) { return v <= 0; }) ||
                           std::any_of(chart.horizontal.begin(), chart.horizontal.end(),
                                       [](const report::Line& line) { return line.at <= 0; });

@@ -71,12 +71,12 @@ Table wedge_stability_table(const Scene& scene, const RigidModel& model)
                  {"drive_MN", "drive", "MN", 5},
                  {"resistance_MN", "resistance", "MN", 5},
                  {"factor_of_safety", "factor of safety", "–", 4},
-                 {"critical_friction", "critical μ, both alike", "–", 4},
+                 {"critical_friction", "critical μ of " + scene.wedge->planes[0].name, "–", 4},
                  {"critical_friction_deg", "critical φ", "°", 4},
                  {"result", "without earthquake", "", 4}};
     const auto add = [&](const char* name, const sliding::WedgeState& s) {
         const bool lifts = s.mode == sliding::WedgeMode::lifts;
-        const double mu = critical_friction(s);
+        const double mu = critical_first_friction(w.wedge, s);
         t.rows.push_back({std::string(name), mode_words(*scene.wedge, s.mode), trend(s.direction) / units::degree,
                           plunge(s.direction) / units::degree, s.drive / MN, s.resistance / MN,
                           finite(s.factor_of_safety), finite(mu), angle_of_friction(mu),
@@ -92,7 +92,8 @@ Table wedge_stability_table(const Scene& scene, const RigidModel& model)
     }
     t.notes.push_back(
         "the way of sliding is found: along the line of intersection on both planes, on one of them, or lifting; "
-        "critical μ: equal friction on the planes in contact that just holds the wedge.");
+        "critical μ: friction of " +
+        scene.wedge->planes[0].name + " that just holds the wedge, the other plane keeping its share of it.");
     if (w.still.cohesion > 0.0)
         t.notes.push_back(w.yields.moving
                               ? "the first slip takes the cohesion away (wedge.cohesion_lost_at_slip)."
@@ -117,8 +118,8 @@ Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
         const sliding::WedgeYield& y = row.yield;
         const Cell azimuth = row.azimuth ? Cell(*row.azimuth / units::degree) : Cell();
         if (std::isinf(y.acceleration)) {
-            t.rows.push_back(
-                {row.motion, azimuth, Cell(), Cell(), std::string("not below 10 g"), Cell(), Cell(), Cell(), Cell()});
+            const std::string none = y.acceleration > 0.0 ? "not below 10 g" : "slides, even pushed back by 10 g";
+            t.rows.push_back({row.motion, azimuth, Cell(), Cell(), none, Cell(), Cell(), Cell(), Cell()});
             continue;
         }
         t.rows.push_back({row.motion, azimuth, y.acceleration, y.acceleration / units::standard_gravity,
@@ -128,7 +129,8 @@ Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
     }
     t.notes.push_back(
         "horizontal rows: the ground accelerates away from the azimuth, the inertia of the wedge points to it; "
-        "a_y per a_v: change of a_y with the ground acceleration upwards.");
+        "a_y per a_v: change of a_y with the ground acceleration upwards; negative a_y: slides without earthquake, and "
+        "would just stand pushed the other way by as much.");
     return t;
 }
 
@@ -137,17 +139,18 @@ report::Chart wedge_yield_chart(const RigidWedge& wedge, double largest_pga)
     report::Chart chart;
     chart.title = "Yield acceleration over the direction of the motion";
     chart.x = {"azimuth the motion drives to", "°", report::Scale::linear, 0.1, 0.0, 360.0, {}};
-    chart.y = {"yield acceleration", "m/s²", report::Scale::linear, 0.1, 0.0, {}, {}};
+    chart.y = {"yield acceleration", "m/s²", report::Scale::linear, 0.1, {}, {}, {}};
     report::Curve curve{"a_y", {}, {}, {}, {}, report::Mark::line, report::Weight::strong, 0};
     double least = std::numeric_limits<double>::infinity();
     for (const double a : yields_over_azimuth(wedge.wedge)) {
         curve.x.push_back(5.0 * static_cast<double>(curve.x.size()));
         curve.y.push_back(a);
-        least = std::min(least, a);
+        if (std::isfinite(a)) least = std::min(least, a);
     }
-    const double shown = std::max(4.0 * least, 2.0 * largest_pga); // far above, the curve says nothing
+    if (least >= 0.0) chart.y.low = 0.0;
+    const double shown = std::max(4.0 * std::abs(least), 2.0 * largest_pga); // far above, the curve says nothing
     for (double& y : curve.y)
-        if (!(y <= shown)) y = std::numeric_limits<double>::quiet_NaN();
+        if (!(std::abs(y) <= shown)) y = std::numeric_limits<double>::quiet_NaN();
     chart.curves.push_back(std::move(curve));
     chart.vertical.push_back({wedge.azimuth / units::degree, "records"});
     if (largest_pga > 0.0) chart.horizontal.push_back({largest_pga, "largest PGA"});

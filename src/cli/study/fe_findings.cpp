@@ -94,9 +94,11 @@ Judged progressive(const StudyRows& rows, const std::string& method, const std::
 Judged failure(const StudyRows& rows, const std::string& method)
 {
     const StudyCase at{"seepage", "acoustic", 1.0, 0.65, method};
-    const double critical = rows.critical_friction(at), slip = rows.slip(at).value_or(NAN);
-    return {fmt::format("no equilibrium below μ = {:.3f}; at 0.65 it slides {:.0f} mm and is {} afterwards", critical,
-                        slip, rows.status(at)),
+    const double critical = rows.critical_friction(at);
+    const std::string there =
+        rows.slip(at) ? fmt::format("it slides {} and is {} afterwards", rows.slip_words(at), word(*rows.status(at)))
+                      : rows.slip_words(at);
+    return {fmt::format("no equilibrium below μ = {:.3f}; at 0.65 {}", critical, there),
             std::abs(critical - 0.65) < 0.01 ? Holds::yes : Holds::no};
 }
 
@@ -106,7 +108,7 @@ Judged simplified_works(const StudyRows& rows, const std::string& method)
                               rigorous = rows.slips({"seepage", "westergaard", 2.0, 1.0, method});
     std::size_t ended = 0;
     for (const double friction : chapter_4::frictions)
-        ended += rows.status({"seepage", "westergaard-simplified", 2.0, friction, method}) == "at rest";
+        ended += rows.status({"seepage", "westergaard-simplified", 2.0, friction, method}) == Status::at_rest;
     return {fmt::format("{} of 6 runs with the simplified formula end at rest: {}, rigorous {}", ended,
                         slip_list(simplified), slip_list(rigorous)),
             ended == 6 ? Holds::no : Holds::yes};
@@ -117,7 +119,7 @@ Judged no_equilibrium(const StudyRows& rows, const std::string& method)
     std::size_t failing = 0;
     for (const double size : chapter_4::sizes)
         for (const std::string& water : chapter_4::waters)
-            failing += rows.status({"linear", water, size, 0.70, method}) == "static failure";
+            failing += rows.status({"linear", water, size, 0.70, method}) == Status::static_failure;
     return {fmt::format("{} of 6 models have no static equilibrium at 0.70: they stand from μ = {:.3f} on", failing,
                         rows.critical_friction({"linear", "acoustic", 1.0, 0.70, method})),
             all_some_none(failing, 6)};
@@ -130,10 +132,11 @@ Judged continuous_sliding(const StudyRows& rows, const std::string& method)
     for (const double size : chapter_4::sizes)
         for (const std::string water : {"westergaard", "acoustic"}) {
             const StudyCase at{"linear", water, size, 0.77, method};
-            const bool at_rest = rows.status(at) == "at rest";
+            const bool at_rest = rows.status(at) == Status::at_rest;
             good += at_rest == (water == "acoustic");
-            numbers += fmt::format("{}{} {}: {:.0f} mm, {}", numbers.empty() ? "" : "; ", height_of(size), water,
-                                   rows.slip(at).value_or(NAN), rows.status(at));
+            numbers +=
+                fmt::format("{}{} {}: {}", numbers.empty() ? "" : "; ", height_of(size), water, rows.slip_words(at));
+            if (rows.slip(at)) numbers += ", " + word(*rows.status(at));
         }
     return {numbers, good == 4 ? Holds::yes : Holds::no};
 }

@@ -162,7 +162,8 @@ RegressionsBeside regressions_beside_block(const Scene& scene, const RecordPair&
         here = with_friction(std::move(here), at_1.critical_friction + a_y * standard_gravity / per_friction);
         const RigidModel model = make_rigid_model(here, seepage.profile_of(here));
         out.yield.push_back(model.downstream.law.constant / standard_gravity);
-        out.block.push_back(slide_model(here, model, prepared, 1).max_slip / mm);
+        const sliding::SlideResult slide = slide_model(here, model, prepared, 1);
+        out.block.push_back(reported(slide.status, slide.max_slip).value_or(nothing) / mm);
         const sliding::RegressionInputs inputs = regression_inputs(record, motion, model);
         for (RegressionsBeside::Curve& curve : out.regressions) {
             const sliding::RegressionResult r = sliding::evaluate(*sliding::find_regression(curve.id), inputs);

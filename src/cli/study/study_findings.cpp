@@ -69,9 +69,10 @@ Finding printed_uplift(const StudyFacts& f)
 Finding no_slip_at_one(const StudyFacts& f)
 {
     const StudyCase at{"seepage", "westergaard-simplified", 1.0, 1.0, "rigid"};
-    const double a_y = f.rows.yield_acceleration(at), slip = f.rows.slip(at).value_or(-1.0);
+    const double a_y = f.rows.yield_acceleration(at), slip = f.rows.slip(at).value_or(std::nan(""));
     Finding out{"4.5.1, fig. 4-11", "rigid block: at μ = 1.0 a_y is well above the PGA, no slip", {}, {}, ""};
-    out.here = Judged{fmt::format("a_y = {:.2f}, PGA {:.2f} m/s²; slip {:.3g} mm", a_y, f.pga, slip),
+    out.here = Judged{fmt::format("a_y = {:.2f}, PGA {:.2f} m/s²; slip {}", a_y, f.pga,
+                                  std::isfinite(slip) ? fmt::format("{:.3g} mm", slip) : f.rows.slip_words(at)),
                       slip == 0.0 && a_y > f.pga ? Holds::yes : Holds::no};
     return out;
 }
@@ -79,11 +80,12 @@ Finding no_slip_at_one(const StudyFacts& f)
 Finding dramatic(const StudyFacts& f)
 {
     StudyCase at{"seepage", "westergaard-simplified", 1.0, 0.70, "rigid"};
-    const double high = f.rows.slip(at).value_or(0.0);
+    const double high = f.rows.slip(at).value_or(std::nan(""));
+    const std::string from = f.rows.slip_words(at);
     at.friction = 0.65;
-    const double low = f.rows.slip(at).value_or(0.0);
+    const double low = f.rows.slip(at).value_or(std::nan(""));
     Finding out{"4.5.1, fig. 4-11", "rigid block: slips change dramatically from μ = 0.70 to 0.65", {}, {}, ""};
-    out.here = Judged{fmt::format("{:.0f} mm → {:.0f} mm", high, low), low > 5.0 * high ? Holds::yes : Holds::no};
+    out.here = Judged{fmt::format("{} → {}", from, f.rows.slip_words(at)), low > 5.0 * high ? Holds::yes : Holds::no};
     return out;
 }
 

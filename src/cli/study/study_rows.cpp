@@ -1,6 +1,7 @@
 #include "cli/study/study_rows.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 
 namespace damslip::cli {
@@ -8,7 +9,7 @@ namespace damslip::cli {
 namespace {
 
 /// As in sweep_table: results of FE and rigid rows.
-enum ResultColumn : std::size_t { slip_column = 0, max_slip_column = 1, step_error_column = 5, status_column = 8 };
+enum ResultColumn : std::size_t { slip_column = 0, max_slip_column = 1, step_error_column = 5 };
 
 template <class List, class Matches>
 std::optional<std::size_t> place(const List& list, Matches&& matches)
@@ -38,13 +39,15 @@ const FinishedRow* StudyRows::row(const StudyCase& at) const
 
 bool StudyRows::fails_statically(const StudyCase& at) const
 {
-    return critical_friction(at) > at.friction;
+    const FinishedRow* found = row(at);
+    const auto status = found ? status_of(*found) : std::nullopt;
+    return status && damslip::fails_statically(*status);
 }
 
 std::optional<double> StudyRows::slip(const StudyCase& at) const
 {
     const FinishedRow* found = row(at);
-    if (!found || fails_statically(at)) return std::nullopt;
+    if (!found || !found->good) return std::nullopt;
     const double* slip = std::get_if<double>(&found->results[max_slip_column]);
     if (!slip) slip = std::get_if<double>(&found->results[slip_column]);
     return slip ? std::optional(1e3 * *slip) : std::nullopt;
@@ -60,11 +63,17 @@ std::vector<double> StudyRows::slips(StudyCase at) const
     return list;
 }
 
-std::string StudyRows::status(const StudyCase& at) const
+std::optional<Status> StudyRows::status(const StudyCase& at) const
 {
     const FinishedRow* found = row(at);
-    const std::string* word = found ? std::get_if<std::string>(&found->results[status_column]) : nullptr;
-    return word ? *word : "";
+    return found ? status_of(*found) : std::nullopt;
+}
+
+std::string StudyRows::slip_words(const StudyCase& at) const
+{
+    if (const auto value = slip(at)) return fmt::format("{:.0f} mm", *value);
+    const auto ended = status(at);
+    return ended ? word(*ended) : "no such row";
 }
 
 std::optional<double> StudyRows::step_error(const StudyCase& at) const
@@ -77,7 +86,7 @@ std::optional<double> StudyRows::step_error(const StudyCase& at) const
 const SlipHistory* StudyRows::history(const StudyCase& at) const
 {
     const FinishedRow* found = row(at);
-    return found && found->history.interval > 0.0 && !fails_statically(at) ? &found->history : nullptr;
+    return found && found->good && found->history.interval > 0.0 ? &found->history : nullptr;
 }
 
 double StudyRows::critical_friction(const StudyCase& at) const

@@ -33,7 +33,8 @@ public:
     /// Slips of all frictions of the study, in their order [mm]; NaN where there is none.
     std::vector<double> slips(StudyCase at) const;
     bool fails_statically(const StudyCase& at) const;
-    std::string status(const StudyCase& at) const;               ///< empty: no such row
+    std::optional<Status> status(const StudyCase& at) const;     ///< none: no such row
+    std::string slip_words(const StudyCase& at) const;           ///< "982 mm", or the status in place of a slip
     std::optional<double> step_error(const StudyCase& at) const; ///< [mm]
     const SlipHistory* history(const StudyCase& at) const;       ///< nullptr: none
     double critical_friction(const StudyCase& at) const;         ///< of the rigid block [-]

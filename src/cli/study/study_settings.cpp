@@ -1,6 +1,7 @@
 #include "cli/study/study_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <numeric>
@@ -69,8 +70,11 @@ std::vector<SettingsStep> settings_ladder(const Scene& given, const std::vector<
         const SweepOutcome outcome = run_sweep(inputs, grid, wanted, nullptr, jobs, streams);
         if (!outcome.complete()) return steps;
         const StudyRows rows(grid, outcome);
+        StatusCount unanswered;
+        for (const FinishedRow& row : outcome.rows)
+            if (!row.good) unanswered.add(status_of(row).value_or(Status::not_resolved));
         steps.push_back({change.name, rows.slips({"seepage", "acoustic", 1.0, 1.0, "fe"}),
-                         rows.slips({"seepage", "westergaard", 1.0, 1.0, "fe"})});
+                         rows.slips({"seepage", "westergaard", 1.0, 1.0, "fe"}), unanswered});
     }
     return steps;
 }
@@ -86,7 +90,7 @@ Table settings_table(const std::vector<SettingsStep>& steps)
         for (const auto& [water, slips] :
              {std::pair{"acoustic", &step.acoustic}, std::pair{"westergaard", &step.westergaard}}) {
             std::vector<Cell> row{step.change, std::string(water)};
-            for (const double slip : *slips) row.emplace_back(slip);
+            for (const double slip : *slips) row.push_back(std::isfinite(slip) ? Cell(slip) : Cell());
             t.rows.push_back(std::move(row));
         }
     t.notes.push_back("largest slips, with curtain, size 1; each line has the changes of the lines above it too. The "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/study/study_rows.hpp"
+#include "core/status_count.hpp"
 #include "report/chart.hpp"
 
 namespace damslip::cli {
@@ -8,7 +9,8 @@ namespace damslip::cli {
 /// The study's slips with some of the source's settings in place of the accurate ones, with curtain, size 1, whole steps.
 struct SettingsStep {
     std::string change;                        ///< on top of the steps before
-    std::vector<double> acoustic, westergaard; ///< of chapter_4::frictions [mm]
+    std::vector<double> acoustic, westergaard; ///< of chapter_4::frictions [mm]; NaN: none
+    StatusCount unanswered;                    ///< rows without an answer
 };
 
 /// From the accurate settings to the source's, one change after the other: what each of them does to the slip. The last step is the

@@ -6,6 +6,7 @@
 #include "cli/show/contact_tables.hpp"
 #include "cli/sweep/fe_meter.hpp"
 #include "cli/sweep/sweep_grid.hpp"
+#include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/exact_contact.hpp"
@@ -29,6 +30,7 @@ struct PreparedModel {
     fe2d::RunOptions options;
     std::unique_ptr<const fe2d::EarthquakeRun> full;
     std::unique_ptr<const fe2d::ReducedRun> reduced; ///< on `full`; none: not asked for yet
+    std::string why_not;                             ///< it could not be made; empty: it could
 };
 /// Variant, law, and whether reservoir.model = "auto" stays added mass, as on few modes of the dam.
 using ModelKey = std::tuple<std::size_t, FeLaw, bool>;
@@ -38,14 +40,12 @@ template <class Result>
 FeSlip slip_of(const Result& r, double step_error)
 {
     FeSlip slip;
-    slip.status = word(r.status);
-    slip.good = is_answer(r.status);
-    slip.interrupted = r.status == Status::interrupted;
-    if (!r.stages.empty()) slip.critical_friction = r.stages.back().friction_needed;
-    if (r.history.time.empty()) return slip;
-    slip.slip = r.slip;
-    slip.max_slip = r.max_slip;
-    if (!std::isnan(step_error)) slip.slip_error = step_error;
+    slip.status = r.status;
+    if (!r.stages.empty() && std::isfinite(r.stages.back().friction_needed))
+        slip.critical_friction = r.stages.back().friction_needed;
+    slip.slip = reported(r.status, r.slip);
+    slip.max_slip = reported(r.status, r.max_slip);
+    slip.slip_error = reported(r.status, step_error);
     return slip;
 }
 
@@ -72,11 +72,7 @@ void add(const FeSweepCounts& c, FeSweepCounts& sum)
     sum.static_seconds += c.static_seconds;
     sum.dynamic_seconds += c.dynamic_seconds;
     sum.choices.insert(c.choices.begin(), c.choices.end());
-}
-
-bool acoustic(const Scene& scene)
-{
-    return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
+    sum.failures.insert(c.failures.begin(), c.failures.end());
 }
 
 Scene scene_of(const FeSweepInputs& in, const GridIndex& at)
@@ -104,10 +100,12 @@ public:
         const GridIndex at = in_.tasks.index(group.rows.front());
         if (!interrupt_.interrupted()) {
             begin_(group.rows);
-            prepare(model, at, counts);
+            const bool made = prepare(model, at, counts);
             const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
                                                       in_.axes.polarity[at.polarity]);
-            if (in_.axes.method[at.method].reduced)
+            if (!made)
+                take_(group.rows, std::vector<FeSlip>(group.rows.size(), FeSlip{.status = Status::not_resolved}));
+            else if (in_.axes.method[at.method].reduced)
                 run_reduced_group(model, motion, group, counts);
             else
                 run_full(model, motion, group, counts);
@@ -131,14 +129,27 @@ private:
                 in_.axes.method[group.method].reduced};
     }
 
-    void prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    /// @returns false where a solver found no answer: then there is no model, for any of its rows
+    bool prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
     {
         const std::lock_guard lock(model.mutex); // others who need the same model wait for it
+        if (!model.why_not.empty()) return false;
+        try {
+            make(model, at, counts);
+        } catch (const NotConverged& error) {
+            model.why_not = error.diagnostic().problem;
+            counts.failures.insert(model.why_not);
+        }
+        return model.why_not.empty();
+    }
+
+    void make(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    {
         if (!model.full) {
             model.scene = scene_of(in_, at);
             if (!in_.axes.method[at.method].reduced)
                 if (const auto choice = resolve_reservoir_model(model.scene)) counts.choices.insert(choice->reason);
-            if (model.scene.added_mass.period_of_dam && !acoustic(model.scene)) resolve_dam_period(model.scene);
+            resolve_dam_period(model.scene);
             SeepageSource seepage;
             model.options = contact_options(model.scene, in_.records, seepage);
             model.options.progress = [this](const fe2d::RunProgress& p) {
@@ -171,7 +182,8 @@ private:
             for (const fe2d::LiftResult& lift : r.lifts)
                 if (slips.back().slip)
                     slips.back().lift_slip = std::max(slips.back().lift_slip.value_or(0.0), lift.largest_slip);
-            if (keep_histories()) slips.back().history = slip_history(r.history.time, r.history.slip);
+            if (keep_histories() && slips.back().slip)
+                slips.back().history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
         }
         take_(group.rows, slips);
@@ -185,7 +197,7 @@ private:
             const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id));
             FeSlip slip = slip_of(r, r.step_error);
             if (slip.slip) slip.truncation_error = r.truncation_error;
-            if (keep_histories()) slip.history = slip_history(r.history.time, r.history.slip);
+            if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
             take_({&id, 1}, {&slip, 1});
             meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));

@@ -5,6 +5,7 @@
 #include "cli/sweep/sweep_tasks.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
+#include "core/status.hpp"
 
 #include <functional>
 #include <optional>
@@ -15,11 +16,9 @@
 
 namespace damslip::cli {
 
-/// What one FE contact run gives to a sweep. Empty: not computed.
+/// What one FE contact run gives to a sweep. Empty: not computed, or the status has none.
 struct FeSlip {
-    std::string status = "not run";
-    bool good = false;        ///< ended properly; a recognised static failure does
-    bool interrupted = false; ///< stopped on the way: not a result
+    Status status = Status::interrupted;                                ///< interrupted: not a result
     std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
     std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
     std::optional<double> lift_slip; ///< largest |slip| of the lift joints on the way [m]; none: no joint
@@ -31,7 +30,8 @@ struct FeSweepCounts {
     std::int64_t set_ups = 0; ///< meshes and matrices made
     std::int64_t runs = 0, static_failures = 0, steps = 0, factorisations = 0, unresolved = 0;
     double set_up_seconds = 0.0, static_seconds = 0.0, dynamic_seconds = 0.0;
-    std::set<std::string> choices; ///< what reservoir.model = "auto" became, a sentence each
+    std::set<std::string> choices;  ///< what reservoir.model = "auto" became, a sentence each
+    std::set<std::string> failures; ///< why models could not be made, a sentence each
 };
 
 /// What FE runs need of a sweep.

@@ -1,5 +1,7 @@
 #include "cli/sweep/sweep_comparison.hpp"
 
+#include "core/status_count.hpp"
+
 #include <algorithm>
 
 namespace damslip::cli {
@@ -11,23 +13,29 @@ std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, const Swe
     const Axes& axes = grid.axes;
     const RigidModel& model = grid.model(g);
     std::int64_t motions = 0, failures = 0;
-    double fe = 0.0, rigid = 0.0, largest_fe = 0.0, largest_rigid = 0.0, error = 0.0;
-    std::optional<double> critical;
+    double fe = 0.0, rigid = 0.0, largest_fe = 0.0, largest_rigid = 0.0;
+    std::optional<double> critical, error = 0.0; // no error: some motion has none
+    StatusCount without;
     for (g.record = 0; g.record < grid.records.size(); ++g.record)
         for (g.polarity = 0; g.polarity < axes.polarity.size(); ++g.polarity) {
             const FinishedRow* row = outcome.find(grid.tasks.id(g));
             if (!row) continue;
             if (const auto value = critical_friction_of(*row)) critical = value;
             const std::optional<double> slip = slip_of(*row);
-            failures += row->good && !slip;
-            if (!row->good || !slip || model.state != sliding::StaticState::at_rest) continue;
-            const double block = slide_model(scene, model, grid.motion(g), axes.polarity[g.polarity]).slip;
+            const Status status = status_of(*row).value_or(Status::not_resolved);
+            failures += fails_statically(status);
+            if (!slip || !is_answer(status)) without.add(status);
+            if (!is_answer(status) || !slip || model.state != sliding::StaticState::at_rest) continue;
+            const sliding::SlideResult slide = slide_model(scene, model, grid.motion(g), axes.polarity[g.polarity]);
+            const std::optional<double> block = reported(slide.status, slide.slip);
+            if (!block) continue;
             ++motions;
             fe += *slip;
-            rigid += block;
+            rigid += *block;
             largest_fe = std::max(largest_fe, *slip);
-            largest_rigid = std::max(largest_rigid, block);
-            error = std::max(error, slip_error_of(*row).value_or(0.0));
+            largest_rigid = std::max(largest_rigid, *block);
+            const std::optional<double> own = slip_error_of(*row);
+            error = own && error ? std::optional(std::max(*error, *own)) : std::nullopt;
         }
     const auto mm = [&](double metres) { return motions ? Cell(1e3 * metres) : Cell(); };
     const auto n = static_cast<double>(std::max<std::int64_t>(1, motions));
@@ -46,7 +54,8 @@ std::vector<Cell> comparison_row(const Scene& scene, const Grid& grid, const Swe
             rigid > 0.0 ? Cell(fe / rigid) : Cell(),
             mm(largest_fe),
             mm(largest_rigid),
-            mm(error)};
+            error ? mm(*error) : Cell(),
+            without.empty() ? Cell() : Cell(without.words())};
 }
 
 } // namespace
@@ -71,14 +80,16 @@ Table comparison(const Scene& scene, const Grid& grid, const SweepOutcome& outco
                  {"ratio_of_means", "ratio", "–", 4},
                  {"largest_fe_mm", "FE largest", "mm", 5},
                  {"largest_rigid_mm", "rigid largest", "mm", 5},
-                 {"largest_slip_error_mm", "± step", "mm", 2}};
+                 {"largest_slip_error_mm", "± step", "mm", 2},
+                 {"without_slip", "not compared", "", 4}};
     for (std::size_t id = 0; id < grid.tasks.rows(); ++id) { // one of each group of motions stands for it
         const GridIndex g = grid.tasks.index(id);
         if (g.record == 0 && g.polarity == 0 && axes.method[g.method].kind == SweepKind::finite_elements)
             t.rows.push_back(comparison_row(scene, grid, outcome, g));
     }
     t.notes.push_back("both with the vertical component where the record has one; only motions that both methods "
-                      "carried to their end count.");
+                      "carried to their end count; not compared: FE runs without a slip or an answer. No ± step: "
+                      "sub-steps are fixed.");
     return t;
 }
 

@@ -48,16 +48,18 @@ Table method_table(const SweepView& view, const std::optional<double>& allowable
     t.columns = {{"method", "method", "", 4},         {"rows", "rows", "", 4},
                  {"with_slip", "with a slip", "", 4}, {"static_failures", "slide statically", "", 4},
                  {"unanswered", "no answer", "", 4},  {"median_mm", "median", "mm", 4},
-                 {"largest_mm", "largest", "mm", 4}};
+                 {"largest_mm", "largest", "mm", 4},  {"without_slip", "without a slip", "", 4}};
     if (allowable) t.columns.push_back({"above_allowable", "above the allowable", "", 4});
     for (const std::string& method : view.methods) {
         std::int64_t rows = 0, with_slip = 0, failures = 0, unanswered = 0, above = 0;
         std::vector<double> slips;
+        StatusCount without;
         for (const SweepRow& r : view.rows) {
             if (r.method != method) continue;
             ++rows;
             failures += r.fails_statically();
             unanswered += r.unanswered();
+            if (!r.slip && r.state) without.add(*r.state);
             if (!r.slip) continue;
             ++with_slip;
             above += allowable && std::abs(*r.slip) > *allowable;
@@ -66,13 +68,13 @@ Table method_table(const SweepView& view, const std::optional<double>& allowable
         std::sort(slips.begin(), slips.end());
         const auto n = slips.size();
         t.rows.push_back({method, rows, with_slip, failures, unanswered,
-                          n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell(),
-                          n ? Cell(slips.back()) : Cell()});
+                          n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell(), n ? Cell(slips.back()) : Cell(),
+                          without.empty() ? Cell() : Cell(without.words())});
         if (allowable) t.rows.back().push_back(above);
     }
     t.notes.push_back(
-        "slips: largest on the way; slide statically: the friction lies below the critical one, so there is "
-        "no equilibrium without an earthquake.");
+        "slips: largest on the way, of rows with an answer; slide statically: there is no equilibrium without an "
+        "earthquake; without a slip: by status.");
     return t;
 }
 
@@ -108,8 +110,7 @@ const SweepRow* worst_of(const SweepView& view)
 
 report::Headline headline(const SweepView& view, const std::optional<double>& allowable)
 {
-    const auto unanswered =
-        std::count_if(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.unanswered(); });
+    const std::string unanswered = unanswered_words(view);
     const SweepRow* worst = worst_of(view);
     std::string sentence =
         worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.rows.size(),
@@ -120,7 +121,8 @@ report::Headline headline(const SweepView& view, const std::optional<double>& al
     for (const SweepRow& r : view.rows) {
         if (!r.fails_statically()) continue;
         ++failing;
-        critical = std::max(critical, *r.critical_friction);
+        if (r.critical_friction && std::isfinite(*r.critical_friction))
+            critical = std::max(critical, *r.critical_friction);
     }
     if (failing)
         sentence += fmt::format("; {} rows slide without any earthquake, up to a critical friction of {:.4g}", failing,
@@ -136,7 +138,7 @@ report::Headline headline(const SweepView& view, const std::optional<double>& al
                                 *allowable / mm);
     }
     sentence += ".";
-    if (unanswered) return {sentence, Outcome::unresolved, fmt::format("{} rows have no answer.", unanswered)};
+    if (!unanswered.empty()) return {sentence, Outcome::unresolved, unanswered + "."};
     return {sentence, Outcome::none, ""};
 }
 
@@ -149,6 +151,7 @@ std::vector<std::string> warnings(const SweepView& view)
                 fmt::format("{}, μ = {:.4g}, {}{}, polarity {:+d}: {}", r.method, r.friction, r.record,
                             view.variant_names[r.variant].empty() ? "" : ", " + view.variant_names[r.variant],
                             r.polarity, r.status));
+    if (const std::string unknown = unknown_error_words(view); !unknown.empty()) list.push_back(unknown + ".");
     return list;
 }
 

@@ -15,7 +15,12 @@ struct Results {
                 slip_error, truncation_error, critical_friction, status,   lift_slip};
     }
 };
-enum ResultColumn : std::size_t { slip_column = 0, slip_error_column = 5, critical_friction_column = 7 };
+enum ResultColumn : std::size_t {
+    slip_column = 0,
+    slip_error_column = 5,
+    critical_friction_column = 7,
+    status_column = 8
+};
 
 Cell number(const std::optional<double>& value)
 {
@@ -28,9 +33,15 @@ std::optional<double> number_of(const FinishedRow& row, ResultColumn column)
     return value ? std::optional(*value) : std::nullopt;
 }
 
-/// Median and band of a regression.
-Results regression_results(const sliding::Regression& regression, const sliding::RegressionInputs& inputs)
+/// Median and band of a regression. A block that does not stand has none.
+Results regression_results(const sliding::Regression& regression, const sliding::RegressionInputs& inputs,
+                           sliding::StaticState state)
 {
+    if (state != sliding::StaticState::at_rest) {
+        Results none;
+        none.status = word(sliding::status_of(state));
+        return none;
+    }
     const sliding::RegressionResult r = sliding::evaluate(regression, inputs);
     const auto metres = [](const std::optional<double>& value_cm) {
         return value_cm ? Cell(*value_cm * units::cm) : Cell();
@@ -51,13 +62,26 @@ Results block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
     const bool keep = grid.tasks.rows() <= most_rows_with_history;
     const sliding::SlideResult r = slide_model(scene, grid.model(at), motion, grid.axes.polarity[at.polarity],
                                                keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
-    if (keep) history = slip_history(r.history.time, r.history.slip);
+    if (keep && reported(r.status, r.slip)) history = slip_history(r.history.time, r.history.slip);
     Results results;
-    results.slip = r.slip;
-    results.max_slip = r.max_slip;
-    results.upstream_slip = r.upstream_slip;
+    results.slip = number(reported(r.status, r.slip));
+    results.max_slip = number(reported(r.status, r.max_slip));
+    results.upstream_slip = number(reported(r.status, r.upstream_slip));
     results.status = word(r.status);
     return results;
+}
+
+bool empty(const Cell& cell)
+{
+    return std::holds_alternative<std::monostate>(cell);
+}
+
+/// What the numbers of a row do not say by themselves.
+Cell remark(const SweepMethod& method, const std::vector<Cell>& results)
+{
+    const bool unknown =
+        method.kind == SweepKind::finite_elements && !empty(results[slip_column]) && empty(results[slip_error_column]);
+    return unknown ? Cell(std::string(no_error_estimate)) : Cell();
 }
 
 } // namespace
@@ -87,7 +111,8 @@ Table sweep_table()
                  {"truncation_error_m", "± modes", "m", 2},
                  {"critical_friction", "critical μ", "–", 6},
                  {"status", "status", "", 4},
-                 {"lift_joint_slip_m", "lift joints", "m", 5}};
+                 {"lift_joint_slip_m", "lift joints", "m", 5},
+                 {"remark", "remark", "", 4}};
     return t;
 }
 
@@ -109,6 +134,7 @@ std::vector<Cell> table_row(const Grid& grid, std::size_t id, const std::vector<
                           a_y / units::standard_gravity,
                           grid.inputs_of(at).pga_g * units::standard_gravity};
     row.insert(row.end(), results.begin(), results.end());
+    row.push_back(remark(grid.axes.method[at.method], results));
     return row;
 }
 
@@ -119,7 +145,7 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
     Results results;
     SlipHistory history;
     if (method.kind == SweepKind::regression)
-        results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at));
+        results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at), grid.model(at).state);
     else if (method.kind == SweepKind::rigid)
         results = block_results(scene, grid, at, grid.horizontal(at), history);
     else if (grid.motion(at).has_vertical())
@@ -127,7 +153,10 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
     else
         results.status = std::string("no vertical component");
     results.critical_friction = grid.model(at).critical_friction;
-    return {id, true, results.cells(), std::move(history)};
+    FinishedRow row{id, true, results.cells(), std::move(history)};
+    const std::optional<Status> status = status_of(row);
+    row.good = !status || is_answer(*status); // others are remarks: the method does not apply
+    return row;
 }
 
 FinishedRow fe_row(std::size_t id, const FeSlip& slip)
@@ -138,16 +167,22 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip)
     results.slip_error = number(slip.slip_error);
     results.truncation_error = number(slip.truncation_error);
     results.critical_friction = number(slip.critical_friction);
-    results.status = slip.status;
+    results.status = word(slip.status);
     results.lift_slip = number(slip.lift_slip);
-    return {id, slip.good, results.cells(), slip.history};
+    return {id, is_answer(slip.status), results.cells(), slip.history};
 }
 
 std::vector<Cell> not_run()
 {
     Results results;
-    results.status = std::string("not run");
+    results.status = word(Status::interrupted);
     return results.cells();
+}
+
+std::optional<Status> status_of(const FinishedRow& row)
+{
+    const auto* word = std::get_if<std::string>(&row.results[status_column]);
+    return word ? status_of_word(*word) : std::nullopt;
 }
 
 std::optional<double> slip_of(const FinishedRow& row)

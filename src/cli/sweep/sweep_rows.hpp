@@ -21,7 +21,11 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip);
 /// Results of a row that an interrupted sweep did not reach.
 std::vector<Cell> not_run();
 
-// Of the results of an FE row; empty: not known.
+/// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.
+inline constexpr const char* no_error_estimate = "no error estimate: fixed sub-steps";
+
+// Of the results of a row; empty: not known.
+std::optional<Status> status_of(const FinishedRow& row);            ///< empty: a remark of a method that does not apply
 std::optional<double> slip_of(const FinishedRow& row);              ///< [m]
 std::optional<double> slip_error_of(const FinishedRow& row);        ///< [m]
 std::optional<double> critical_friction_of(const FinishedRow& row); ///< [-]

@@ -1,5 +1,7 @@
 #include "cli/sweep/sweep_rows_view.hpp"
 
+#include "cli/sweep/sweep_rows.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -88,11 +90,13 @@ SweepView sweep_view(const Table& table)
         r.critical_friction = cells.number(row, "critical_friction");
         r.slip = cells.number(row, "max_slip_m");
         if (!r.slip) r.slip = cells.number(row, "slip_m");
-        // A block that slides without an earthquake has no slip to show.
-        if (r.critical_friction && *r.critical_friction > r.friction) r.slip.reset();
         r.low = cells.number(row, "slip_low_m");
         r.high = cells.number(row, "slip_high_m");
         r.status = cells.word(row, "status");
+        r.state = status_of_word(r.status);
+        if (r.unanswered()) r.slip.reset();
+        r.error_known = cells.word(row, "remark") != no_error_estimate;
+        r.id = static_cast<std::int64_t>(cells.number(row, "id").value_or(0.0));
         place_of(view.methods, r.method);
         place_of(view.records, r.record);
         place_of(view.frictions, r.friction);
@@ -102,6 +106,38 @@ SweepView sweep_view(const Table& table)
     std::sort(view.frictions.begin(), view.frictions.end());
     view.variant_names = names_of(view.variants);
     return view;
+}
+
+std::string unanswered_words(const SweepView& view)
+{
+    constexpr std::size_t most_named = 10;
+    std::size_t all = 0;
+    std::string words;
+    for (const StatusRow& status : status_rows()) {
+        std::size_t rows = 0;
+        std::string ids;
+        for (const SweepRow& r : view.rows) {
+            if (!r.unanswered() || r.state != status.status) continue;
+            if (++rows <= most_named) ids += fmt::format("{}{}", ids.empty() ? "" : ", ", r.id);
+        }
+        if (rows == 0) continue;
+        all += rows;
+        words += fmt::format("{}{} {} ({} {}{})", words.empty() ? "" : ", ", rows, status.word,
+                             rows == 1 ? "row" : "rows", ids, rows > most_named ? ", ..." : "");
+    }
+    if (all == 0) return "";
+    return fmt::format("{} {} no answer: {}", all, all == 1 ? "row has" : "rows have", words);
+}
+
+std::string unknown_error_words(const SweepView& view)
+{
+    const auto unknown =
+        std::count_if(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return !r.error_known; });
+    if (unknown == 0) return "";
+    return fmt::format(
+        "{} {} by finite elements {} no error estimate: sub-steps are fixed (a method of whole steps, or "
+        "time.substeps), and nothing finer was run beside them",
+        unknown, unknown == 1 ? "slip" : "slips", unknown == 1 ? "has" : "have");
 }
 
 } // namespace damslip::cli

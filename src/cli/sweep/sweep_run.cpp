@@ -69,7 +69,7 @@ FeSweepCounts run_fe_rows(const FeSweepInputs& inputs, const std::vector<std::si
         [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
             std::vector<FinishedRow> rows;
             for (std::size_t i = 0; i < ids.size(); ++i)
-                if (!slips[i].interrupted) rows.push_back(fe_row(ids[i], slips[i]));
+                if (slips[i].status != Status::interrupted) rows.push_back(fe_row(ids[i], slips[i]));
             store.finish(std::move(rows));
         });
 }
