@@ -79,21 +79,27 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         block.cross(static_cast<double>(k) * motion.dt, motion.dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
         if (history) block.add_sample(static_cast<double>(k + 1) * motion.dt, a_h(k + 1), a_v(k + 1), *history);
     }
-    const StaticState state = static_state(stages.front().block);
-    if (state == StaticState::at_rest && !defect(Defect::run_out_off))
-        run_out(block, static_cast<double>(last) * motion.dt, motion.dt, options.sliding.run_out_max, history);
+    const double end = static_cast<double>(last) * motion.dt;
+    if (static_state(stages.front().block) == StaticState::at_rest && !defect(Defect::run_out_off))
+        run_out(block, end, motion.dt, options.sliding.run_out_max, history);
+    conclude(block, stages, options, end, result);
+    return result;
+}
 
+} // namespace
+
+void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOptions& options, double record_end,
+              SlideResult& result)
+{
+    const StaticState state = static_state(stages.front().block);
     block.write(result);
-    if (!block.unresolved()) result.end_time = std::max(result.end_time, static_cast<double>(last) * motion.dt);
+    if (!block.unresolved()) result.end_time = std::max(result.end_time, record_end);
     result.status = block.unresolved()              ? Status::not_resolved
                     : state != StaticState::at_rest ? status_of(state)
                     : block.at_rest()               ? Status::at_rest
                                                     : Status::sliding_at_end;
     add_notes(stages, state, options, result);
-    return result;
 }
-
-} // namespace
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
 {

@@ -71,6 +71,7 @@ void SlipMotion::settle_contact()
     const bool was_touching = touching_;
     touching_ = moving_ ? above_zero(sliding)
                         : above_zero(line(forms().equations.normal)) || (bond_stays() && above_zero(sliding));
+    if (was_touching != touching_) ++changes_;
     if (was_touching && !touching_) ++lift_offs_;
     if (options_.lift_off == LiftOff::ballistic && !touching_ && above_zero(-sliding)) airborne_ = true;
 }
@@ -105,6 +106,7 @@ double SlipMotion::time_of_contact_change() const
 
 void SlipMotion::turn_contact()
 {
+    ++changes_;
     if (airborne_) {
         land();
         return;
@@ -160,6 +162,7 @@ void SlipMotion::wait()
 
 void SlipMotion::start(SlipDirection direction)
 {
+    ++changes_;
     moving_ = true;
     from_rest_ = true;
     direction_ = direction;
@@ -174,6 +177,7 @@ void SlipMotion::start(SlipDirection direction)
 
 void SlipMotion::stop()
 {
+    ++changes_;
     moving_ = false;
     from_rest_ = false;
     rate_ = 0.0;
@@ -188,6 +192,7 @@ bool SlipMotion::enter_stages()
 {
     const std::size_t before = stage_;
     while (stage_ + 1 < stages_.size() && stages_[stage_ + 1].from_slip <= path_) ++stage_;
+    if (stage_ != before) ++changes_;
     return stage_ != before;
 }
 

@@ -4,11 +4,13 @@
 #include "sliding/block/line.hpp"
 #include "sliding/block/slide.hpp"
 
+#include <span>
 #include <vector>
 
 namespace damslip::sliding {
 
-/// The state of a sliding block and its exact advance over one sample interval, event by event. Used by slide().
+/// The state of a sliding block and its exact advance over one sample interval, event by event. Used by slide() and
+/// slide_decoupled().
 class SlipMotion {
 public:
     SlipMotion(const SlipStages& stages, const SlideOptions& options);
@@ -20,6 +22,11 @@ public:
     bool at_rest() const { return !moving() && !airborne_; }
     bool unresolved() const { return unresolved_; }
     bool used_series() const { return used_series_; }
+    bool on_base() const { return touching_ && !airborne_; } ///< N' > 0, there is resistance
+    double rate() const { return moving() ? rate_ : 0.0; }   ///< |slip rate| [m/s]
+    double peak_rate() const { return peak_rate_; }          ///< largest |slip rate| so far [m/s]
+    /// Starts, stops, contacts and stages so far: two equal counts say that nothing of the kind came between.
+    long changes() const { return changes_; }
     void add_sample(double time, double a_h, double a_v, SlideHistory& history) const;
     void write(SlideResult& result) const;
 
@@ -58,7 +65,7 @@ private:
     Line slip_accel() const;
     double next_stage_path() const;
 
-    const SlipStages& stages_;
+    std::span<const SlipStage> stages_; ///< the caller's
     SlidingOptions options_;
     std::vector<StageForms> forms_;
 
@@ -82,7 +89,12 @@ private:
     double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, max_gap_ = 0.0;
     double first_time_ = 0.0, last_time_ = 0.0, phase_start_path_ = 0.0;
     int phases_ = 0, lift_offs_ = 0;
+    long changes_ = 0;
     bool unresolved_ = false, used_series_ = false;
 };
+
+/// What became of the block: results, status and the notes for people. `record_end` [s]: of the ground motion.
+void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOptions& options, double record_end,
+              SlideResult& result);
 
 } // namespace damslip::sliding

@@ -73,6 +73,13 @@ void check_flexible(const FlexibleBlock& flexible, const SlipStages& stages)
         }
 }
 
+void note_vibration(const SlideOptions& options, SlideResult& result)
+{
+    result.status = Status::sliding_at_end;
+    result.notes.push_back("Still vibrating " + shortest(options.sliding.run_out_max) +
+                           " s after the record's end, enough to slide again: the slip is a lower bound.");
+}
+
 FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages, const FlexibleBlock& flexible,
                             const SlideOptions& options)
 {
@@ -107,6 +114,8 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
         result.slide.status = Status::sliding_at_end;
         result.slide.notes.push_back("Still sliding " + shortest(options.sliding.run_out_max) +
                                      " s after the record's end: the slip is a lower bound.");
+    } else if (!block.at_rest_for_good()) {
+        note_vibration(options, result.slide);
     }
     return result;
 }

@@ -1,71 +1,42 @@
+#include "core/number.hpp"
+#include "sliding/flexible/decoupled_motion.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
-#include "sliding/flexible/oscillator.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace damslip::sliding {
-
-namespace {
-
-double omega_of(const FlexibleBlock& flexible)
-{
-    return 2.0 * std::numbers::pi / flexible.period;
-}
-
-/// Until the free vibration has faded to 1e-4.
-double tail_length(const FlexibleBlock& flexible, double tail_max)
-{
-    const double rate = flexible.damping_ratio * omega_of(flexible);
-    return rate * tail_max > std::log(1e4) ? std::log(1e4) / rate : tail_max;
-}
-
-} // namespace
-
-GroundMotion average_motion(const GroundMotion& motion, const FlexibleBlock& flexible, double tail_max)
-{
-    const auto parts = static_cast<std::size_t>(std::clamp(std::ceil(80.0 * motion.dt / flexible.period), 1.0, 400.0));
-    const double h = motion.dt / static_cast<double>(parts), gamma = flexible.mass_ratio;
-    const Oscillator mode(omega_of(flexible), flexible.damping_ratio, 1.0);
-    GroundMotion average;
-    average.name = motion.name;
-    average.dt = h;
-    average.notes = motion.notes;
-    OscillatorState state;
-    // x'' = a_h - restoring, so k = (1 - Gamma) a_h + Gamma restoring.
-    const auto add = [&](double a_h, double a_v) {
-        average.accel_h.push_back((1.0 - gamma) * a_h + gamma * mode.restoring(state));
-        if (!motion.accel_v.empty()) average.accel_v.push_back(a_v);
-    };
-    const auto vertical = [&](std::size_t k) { return motion.accel_v.empty() ? 0.0 : motion.accel_v[k]; };
-    add(motion.accel_h.front(), vertical(0));
-    for (std::size_t k = 0; k + 1 < motion.accel_h.size(); ++k) {
-        const double a0 = motion.accel_h[k], slope = (motion.accel_h[k + 1] - a0) / motion.dt;
-        const double v0 = vertical(k), v_slope = (vertical(k + 1) - v0) / motion.dt;
-        for (std::size_t i = 0; i < parts; ++i) {
-            const double t = h * static_cast<double>(i);
-            state = mode.after(state, a0 + slope * t, slope, h);
-            add(a0 + slope * (t + h), v0 + v_slope * (t + h));
-        }
-    }
-    const auto tail = static_cast<std::size_t>(std::ceil(tail_length(flexible, tail_max) / h));
-    for (std::size_t i = 0; i < tail; ++i) {
-        state = mode.after(state, 0.0, 0.0, h);
-        add(0.0, 0.0);
-    }
-    return average;
-}
 
 FlexibleSlide slide_decoupled(const GroundMotion& motion, const SlipStages& stages, const FlexibleBlock& flexible,
                               const SlideOptions& options)
 {
     check_flexible(flexible, stages);
     check_motion(motion);
-    const GroundMotion average = average_motion(motion, flexible, options.sliding.run_out_max);
+    const bool vertical = !motion.accel_v.empty();
+    const double dt = motion.dt, longest = options.sliding.run_out_max;
+    const auto a_h = [&](std::size_t k) { return options.polarity * motion.accel_h[k]; };
+    const auto a_v = [&](std::size_t k) { return vertical ? motion.accel_v[k] : 0.0; };
+
     FlexibleSlide result;
-    for (const double k : average.accel_h) result.peak_acceleration = std::max(result.peak_acceleration, std::abs(k));
-    result.slide = slide(average, stages, options);
+    DecoupledMotion mass(stages, flexible, options);
+    const auto note = [&](double time, double a_h_now, double a_v_now) {
+        if (options.history == HistoryOutput::samples)
+            mass.block().add_sample(time, mass.average_acceleration(a_h_now), a_v_now, result.slide.history);
+    };
+    note(0.0, a_h(0), a_v(0));
+    const std::size_t last = motion.accel_h.size() - 1;
+    for (std::size_t k = 0; k < last; ++k) {
+        mass.cross(static_cast<double>(k) * dt, dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
+        note(static_cast<double>(k + 1) * dt, a_h(k + 1), a_v(k + 1));
+    }
+    const double end = static_cast<double>(last) * dt;
+    const bool stands = static_state(stages.front().block) == StaticState::at_rest;
+    for (double t = 0.0; stands && t < longest && !mass.at_rest_for_good(); t += dt) {
+        mass.cross(end + t, std::min(dt, longest - t), {}, {});
+        note(end + std::min(t + dt, longest), 0.0, 0.0);
+    }
+    conclude(mass.block(), stages, options, end, result.slide);
+    result.peak_acceleration = mass.peak_acceleration();
+    if (result.slide.status == Status::at_rest && !mass.at_rest_for_good()) note_vibration(options, result.slide);
     return result;
 }
 

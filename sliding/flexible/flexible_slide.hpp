@@ -23,13 +23,11 @@ struct FlexibleSlide {
     std::vector<double> deflection_rate; ///< x' [m/s]
 };
 
-/// Average acceleration k of a block whose base does not slide, as a ground motion for the rigid block: samples at most
-/// T_s/80 apart (no more than 400 to a sample of the motion) (linear between them: 0.1 % of the peak of a wave of period T_s), then the free vibration until it has
-/// faded to 1e-4, at most `tail_max` [s]. The vertical component is passed on.
-GroundMotion average_motion(const GroundMotion& motion, const FlexibleBlock& flexible, double tail_max);
-
-/// Decoupled: the response without slip, then the rigid block under it, by slide(). On the safe side as a rule, not
-/// always: at T_s near the period of the motion it gives too much, below it can give too little (Rathje & Bray 2000).
+/// Decoupled: the response without slip, then the rigid block under its average acceleration k, taken in closed form and
+/// located like the events of slide(), with everything that slide() follows: exact but for 1e-6 of k where the block starts
+/// and stops. options.sliding.scheme is that of slide() alone: it is not used here. More or less than coupled
+/// (docs/neighbours.md). Run-out: until the block rests and what is left of the vibration cannot move it, at most
+/// run_out_max.
 /// @throws InputError as slide() and check_flexible
 FlexibleSlide slide_decoupled(const GroundMotion& motion, const SlipStages& stages, const FlexibleBlock& flexible,
                               const SlideOptions& options = {});
@@ -37,7 +35,7 @@ FlexibleSlide slide_decoupled(const GroundMotion& motion, const SlipStages& stag
 /// Coupled: slip and vibration at the same time. Both are followed in closed form between events; the block is looked at
 /// T_s sqrt(1 - Gamma c f)/40 apart (no more than 1000 times to a sample), and starts, stops and strength stages that are seen are located to the last digits.
 /// The lift-off options are not used: the block stays on its base. Run-out: until the block rests and what is left of
-/// the vibration cannot move it, at most run_out_max. Friction linear in slip is cut
+/// the vibration cannot move it, at most run_out_max. options.sliding.scheme is not used. Friction linear in slip is cut
 /// into 100 steps per stage, each with its mean.
 /// @throws InputError as slide() and check_flexible
 FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages, const FlexibleBlock& flexible,
@@ -46,5 +44,8 @@ FlexibleSlide slide_coupled(const GroundMotion& motion, const SlipStages& stages
 /// @throws InputError for a period <= 0, damping outside 0 ... 0.5, a mass ratio outside 0 ... 0.95, and a block whose
 /// friction on a steep base makes 1 - Gamma c f <= 0: it jams.
 void check_flexible(const FlexibleBlock& flexible, const SlipStages& stages);
+
+/// A block that rests at the end of its run-out while the vibration can still move it: its slip is a lower bound.
+void note_vibration(const SlideOptions& options, SlideResult& result);
 
 } // namespace damslip::sliding
