@@ -113,29 +113,39 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
 {
     check_scheme(scene_);
     const Stopwatch start;
+    const auto part_done = [this] { stop_if_asked(options_.stop, "the set-up of the finite elements"); };
+    part_done();
     const bool explicit_steps = scene_.time.scheme == TimeScheme::central_difference;
     ModelOptions parts = model_options(options_, Base::separate);
     if (explicit_steps) parts.mass = MassKind::lumped;
     model_ = std::make_unique<Model>(build_model(scene_, parts));
     if (explicit_steps) check_explicit(scene_, *model_);
+    part_done();
     if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
         water_ = std::make_unique<WaterBody>(scene_, *model_,
                                              rock_has_mass(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
+    part_done();
     if (rock_has_mass(scene_)) {
         ModelOptions moving = model_options(options_, Base::separate);
         if (rock_edges_are_viscous(scene_)) moving.edges = RockEdges::free;
         moving_model_ = std::make_unique<Model>(build_model(scene_, moving));
+        part_done();
         moving_ =
             std::make_unique<ContactStructure>(*moving_model_, SlidingRange::small, water_.get(), RockBody::moving);
     }
+    part_done();
     structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, moving_ ? nullptr : water_.get());
+    part_done();
     stages_ = load_stages(scene_, *model_, options_.uplift,
                           options_.water_in_rock ? options_.water_in_rock(*model_) : Eigen::VectorXd());
     usable_ = structure_->regular();
     if (!usable_) why_not_ = "The stiffness of dam or rock could not be factorised: a part is not held.";
+    part_done();
     find_damping();
+    part_done();
     if (usable_) {
         statics_ = std::make_shared<const StaticOperator>(*structure_);
+        part_done();
         if (explicit_steps)
             explicit_ = explicit_operators();
         else

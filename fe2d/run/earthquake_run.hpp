@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/status.hpp"
+#include "core/stop.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
@@ -40,6 +41,7 @@ struct RunOptions {
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
+    StopAsked stop; ///< asked between the parts of the set-up
 };
 
 /// What the options leave open, from the scene: separation, contact law, sub-steps.
@@ -92,7 +94,7 @@ struct RunResult {
 /// parallel.
 class EarthquakeRun {
 public:
-    /// @throws InputError for what the model cannot be made of
+    /// @throws InputError for what the model cannot be made of; Interrupted
     EarthquakeRun(const Scene& scene, RunOptions options);
     EarthquakeRun(const EarthquakeRun&) = delete;
     EarthquakeRun& operator=(const EarthquakeRun&) = delete;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
 #include <vector>
 
 namespace damslip::fe2d {
@@ -215,6 +216,7 @@ const SolverReport& LinearSolver::factorise(const Eigen::SparseMatrix<double>& m
     use_one_blas_thread();
     implementation_->begin_report(matrix);
     const SolverStatus status = implementation_->run(matrix);
+    if (status == SolverStatus::out_of_memory) throw std::bad_alloc();
     implementation_->report.status = status;
     return implementation_->report;
 }

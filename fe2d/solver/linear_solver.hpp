@@ -69,7 +69,7 @@ public:
 
     /// Factorises a symmetric matrix stored whole (both triangles; the lower one is used) and checks one solution. The
     /// ordering is kept as long as the pattern stays the same. Never throws for a bad matrix: look at the report's
-    /// status.
+    /// status. @throws std::bad_alloc when memory does not suffice: that says nothing of the matrix
     const SolverReport& factorise(const Eigen::SparseMatrix<double>& matrix);
 
     const SolverReport& report() const;

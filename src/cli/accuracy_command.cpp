@@ -12,6 +12,7 @@
 #include "core/file.hpp"
 #include "core/number.hpp"
 #include "core/processor_clock.hpp"
+#include "core/stopwatch.hpp"
 #include "core/units.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
@@ -197,23 +198,39 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     options.ladder = {a.quick ? Effort::quick : Effort::full, a.tolerance};
     options.repeats = a.repeats;
     options.budget = a.budget;
+    Stopwatch since_line;
+    const auto line_is_due = [&] { // where no terminal is: one each ten seconds
+        if (streams.quiet || streams.terminal || since_line.seconds() < 10.0) return false;
+        since_line = Stopwatch();
+        return true;
+    };
     ClimbCalls calls;
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
     calls.interrupted = [&] { return interrupt.interrupted(); };
     calls.begins = [&](const Rung& rung) {
-        if (streams.terminal) streams.talk << "  " << rung_id(rung) << " ..." << std::flush;
+        if (streams.bar)
+            *streams.bar << "  " << rung_id(rung) << " ..." << std::flush;
+        else if (line_is_due())
+            streams.talk << "accuracy: " << rung_id(rung) << " begins\n" << std::flush;
     };
     calls.ends = [&](const std::vector<RungResult>& results) {
         const RungResult& r = results.back();
-        if (streams.terminal && r.done())
-            streams.talk << fmt::format("\r  {:<32} {:>10.5g} mm {:>9.3g} s\n", rung_id(r.rung),
-                                        r.slip.front() / units::mm, r.seconds);
-        else if (streams.terminal)
-            streams.talk << fmt::format("\r  {:<32} {}: {}\n", rung_id(r.rung),
-                                        r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
+        interrupt.results_at_hand();
+        const std::string said =
+            r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.slip.front() / units::mm, r.seconds)
+                     : fmt::format("{:<32} {}: {}", rung_id(r.rung),
+                                   r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
+        if (streams.bar)
+            *streams.bar << "\r  " << said << "\n";
+        else if (line_is_due())
+            streams.talk << "accuracy: " << said << "\n" << std::flush;
         if (!a.out.empty()) write_csv(a.out, loaded, results, a.tolerance); // what is finished is not lost
     };
-    return climb(facts, options, calls);
+    const Stopwatch start;
+    std::vector<RungResult> results = climb(facts, options, calls);
+    if (!streams.quiet && !streams.terminal)
+        streams.talk << fmt::format("accuracy: {} rungs, {:.3g} s\n", results.size(), start.seconds());
+    return results;
 }
 
 } // namespace

@@ -87,6 +87,8 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         progress.at(1000 * (before + share));
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
+    options.stop = streams.stop;
+    progress.phase("set-up");
     const fe2d::EarthquakeRun model(scene, options);
     const std::optional<Scene> exact_scene = with_exact_contact(scene);
     std::optional<fe2d::EarthquakeRun> exact;
@@ -109,6 +111,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         const GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
         runs.push_back({pair.files.name, model.run(motion), std::nullopt, std::nullopt});
         ContactRun& r = runs.back();
+        interrupt.results_at_hand();
         for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
             of_rock.push_back(r.record + ": " + warning);
         if (exact && !interrupt.interrupted()) r.exact = exact->run(motion);

@@ -111,7 +111,7 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     std::optional<ReservoirChoice> choice;
     if (method == Method::finite_elements) {
         Scene resolved = called_for(plan, scene);
-        choice = resolve_reservoir_model(resolved);
+        choice = resolve_reservoir_model(resolved, streams.stop);
         if (choice) scene.reservoir->model = resolved.reservoir->model; // the plan names what was chosen
         plan = make_effect_plan(scene, method);
     }

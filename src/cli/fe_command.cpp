@@ -18,13 +18,13 @@ int fe(const FeArguments& arguments, const Streams& streams)
     EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = fe_scene(given, plan);
     if (!arguments.reduced) // reduced runs have the modes of the dam alone
-        if (const auto choice = resolve_reservoir_model(scene)) {
+        if (const auto choice = resolve_reservoir_model(scene, streams.stop)) {
             if (!streams.quiet) streams.talk << choice->reason << "\n";
             given.reservoir->model = scene.reservoir->model; // the plan names what was chosen
             plan = make_effect_plan(given, Method::finite_elements);
         }
     const std::vector<RecordPair> records = read_records(scene, plan);
-    if (const auto period = resolve_dam_period(scene); period && !streams.quiet)
+    if (const auto period = resolve_dam_period(scene, streams.stop); period && !streams.quiet)
         streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / period->frequency);
     if (arguments.reduced) return run_reduced(arguments, scene, plan, records, streams);
     return arguments.base == "tied" ? run_tied(arguments, scene, plan, records, streams)

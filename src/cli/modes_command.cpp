@@ -197,11 +197,11 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = called_for(plan, given);
     std::vector<std::string> notes;
-    const auto choice = resolve_reservoir_model(scene);
+    const auto choice = resolve_reservoir_model(scene, streams.stop);
     if (choice) notes.push_back(choice->reason);
     const bool acoustic =
         scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0;
-    if (const auto period = resolve_dam_period(scene))
+    if (const auto period = resolve_dam_period(scene, streams.stop))
         notes.push_back(fmt::format("added_mass.period_s = \"dam\": T = {:.6g} s, f_1 = {:.5g} Hz (incompressible "
                                     "water: {:.5g} Hz), {} solutions",
                                     1 / period->frequency, period->frequency, period->incompressible_frequency,

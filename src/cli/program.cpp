@@ -1,9 +1,12 @@
 #include "cli/program.hpp"
 
 #include "cli/arguments.hpp"
+#include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/usage_error.hpp"
+#include "cli/terminal/visible_stream.hpp"
 
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -11,12 +14,9 @@ namespace damslip::cli {
 
 namespace {
 
-/// {"error": {"code", "message", "diagnostics": [...]}} where --json was asked for, the sentences otherwise.
-void report_error(const std::string& message, const std::vector<Diagnostic>& diagnostics, int code, Form form,
-                  std::ostream& out, std::ostream& talk)
+/// {"error": {"code", "message", "diagnostics": [...]}}
+std::string error_json(const std::string& message, const std::vector<Diagnostic>& diagnostics, int code)
 {
-    talk << message << "\n";
-    if (form != Form::json) return;
     nlohmann::ordered_json j;
     j["error"] = {{"code", code}, {"message", message}, {"diagnostics", nlohmann::ordered_json::array()}};
     for (const Diagnostic& d : diagnostics)
@@ -26,28 +26,57 @@ void report_error(const std::string& message, const std::vector<Diagnostic>& dia
                                              {"message", d.problem},
                                              {"expected", d.expected},
                                              {"fix", d.fix}});
-    out << j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+/// The sentences, and the error object where --json was asked for.
+void report_error(const std::string& message, const std::vector<Diagnostic>& diagnostics, int code, Form form,
+                  std::ostream& out, std::ostream& talk)
+{
+    talk << message << "\n";
+    if (form == Form::json) out << error_json(message, diagnostics, code);
+    out.flush();
+}
+
+const char* const no_memory =
+    "error: not enough memory for this command.\n"
+    "  expected: as much as the model takes: `damslip explain SCENE --method fe` prints the bytes of its parts\n"
+    "  fix:      a coarser mesh, fewer --jobs, or a higher limit (ulimit -v)";
+
+/// Said where a computation is ended that does not ask (InterruptGuard).
+void prepare_farewell(Form form)
+{
+    const std::string message = "Interrupted: ended at once; what is finished is in the files written so far.";
+    InterruptGuard::set_farewell(message + "\n",
+                                 form == Form::json ? error_json(message, {}, exit_no_answer) : std::string());
 }
 
 } // namespace
 
-int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& talk, bool talk_is_terminal)
+int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out, std::ostream& raw_talk,
+                bool talk_is_terminal)
 {
+    VisibleStream out(raw_out), talk(raw_talk);
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     const Form form = json ? Form::json : Form::text;
     try {
         const Invocation invocation = parse_arguments(arguments);
-        const Streams streams{out, talk, invocation.form, invocation.quiet, talk_is_terminal && !invocation.quiet};
+        prepare_farewell(form);
+        const InterruptGuard interrupt;
+        Streams streams{out, talk, invocation.form, invocation.quiet, talk_is_terminal && !invocation.quiet};
+        if (streams.terminal) streams.bar = &raw_talk;
+        streams.stop = [&interrupt] { return interrupt.interrupted(); };
         const int code = invocation.run(streams);
         out.flush();
         if (!out) {
-            talk << "error: the output could not be written (disk full, or the reader went away).\n";
-            return exit_internal;
+            talk << "error: standard output could not be written: the disk is full, or its reader went away.\n";
+            return exit_input;
         }
         return code;
     } catch (const HelpText& help) {
         out << help.text;
-        return exit_ok;
+        out.flush();
+        return out ? exit_ok : exit_input;
     } catch (const UsageError& error) {
         report_error(error.what(), error.diagnostics(), exit_usage, form, out, talk);
         return exit_usage;
@@ -60,6 +89,9 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     } catch (const InputError& error) {
         report_error(error.what(), error.diagnostics(), exit_input, form, out, talk);
         return exit_input;
+    } catch (const std::bad_alloc&) {
+        report_error(no_memory, {}, exit_no_answer, form, out, talk);
+        return exit_no_answer;
     } catch (const std::exception& error) {
         report_error(std::string("internal error: ") + error.what() +
                          "\n  please report this with the command and the scene",

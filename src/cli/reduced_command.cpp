@@ -76,16 +76,19 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     options.progress = [&](const fe2d::RunProgress&) {
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
+    options.stop = streams.stop;
+    Progress progress(streams, "fe --reduced", records.size());
+    progress.phase("set-up");
     const fe2d::EarthquakeRun full(scene, options);
     const fe2d::ReducedRun model(full, scene, options, arguments.modes.value_or(fe2d::default_modes));
 
     std::vector<ReducedRecord> runs;
-    Progress progress(streams, "fe --reduced", records.size());
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
         GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
         fe2d::ReducedResult result = model.run(motion);
         runs.push_back({pair.files.name, std::move(result), std::move(motion)});
+        interrupt.results_at_hand();
         if (!arguments.out.empty())
             write_file(arguments.out / ("history_" + file_word(pair.files.name) + ".csv"),
                        report::csv(history_table(runs.back().result.history),

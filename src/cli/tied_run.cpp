@@ -192,6 +192,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
         if (interrupt.interrupted()) break;
         runs.push_back(run_record(scene, models, water ? &*water : nullptr, start, resultant,
                                   ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
+        interrupt.results_at_hand();
         const TiedRun& r = runs.back();
         if (r.history.displacement.size())
             fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,

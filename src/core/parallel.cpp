@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,10 @@ void parallel_for(std::size_t n, int jobs, const std::function<void(std::size_t)
     };
     std::vector<std::thread> threads;
     const std::size_t count = std::min<std::size_t>(n, static_cast<std::size_t>(thread_count(jobs)));
-    for (std::size_t t = 1; t < count; ++t) threads.emplace_back(work);
+    try {
+        for (std::size_t t = 1; t < count; ++t) threads.emplace_back(work);
+    } catch (const std::system_error&) { // no more threads to be had: those there are do it
+    }
     work();
     for (std::thread& t : threads) t.join();
     for (const std::exception_ptr& failure : failures)

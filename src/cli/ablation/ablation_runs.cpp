@@ -3,6 +3,7 @@
 #include "cli/run/seepage_source.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "core/status.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +24,11 @@ std::vector<const Scene*> scenes_of(const AblationPlan& plan)
 constexpr std::size_t bar_parts = 1000; ///< of one scene
 
 /// Runs of a scene whose model could not be made.
-SceneRuns without_model(const NotConverged& error, std::size_t records)
+SceneRuns without_model(Status status, const std::string& why, std::size_t records)
 {
     RecordOutcome none;
-    none.status = Status::not_resolved;
-    none.message = error.diagnostic().problem;
+    none.status = status;
+    none.message = why;
     SceneRuns runs;
     runs.records.assign(records, none);
     return runs;
@@ -91,8 +92,11 @@ AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPai
         try {
             runs.scenes[i] = runs.step ? run_fe(scene, *runs.step, interrupt, done) : run_rigid(scene, interrupt);
         } catch (const NotConverged& error) {
-            runs.scenes[i] = without_model(error, records.size());
+            runs.scenes[i] = without_model(Status::not_resolved, error.diagnostic().problem, records.size());
+        } catch (const Interrupted& stopped) { // in its set-up
+            runs.scenes[i] = without_model(Status::interrupted, stopped.what(), records.size());
         }
+        interrupt.results_at_hand();
         done(1.0);
     });
     return runs;

@@ -15,11 +15,14 @@ namespace {
 /// Where the step is chosen: the full scene may do with a longer one, but simpler scenes slip more, or less damped.
 constexpr int least_halvings = 3;
 
-fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records)
+fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records, const InterruptGuard& interrupt)
 {
-    resolve_dam_period(scene);
+    const StopAsked stop = [&interrupt] { return interrupt.interrupted(); };
+    resolve_dam_period(scene, stop);
     SeepageSource seepage;
-    return contact_options(scene, records, seepage);
+    fe2d::RunOptions options = contact_options(scene, records, seepage);
+    options.stop = stop;
+    return options;
 }
 
 /// Largest distance of the crest from where it stood over the base [m].
@@ -62,7 +65,7 @@ SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Interr
     SceneRuns runs;
     Scene scene = ready.scene;
     const ProcessorClock clock;
-    fe2d::RunOptions options = options_of(scene, ready.records);
+    fe2d::RunOptions options = options_of(scene, ready.records, interrupt);
     double before = 0.0, weight = std::exp2(step.halvings);
     options.progress = [&](const fe2d::RunProgress& p) {
         done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, ready.records.size()));
@@ -107,7 +110,7 @@ AblationStep choose_step(const ReadyScene& full, const InterruptGuard& interrupt
     step.halvings = full.scene.time.substeps.value_or(0);
     if (step.chosen) {
         Scene scene = full.scene;
-        fe2d::RunOptions options = options_of(scene, full.records);
+        fe2d::RunOptions options = options_of(scene, full.records, interrupt);
         options.progress = [&](const fe2d::RunProgress&) {
             return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
         };

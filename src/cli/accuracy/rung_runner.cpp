@@ -121,6 +121,9 @@ RungResult RungRunner::run(const Rung& rung) const
         else
             run_finite_elements(scene, result);
         if (result.slip.size() == records_.size()) result.outcome = RungOutcome::done;
+    } catch (const Interrupted& stop) {
+        result.outcome = RungOutcome::stopped;
+        result.remark = stop.what();
     } catch (const InputError& error) {
         result.outcome = RungOutcome::refused;
         result.status = Status::refused;
@@ -191,12 +194,13 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     const ProcessorClock clock(ProcessorTimeOf::process);
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = fe_scene(given, plan);
-    resolve_dam_period(scene);
+    resolve_dam_period(scene, interrupted_);
     SeepageSource seepage;
     fe2d::RunOptions options = contact_options(scene, records_, seepage);
     options.progress = [this](const fe2d::RunProgress&) {
         return interrupted_() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
+    options.stop = interrupted_;
     const fe2d::EarthquakeRun full(scene, options);
     std::optional<fe2d::ReducedRun> reduced;
     if (result.rung.modes) reduced.emplace(full, scene, options, *result.rung.modes);

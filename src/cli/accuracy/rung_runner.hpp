@@ -11,7 +11,7 @@ namespace damslip::cli {
 class RungRunner {
 public:
     /// @param read_seconds  that reading scene and records took: every rung pays them
-    /// @param interrupted  asked at every step of the record
+    /// @param interrupted  asked at every step of the record and between the parts of a set-up
     RungRunner(Scene scene, std::vector<RecordPair> records, double read_seconds, std::function<bool()> interrupted);
 
     /// Once, with its seconds and memory. Input that a rung does not admit (mesh, law) and runs without an answer are a

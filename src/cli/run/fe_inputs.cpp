@@ -19,11 +19,14 @@ sliding::WaterColumn water_column(const Scene& scene)
     return {scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus};
 }
 
-double first_frequency(const Scene& scene)
+double first_frequency(const Scene& scene, const StopAsked& stop)
 {
     fe2d::ModelOptions options;
     options.added_mass = added_mass_law(scene);
-    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(with_massless_rock(scene), options), 1);
+    stop_if_asked(stop, "the search for the dam's first frequency");
+    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
+    stop_if_asked(stop, "the search for the dam's first frequency");
+    const fe2d::NaturalModes modes = fe2d::natural_modes(model, 1);
     return modes.frequency.size() ? modes.frequency[0] : std::nan("");
 }
 
@@ -34,11 +37,11 @@ Scene fe_scene(const Scene& given, const EffectPlan& plan)
     return called_for(plan, given);
 }
 
-std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene)
+std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene, const StopAsked& stop)
 {
     if (!scene.reservoir || scene.reservoir->model != ReservoirModel::automatic || scene.reservoir->level <= 0)
         return std::nullopt;
-    ReservoirChoice choice{first_frequency(scene), ""};
+    ReservoirChoice choice{first_frequency(scene, stop), ""};
     const sliding::CompressibilityCriterion c =
         sliding::compressibility_criterion(water_column(scene), choice.frequency);
     scene.reservoir->model = c.compressible_matters ? ReservoirModel::acoustic : ReservoirModel::added_mass;
@@ -93,21 +96,21 @@ Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model)
     return fe2d::water_in_rock(model.mesh, model.dofs, pore_pressure_on(scene, model), scene.stages.pore_pressure);
 }
 
-std::optional<DamPeriod> resolve_dam_period(Scene& scene)
+std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop)
 {
     if (!scene.added_mass.period_of_dam || !added_mass_law(scene)) return std::nullopt;
     DamPeriod result;
     Scene trial = scene;
     trial.added_mass.period_of_dam = false;
     trial.added_mass.period.reset();
-    result.incompressible_frequency = first_frequency(trial);
+    result.incompressible_frequency = first_frequency(trial, stop);
     const double reservoir_period = sliding::reservoir_period(water_column(scene));
 
     // phi(T) = 1/f_1(T) - T is positive just above T_r, where the mass grows without bound, if a dam period exists, and falls with T.
     const auto period_of = [&](double period) {
         trial.added_mass.period = period;
         ++result.iterations;
-        return 1.0 / first_frequency(trial);
+        return 1.0 / first_frequency(trial, stop);
     };
     double low = reservoir_period * (1 + 1e-6),
            high = std::max(2.0 / result.incompressible_frequency, 2 * reservoir_period);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/stop.hpp"
 #include "fe2d/model/model.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
@@ -23,7 +24,8 @@ struct ReservoirChoice {
 
 /// Decides reservoir.model = "auto" by the compressibility criterion (3-36) on the computed first frequency: acoustic where Omega_r < 2, else
 /// added mass. Nothing where the scene says itself what it wants.
-std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene);
+/// @throws Interrupted
+std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene, const StopAsked& stop = {});
 
 /// Water in the rock as nodal forces (stages.pore_pressure = total or effective), from the seepage on the model's own mesh; zero for none.
 /// @throws NotConverged when the seepage solver loses its accuracy
@@ -47,7 +49,7 @@ struct DamPeriod {
 /// period, where the mass is infinite, and the incompressible answer. The scene gets the value as added_mass.period.
 /// @returns nothing, the scene as it was, where the period is not asked for or no added mass acts: without a reservoir, with an
 /// empty, hydrostatic or acoustic one.
-/// @throws InputError where the dam is so stiff that its period lies below the reservoir's.
-std::optional<DamPeriod> resolve_dam_period(Scene& scene);
+/// @throws InputError where the dam is so stiff that its period lies below the reservoir's; Interrupted
+std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop = {});
 
 } // namespace damslip::cli

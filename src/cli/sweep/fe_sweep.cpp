@@ -100,15 +100,13 @@ public:
         const GridIndex at = in_.tasks.index(group.rows.front());
         if (!interrupt_.interrupted()) {
             begin_(group.rows);
-            const bool made = prepare(model, at, counts);
-            const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
-                                                      in_.axes.polarity[at.polarity]);
-            if (!made)
-                take_(group.rows, std::vector<FeSlip>(group.rows.size(), FeSlip{.status = Status::not_resolved}));
-            else if (in_.axes.method[at.method].reduced)
-                run_reduced_group(model, motion, group, counts);
-            else
-                run_full(model, motion, group, counts);
+            try {
+                if (prepare(model, at, counts))
+                    run_prepared(model, at, group, counts);
+                else
+                    take_(group.rows, std::vector<FeSlip>(group.rows.size(), FeSlip{.status = Status::not_resolved}));
+            } catch (const Interrupted&) { // in the set-up: these rows are not finished
+            }
         }
         meter_.end();
         const std::lock_guard lock(model.mutex);
@@ -129,6 +127,16 @@ private:
                 in_.axes.method[group.method].reduced};
     }
 
+    void run_prepared(const PreparedModel& model, const GridIndex& at, const FeGroup& group, FeSweepCounts& counts)
+    {
+        const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
+                                                  in_.axes.polarity[at.polarity]);
+        if (in_.axes.method[at.method].reduced)
+            run_reduced_group(model, motion, group, counts);
+        else
+            run_full(model, motion, group, counts);
+    }
+
     /// @returns false where a solver found no answer: then there is no model, for any of its rows
     bool prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
     {
@@ -147,11 +155,13 @@ private:
     {
         if (!model.full) {
             model.scene = scene_of(in_, at);
+            const StopAsked stop = [this] { return interrupt_.interrupted(); };
             if (!in_.axes.method[at.method].reduced)
-                if (const auto choice = resolve_reservoir_model(model.scene)) counts.choices.insert(choice->reason);
-            resolve_dam_period(model.scene);
+                if (const auto choice = resolve_reservoir_model(model.scene, stop)) counts.choices.insert(choice->reason);
+            resolve_dam_period(model.scene, stop);
             SeepageSource seepage;
             model.options = contact_options(model.scene, in_.records, seepage);
+            model.options.stop = stop;
             model.options.progress = [this](const fe2d::RunProgress& p) {
                 meter_.step(p);
                 return interrupt_.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;

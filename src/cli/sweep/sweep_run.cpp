@@ -13,8 +13,8 @@ constexpr std::size_t block_rows = 256; ///< rigid rows that go into the journal
 /// Rows by their place among the wanted ids, written from several threads, each place once.
 class RowStore {
 public:
-    RowStore(const std::vector<std::size_t>& wanted, Journal* journal)
-        : wanted_(wanted), journal_(journal), rows_(wanted.size())
+    RowStore(const std::vector<std::size_t>& wanted, Journal* journal, const InterruptGuard& interrupt)
+        : wanted_(wanted), journal_(journal), interrupt_(interrupt), rows_(wanted.size())
     {
     }
 
@@ -26,7 +26,10 @@ public:
     }
     void finish(std::vector<FinishedRow> rows)
     {
-        if (journal_) journal_->append(rows);
+        if (journal_)
+            journal_->append(rows);
+        else
+            interrupt_.results_at_hand();
         for (FinishedRow& row : rows) put(std::move(row));
     }
     void begin(std::span<const std::size_t> ids)
@@ -52,6 +55,7 @@ public:
 private:
     const std::vector<std::size_t>& wanted_;
     Journal* journal_;
+    const InterruptGuard& interrupt_;
     std::vector<std::optional<FinishedRow>> rows_;
 };
 
@@ -109,7 +113,7 @@ SweepOutcome run_sweep(const FeSweepInputs& inputs, const Grid& grid, const std:
                        Journal* journal, int jobs, const Streams& streams)
 {
     const InterruptGuard interrupt;
-    RowStore store(wanted, journal);
+    RowStore store(wanted, journal, interrupt);
     SweepOutcome outcome;
     outcome.wanted = wanted.size();
     if (journal)

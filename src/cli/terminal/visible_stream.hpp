@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ostream>
+#include <streambuf>
+#include <string>
+
+namespace damslip::cli {
+
+/// A stream in front of another one that lets no control character through but newline and tab (report::visible()):
+/// names and titles come from files, and what they hold must not move a terminal's cursor or hide text.
+class VisibleStream : public std::ostream {
+public:
+    explicit VisibleStream(std::ostream& sink);
+
+private:
+    class Buffer : public std::streambuf {
+    public:
+        explicit Buffer(std::ostream& sink) : sink_(sink) {}
+
+    protected:
+        int_type overflow(int_type c) override;
+        std::streamsize xsputn(const char* text, std::streamsize count) override;
+        int sync() override;
+
+    private:
+        bool put(std::string_view text);
+
+        std::ostream& sink_;
+        std::string unfinished_; ///< first bytes of a character, at most two
+    };
+    Buffer buffer_;
+};
+
+} // namespace damslip::cli
