@@ -90,7 +90,10 @@ Table settings_table(const std::vector<SettingsStep>& steps)
         for (const auto& [water, slips] :
              {std::pair{"acoustic", &step.acoustic}, std::pair{"westergaard", &step.westergaard}}) {
             std::vector<Cell> row{step.change, std::string(water)};
-            for (const double slip : *slips) row.push_back(std::isfinite(slip) ? Cell(slip) : Cell());
+            for (const double slip : *slips) {
+                row.emplace_back();
+                if (std::isfinite(slip)) row.back() = slip;
+            }
             t.rows.push_back(std::move(row));
         }
     t.notes.push_back("largest slips, with curtain, size 1; each line has the changes of the lines above it too. The "
