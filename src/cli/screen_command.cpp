@@ -60,7 +60,7 @@ nlohmann::ordered_json summary(const Scene& given, const Scene& scene, const Scr
     if (!given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(given));
     j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     j["displacements"] = json_of(slip_table(s, scene.criteria.allowable_slip));
-    if (s.flexible) j["flexible_block"] = json_of(flexible_table(s));
+    if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, scene.criteria.allowable_slip));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s));
     j["warnings"] = s.warnings;
@@ -113,7 +113,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     show(sliding::uplift_comparison_table(s.uplifts));
     show(regression_table(s));
     show(slip_table(s, scene.criteria.allowable_slip));
-    if (s.flexible) show(flexible_table(s));
+    if (s.flexible) show(flexible_table(s, scene.criteria.allowable_slip));
     show(statistics_table(s));
     for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
 }
@@ -152,12 +152,17 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         write_file(arguments.out / "displacements.csv",
                    report::csv(slip_table(s, scene.criteria.allowable_slip),
                                {"damslip " + program_version(), "scene " + scene_hash(scene)}));
+        if (s.flexible)
+            write_file(arguments.out / "flexible_block.csv",
+                       report::csv(flexible_table(s, scene.criteria.allowable_slip),
+                                   {"damslip " + program_version(), "scene " + scene_hash(scene)}));
         write_file(arguments.out / "scene.resolved.toml", resolved_toml(given));
         const std::filesystem::path page = arguments.out / "report.html";
         write_file(page, screen_report({given, scene, s, records, arguments.jobs}));
         if (!streams.quiet)
-            streams.talk << "written: " << (arguments.out / "summary.json").string()
-                         << ", displacements.csv, scene.resolved.toml\nreport: " << page.string() << "\n";
+            streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
+                         << (s.flexible ? "flexible_block.csv, " : "")
+                         << "scene.resolved.toml\nreport: " << page.string() << "\n";
     }
     return statuses_of(s).exit_code();
 }

@@ -8,7 +8,7 @@ KeyGroup flexible_block_group()
     using M = FlexibleMass;
     const Units line_mass{{"kg_m", 1.0}, {"t_m", 1000.0}};
     Key period =
-        number("period", seconds, Range::half_open(0, 10), "regressions.period_s",
+        number("period", seconds, Range::half_open(0, 100), "regressions.period_s",
                "period of the mode on a base that does not slide; \"modes\": period and mass ratio of the tied "
                "finite-element model, water included",
                "0.3", {});

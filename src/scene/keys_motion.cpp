@@ -37,7 +37,8 @@ std::vector<KeyGroup> motion_groups()
                 at(&R::scale))}));
     groups.push_back(group(
         "sliding", "Rigid-block integration.", &Scene::sliding,
-        {word("scheme", "exact", "exact (events located) or slammer (the trapezoid scheme of SLAMMER)", "\"slammer\"",
+        {word("scheme", "exact",
+              "of the rigid block: exact (events located) or slammer (the trapezoid scheme of SLAMMER)", "\"slammer\"",
               choice(&SlidingOptions::scheme,
                      std::vector<std::pair<std::string, SlidingScheme>>{{"exact", SlidingScheme::exact},
                                                                         {"slammer", SlidingScheme::slammer}})),

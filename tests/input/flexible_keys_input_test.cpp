@@ -45,7 +45,7 @@ TEST(FlexibleKeys, AreRead)
 TEST(FlexibleKeys, RangesAreSaid)
 {
     for (const char* keys :
-         {"period_s = 0", "period_s = 11", "period_s = \"mode\"", "period_s = 1\ndamping = 0.6",
+         {"period_s = 0", "period_s = 101", "period_s = \"mode\"", "period_s = 1\ndamping = 0.6",
           "period_s = 1\nmass_ratio = 0", "period_s = 1\nmass_ratio = 0.96", "period_s = 1\nshape_exponent = 0",
           "period_s = 1\nmodal_load_kg_m = 0\nmodal_mass_kg_m = 1",
           "period_s = 1\nmodal_load_kg_m = 1\nmodal_mass_kg_m = nan", "period_s = 1\nmode = \"three\""})

@@ -214,6 +214,51 @@ std::vector<damslip::verification::Check> flexible_limits()
     return checks;
 }
 
+/// A wave whose samples are far apart for it: what lies between them counts.
+double short_wave(double t)
+{
+    return t < 4.0 ? 2.0 * std::pow(std::sin(std::numbers::pi * t / 4.0), 2) * std::sin(7.0 * std::numbers::pi * t)
+                   : 0.0;
+}
+
+std::vector<damslip::verification::Check> flexible_decoupled()
+{
+    std::vector<damslip::verification::Check> checks;
+    SlideOptions options;
+    options.sliding.two_way = false;
+    for (const auto& [period, damping, yield] :
+         {std::array{0.05, 0.05, 1.0}, std::array{0.3, 0.05, 1.9}, std::array{0.3, 0.05, 3.4},
+          std::array{1.2, 0.15, 0.25}, std::array{6.0, 0.15, 0.3}}) {
+        const GroundMotion motion = sampled(short_wave, 0.02, 200);
+        const double gamma = 0.81;
+        const FlexibleSlide r = slide_decoupled(motion, level_block(yield), flexible(period, damping, gamma), options);
+        const exact::FlexibleSlipCase c{2.0 * std::numbers::pi / period, damping, gamma, yield};
+        checks.push_back({"slip, T = " + std::to_string(period).substr(0, 4) + " s", "m",
+                          exact::slip_decoupled_by_steps(c, motion.accel_h, motion.dt, 60.0, 128.0), r.slide.slip,
+                          1e-6});
+    }
+    return checks;
+}
+
+/// T -> infinity: the mode stays where it is, k = (1 - Gamma) a_h.
+std::vector<damslip::verification::Check> flexible_soft()
+{
+    std::vector<damslip::verification::Check> checks;
+    const double gamma = 0.6, yield = 0.4;
+    const GroundMotion motion = sampled(wave, 0.01, 600);
+    const double rest = 1.0 - gamma, slip = slide(motion, level_block(yield / rest)).max_slip;
+    for (const double period : {100.0, 1e4}) {
+        const FlexibleBlock block = flexible(period, 0.05, gamma);
+        const std::string at = period > 100.0 ? ", T = 10000 s" : ", T = 100 s";
+        const double tolerance = 40.0 / period;
+        checks.push_back(
+            {"coupled" + at, "m", slip, slide_coupled(motion, level_block(yield), block).slide.max_slip, tolerance});
+        checks.push_back({"decoupled" + at, "m", rest * slip,
+                          slide_decoupled(motion, level_block(yield), block).slide.max_slip, tolerance});
+    }
+    return checks;
+}
+
 /// Energies per mass of the block, by trapezoids over the samples.
 std::vector<damslip::verification::Check> flexible_energy()
 {
@@ -357,8 +402,19 @@ void add_neighbour_cases(Registry& registry)
                         "definition; k - a_h = -Gamma x'' integrated twice over a slip of duration D changes it by "
                         "Gamma (x - x_0 - x_0' D), with x = A/omega^2, x_0' = A'/omega^2 of slow motion",
                         "Gamma (2 A + A' D)/omega^2 with D = 1 s, of second order in T (next order: 5 % of the ratio); "
-                        "peaks seen at looks T sqrt(1 - Gamma)/40 apart",
+                        "peaks of coupled seen at looks T sqrt(1 - Gamma)/40 apart",
                         flexible_limits});
+    registry.push_back(
+        {"sliding.neighbours.flexible-decoupled",
+         "Decoupled slip of stiff and soft blocks, with a yield far below and near the peak, against small "
+         "steps.",
+         "Runge-Kutta of fourth order and cubics between its steps (tests/exact/flexible_slip.hpp)",
+         "events within 1e-6 of k; the steps: 4e-12", flexible_decoupled});
+    registry.push_back(
+        {"sliding.neighbours.flexible-soft",
+         "Very soft: the mode stays where it is, the rest 1 - Gamma moves with the ground.",
+         "definition: k = (1 - Gamma) a_h; coupled s'' = a_h - a_y/(1 - Gamma), decoupled (1 - Gamma) of it",
+         "damper and spring over the 6 s of the motion, of first order in 1/T: 40 s/T", flexible_soft});
     registry.push_back({"sliding.neighbours.flexible-energy",
                         "Coupled: work of the ground = friction + damping + kinetic and strain energy.",
                         "equations of motion of the two coordinates",

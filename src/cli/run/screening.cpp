@@ -213,6 +213,22 @@ void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage,
         s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
 }
 
+void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warnings)
+{
+    const auto& [decoupled, coupled] = *row.flexible;
+    for (const auto& [name, result] : {std::pair("decoupled", &decoupled), std::pair("coupled", &coupled)}) {
+        if (!*result || (*result)->slide.status == Status::at_rest || fails_statically((*result)->slide.status))
+            continue;
+        for (const std::string& note : (*result)->slide.notes)
+            warnings.push_back(fmt::format("{}, polarity {:+d}, {}: {}", row.record, row.polarity, name, note));
+    }
+    if (row.rigid().lift_offs > 0 && !decoupled)
+        warnings.push_back(
+            fmt::format("{}, polarity {:+d}: the base opens, which the coupled analysis does not follow; "
+                        "flexible_block.mode = \"both\" gives the decoupled slip to judge by.",
+                        row.record, row.polarity));
+}
+
 void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
 {
     if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift))
@@ -227,6 +243,11 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     if (scene.sliding.scheme == SlidingScheme::slammer)
         warnings.push_back("SLAMMER's trapezoid scheme has an error of second order in the time step, largest where "
                            "the yield acceleration is near the peak; the exact scheme has none.");
+    if (scene.sliding.scheme == SlidingScheme::slammer && s.flexible)
+        warnings.push_back("sliding.scheme = \"slammer\" is the rigid block's; decoupled and coupled are exact: events "
+                           "located on closed forms.");
+    for (const SlipRow& row : s.slips)
+        if (row.flexible) add_flexible_warnings(row, warnings);
     for (const SlipRow& row : s.slips)
         for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
             if (!r) continue;
@@ -244,6 +265,15 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
 
 } // namespace
 
+GoverningSlip SlipRow::governing() const
+{
+    if (!flexible) return {rigid(), "rigid", slip_error(rigid())};
+    const auto& [decoupled, coupled] = *flexible;
+    const bool opens = rigid().lift_offs > 0 || (decoupled && decoupled->slide.lift_offs > 0);
+    if (decoupled && (opens || !coupled)) return {decoupled->slide, "decoupled", slip_error(decoupled->slide)};
+    return {coupled->slide, "coupled", opens ? std::nan("") : slip_error(coupled->slide)};
+}
+
 double slip_error(const sliding::SlideResult& slide)
 {
     return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : 0.0;
@@ -252,6 +282,12 @@ double slip_error(const sliding::SlideResult& slide)
 Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable)
 {
     return judge(slide.status, slide.max_slip, slip_error(slide), allowable);
+}
+
+Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
+{
+    const GoverningSlip g = row.governing();
+    return judge(g.slide.status, g.slide.max_slip, g.error, allowable);
 }
 
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b)

@@ -8,6 +8,7 @@
 #include "sliding/flexible/flexible_slide.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What `screen` computes, as data; screen_command.cpp prints it.
@@ -24,6 +25,13 @@ struct FlexibleSlips {
     std::optional<sliding::FlexibleSlide> decoupled, coupled;
 };
 
+/// The slip that is judged, and by which analysis it was found.
+struct GoverningSlip {
+    const sliding::SlideResult& slide;
+    std::string_view method; ///< "rigid", "decoupled", "coupled"
+    double error;            ///< slip_error(); NaN also where the analysis leaves out what happens: nothing is decided
+};
+
 /// One record with one polarity.
 struct SlipRow {
     std::string record;
@@ -34,8 +42,13 @@ struct SlipRow {
 
     std::optional<FlexibleSlips> flexible; ///< where the sliding mass is flexible
 
-    /// The slip to judge by: with the vertical component where there is one.
-    const sliding::SlideResult& judged() const { return with_vertical ? *with_vertical : horizontal; }
+    /// Of the rigid block, with the vertical component where there is one.
+    const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
+    /// Of the analysis that models the mass best: coupled; decoupled where that alone was asked for, or where the base
+    /// opens, which coupled does not follow; of a rigid mass rigid().
+    GoverningSlip governing() const;
+    /// The slip to judge by.
+    const sliding::SlideResult& judged() const { return governing().slide; }
 };
 
 struct RegressionRow {
@@ -76,6 +89,9 @@ double slip_error(const sliding::SlideResult& slide);
 
 /// The slide's largest slip against the allowable [m].
 Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable);
+
+/// The governing slip against the allowable [m].
+Verdict judge(const SlipRow& row, const std::optional<double>& allowable);
 
 /// The one that decides: one that is no answer, else one without a slip, else the larger.
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b);

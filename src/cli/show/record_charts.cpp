@@ -164,15 +164,13 @@ Table record_table(const std::vector<GroundMotion>& motions)
     return t;
 }
 
-/// Slip of the flexible block, the polarity that slides farther coupled. Its curves have their own sample times.
+/// Slip of the flexible block, the polarity that is worse by the analysis that is judged.
 report::Chart flexible_chart(const Scene& scene, const Screening& s, const GroundMotion& motion, std::size_t number,
                              std::size_t records)
 {
     const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    const auto largest = [](const SlipRow& row) {
-        return (row.flexible->coupled ? row.flexible->coupled : row.flexible->decoupled)->slide.max_slip;
-    };
-    const int polarity = largest(b) > largest(a) ? -1 : 1;
+    const sliding::SlideResult& judged = worse(a.judged(), b.judged());
+    const int polarity = &judged == &b.judged() ? -1 : 1;
     const FlexibleSlips slips =
         slide_flexible(scene, *s.flexible, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
     report::Chart chart;
@@ -181,6 +179,8 @@ report::Chart flexible_chart(const Scene& scene, const Screening& s, const Groun
     chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
     if (slips.decoupled) chart.curves.push_back(slip_curve(slips.decoupled->slide.history, "decoupled", 2));
     if (slips.coupled) chart.curves.push_back(slip_curve(slips.coupled->slide.history, "coupled", 3));
+    if (scene.criteria.allowable_slip && judged.max_slip > 0.2 * *scene.criteria.allowable_slip)
+        chart.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     thin_for(chart, records);
     return chart;
 }
@@ -224,7 +224,7 @@ std::vector<report::Part> record_parts(const Scene& scene, const Screening& s, c
     const auto horizontal =
         slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
     add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);
-    if (scene.criteria.allowable_slip && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
+    if (scene.criteria.allowable_slip && !s.flexible && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
         slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     const SlipRow* hv = worse_with_vertical(s, number);
     const bool still = h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0);

@@ -97,9 +97,10 @@ std::string slip_sentence(const Scene& scene, const Screening& s)
     const double slip = worst ? worst->judged().max_slip : 0.0;
     std::string out =
         !worst     ? fmt::format("The {} has no slip to give", sliding_body(scene))
-        : slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{})", sliding_body(scene),
-                                 slip / mm, n > 1 ? fmt::format(" over {} records", n) : "", worst->record,
-                                 worst->polarity, worst->with_vertical ? ", with vertical motion" : "")
+        : slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{}{})",
+                                 sliding_body(scene), slip / mm, n > 1 ? fmt::format(" over {} records", n) : "",
+                                 worst->record, worst->polarity, worst->with_vertical ? ", with vertical motion" : "",
+                                 worst->flexible ? fmt::format(", flexible block, {}", worst->governing().method) : "")
                    : fmt::format("The {} does not slide in {}", sliding_body(scene),
                                  n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst->record);
     const std::string without = without_slip_words(s);
@@ -196,7 +197,9 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
     const bool slides = !largest(s); // nothing to draw
-    if (s.flexible) section.parts.push_back(TablePart{flexible_table(s), Layout::rows, 1, Fold::open});
+    if (s.flexible)
+        section.parts.push_back(
+            TablePart{flexible_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
     if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
@@ -251,7 +254,9 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
         const SlipRow* worst = largest(s);
-        list.emplace_back("Largest slip", worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
+        list.emplace_back(worst && s.flexible ? fmt::format("Largest slip, {}", worst->governing().method)
+                                              : "Largest slip",
+                          worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
         if (!without_slip_words(s).empty()) list.emplace_back("Statuses", judged_statuses(s).words());
     }
     if (scene.criteria.allowable_slip)
@@ -300,14 +305,15 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
     const std::string sentence = slip_sentence(scene, s) + checks_sentence(checks) + standing;
     if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
     const auto any = [&](Verdict verdict) {
-        return std::any_of(s.slips.begin(), s.slips.end(), [&](const SlipRow& row) {
-            return judge(row.judged(), scene.criteria.allowable_slip) == verdict;
-        });
+        return std::any_of(s.slips.begin(), s.slips.end(),
+                           [&](const SlipRow& row) { return judge(row, scene.criteria.allowable_slip) == verdict; });
     };
     if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
     if (any(Verdict::undecided))
-        return {sentence, Outcome::unresolved, "Undecided: the error of SLAMMER's scheme is not known."};
+        return {sentence, Outcome::unresolved,
+                s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
+                           : "Undecided: the error of SLAMMER's scheme is not known."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
     return {sentence, Outcome::pass, "PASS"};
 }

@@ -14,6 +14,9 @@ namespace {
 using units::mm;
 using units::standard_gravity;
 
+constexpr double long_period =
+    2.0; ///< T_s from which one mode says little under common motions [s] (docs/neighbours.md)
+
 Cell cell(const std::optional<double>& value, double unit = 1.0)
 {
     return value ? Cell(*value / unit) : Cell();
@@ -59,14 +62,21 @@ void note_static_sliding(const Screening& s, Table& table)
                                                               : std::string("no friction would hold it.")));
 }
 
+/// A mass that is flexible is not judged by the rigid block.
+Cell rigid_verdict_cell(const SlipRow& row, const std::optional<double>& allowable)
+{
+    if (row.flexible) return fmt::format("judged by {}", row.governing().method);
+    return verdict_cell(judge(row, allowable));
+}
+
 /// What a verdict says, and what it cannot say.
 void note_verdict(const Screening& s, const std::optional<double>& allowable, Table& table)
 {
-    if (!allowable) return;
+    if (!allowable || s.flexible) return;
     table.notes.push_back(
         fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
     if (std::any_of(s.slips.begin(), s.slips.end(),
-                    [](const SlipRow& row) { return std::isnan(slip_error(row.judged())); }))
+                    [](const SlipRow& row) { return std::isnan(row.governing().error); }))
         table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
 }
 
@@ -113,13 +123,13 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
                  {"verdict", "verdict", "", 4}};
     const double a_y = s.bases.front().model.downstream.law.constant;
     for (const SlipRow& row : s.slips) {
-        const sliding::SlideResult& r = row.judged();
+        const sliding::SlideResult& r = row.rigid();
         t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
                           row.pga > 0 ? finite(a_y / row.pga) : Cell(),
                           slip_cell(row.horizontal, row.horizontal.slip / mm),
                           row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
                           slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
-                          static_cast<std::int64_t>(r.lift_offs), word(r.status), verdict_cell(judge(r, allowable))});
+                          static_cast<std::int64_t>(r.lift_offs), word(r.status), rigid_verdict_cell(row, allowable)});
     }
     if (wedge)
         t.notes.push_back("slip: along the way of sliding at the yield, " +
@@ -133,7 +143,7 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     return t;
 }
 
-Table flexible_table(const Screening& s)
+Table flexible_table(const Screening& s, const std::optional<double>& allowable)
 {
     const sliding::FlexibleBlock& flexible = *s.flexible;
     Table t;
@@ -146,7 +156,9 @@ Table flexible_table(const Screening& s)
                  {"amplification_decoupled", "peak average/PGA decoupled", "–", 4},
                  {"amplification_coupled", "peak average/PGA coupled", "–", 4},
                  {"coupled_slip_mm", "coupled, at the end", "mm", 5},
-                 {"status", "status", "", 4}};
+                 {"judged_by", "judged by", "", 4},
+                 {"status", "status", "", 4},
+                 {"verdict", "verdict", "", 4}};
     for (const SlipRow& row : s.slips) {
         if (!row.flexible) continue;
         const auto& [decoupled, coupled] = *row.flexible;
@@ -156,16 +168,25 @@ Table flexible_table(const Screening& s)
         const auto over_pga = [&row](const std::optional<sliding::FlexibleSlide>& r) {
             return r && row.pga > 0 ? Cell(r->peak_acceleration / row.pga) : Cell();
         };
-        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity),
-                          slip_cell(row.judged(), row.judged().max_slip / mm), largest(decoupled), largest(coupled),
-                          over_pga(decoupled), over_pga(coupled),
-                          coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell(),
-                          word((coupled ? coupled : decoupled)->slide.status)});
+        t.rows.push_back(
+            {row.record, static_cast<std::int64_t>(row.polarity), slip_cell(row.rigid(), row.rigid().max_slip / mm),
+             largest(decoupled), largest(coupled), over_pga(decoupled), over_pga(coupled),
+             coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell(),
+             std::string(row.governing().method), word(row.judged().status), verdict_cell(judge(row, allowable))});
     }
     t.notes.push_back(fmt::format(
         "one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g} ({}); largest slips. Average: the horizontal "
-        "acceleration over the mass. Verdicts are by the rigid block.",
+        "acceleration over the mass. Decoupled can be more or less than coupled.",
         flexible.period, 100.0 * flexible.damping_ratio, flexible.mass_ratio, s.mass_ratio_words));
+    if (flexible.period >= long_period)
+        t.notes.push_back(
+            fmt::format("a period this long: one mode says little. What it leaves, {:.3g} of the mass, moves "
+                        "with the ground as if rigid and drives the base, where a real mass is soft too.",
+                        1.0 - flexible.mass_ratio));
+    if (allowable)
+        t.notes.push_back(fmt::format("verdict: largest slip of the analysis in \"judged by\" against "
+                                      "criteria.allowable_slip = {:.4g} mm; the rigid slip has none of its own.",
+                                      *allowable / mm));
     return t;
 }
 

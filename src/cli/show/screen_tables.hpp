@@ -7,8 +7,8 @@ namespace damslip::cli {
 
 Table yield_table(const Screening& s);
 Table slip_table(const Screening& s, const std::optional<double>& allowable);
-/// Slip of the flexible block beside the rigid one.
-Table flexible_table(const Screening& s);
+/// Slip of the flexible block beside the rigid one, with its verdict.
+Table flexible_table(const Screening& s, const std::optional<double>& allowable);
 
 Table regression_table(const Screening& s);
 Table statistics_table(const Screening& s);

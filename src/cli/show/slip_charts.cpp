@@ -130,6 +130,17 @@ double largest_slip(const sliding::SlideResult& slide)
     return reported(slide.status, slide.max_slip).value_or(nothing) / mm;
 }
 
+/// Of the flexible block, by the analysis that is judged.
+Curve governing_by_record(const Screening& s)
+{
+    Curve curve{"flexible, judged", {}, {}, {}, {}, Mark::points, Weight::normal, 3};
+    for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
+        curve.x.push_back(static_cast<double>(i));
+        curve.y.push_back(largest_slip(worse(s.slips[2 * i].judged(), s.slips[2 * i + 1].judged())));
+    }
+    return curve;
+}
+
 } // namespace
 
 const SlipRow& worse_horizontal(const Screening& s, std::size_t number)
@@ -173,9 +184,11 @@ std::optional<report::Chart> slip_over_friction(const Scene& scene, const Screen
         chart.vertical.push_back({own.critical_friction, "holds without earthquake"});
         chart.x.low = std::min(0.98 * own.critical_friction, friction.front());
     }
-    if (scene.criteria.allowable_slip) chart.horizontal.push_back({*scene.criteria.allowable_slip / mm, "allowable"});
+    if (scene.criteria.allowable_slip && !s.flexible)
+        chart.horizontal.push_back({*scene.criteria.allowable_slip / mm, "allowable"});
     chart.note = "Worse polarity of each record, with the vertical component where it has one. Linear near zero, "
                  "logarithmic above.";
+    if (s.flexible) chart.note += " The rigid block; the flexible one is judged by its own slip.";
     if (scene.wedge) chart.note += " The friction of the other plane keeps its share of this one.";
     return chart;
 }
@@ -199,6 +212,7 @@ report::Chart slip_by_record(const Screening& s, const std::optional<double>& al
     chart.curves.push_back(std::move(h));
     if (std::any_of(hv.y.begin(), hv.y.end(), [](double v) { return std::isfinite(v); }))
         chart.curves.push_back(std::move(hv));
+    if (s.flexible) chart.curves.push_back(governing_by_record(s));
     if (allowable) chart.horizontal.push_back({*allowable / mm, "allowable"});
     chart.note = "Worse polarity of each record.";
     return chart;
