@@ -13,15 +13,15 @@ struct RegressionWeight {
 /// Several regressions as one: each a distribution of D (log-normal with its sigma; a step where none is published; the
 /// share P(D = 0) at zero), weighted.
 struct Ensemble {
-    std::vector<std::string_view> members;            ///< ids of the valid ones, in table order
-    std::vector<double> weights;                      ///< of the members, sum 1
-    std::optional<double> mean_cm;                    ///< weighted mean of the members' medians times P(D > 0) [cm]
-    std::optional<double> low_cm, median_cm, high_cm; ///< 16, 50, 84 % of the weighted distribution [cm]
-    double weight_left_out = 0.0; ///< share of the given weights on regressions that are not valid here [-]
+    std::vector<std::string_view> members; ///< ids of the valid ones, in table order
+    std::vector<double> weights;           ///< of the members, sum 1
+    std::optional<double> median_cm;       ///< of the weighted distribution [cm]; no member: none
+    std::optional<double> low_cm, high_cm; ///< its 16 and 84 % [cm]; none of one member alone that publishes no sigma
+    double weight_left_out = 0.0;          ///< share of the given weights on regressions that are not valid here [-]
 };
 
-/// Valid are results with a value (D = 0 included) and all inputs within their ranges. Without weights: all of
-/// EnsembleUse::estimate, equally; with weights: those named with a weight above zero. No valid one: no values.
+/// Members are the valid results, see valid(). Without weights: all of EnsembleUse::estimate, equally; with weights:
+/// those named with a weight above zero. No valid one: no values.
 /// @param results  evaluate_all of one record
 /// Precondition: ids known (find_regression), weights finite and not negative.
 Ensemble weighted_ensemble(std::span<const RegressionResult> results, std::span<const RegressionWeight> weights = {});

@@ -1,4 +1,5 @@
 #include "sliding/empirical/regression_rows.hpp"
+#include "sliding/empirical/slip_distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,12 @@ double antonakos_magnitude(const Inputs& x)
            (t <= 1.5 ? (3.69 - 1.22 * t) * t : 2.78);
 }
 
+// The rigid models beneath them were fitted to these; T_s/T_m is capped in the formula.
+std::vector<ValidityRange> antonakos_range()
+{
+    return {{Input::yield_coefficient, 0.05, 0.30}, {Input::magnitude, 5.0, 7.9, RangeSource::data}};
+}
+
 bool rigid_for_bray_travasarou(const Inputs& x)
 {
     return period(x) < 0.05;
@@ -88,6 +95,7 @@ double travasarou(const Inputs& x)
            0.244 * sa * sa + 0.278 * (*x.magnitude - 7.0);
 }
 
+/// P(D <= 1 cm), eq. (3).
 double travasarou_zero(const Inputs& x)
 {
     const bool rigid = rigid_for_bray_travasarou(x);
@@ -103,10 +111,37 @@ double macedo_rigid(const Inputs& x)
            0.603 * *x.magnitude;
 }
 
+/// P(D < 0.5 cm), eq. (2a) of Bray & Macedo (2019) at T_s = 0.
 double macedo_rigid_zero(const Inputs& x)
 {
     const double ky = std::log(x.yield_coefficient);
     return normal_cdf(-(-2.480 - 2.970 * ky - 0.120 * ky * ky + 2.780 * std::log(x.pga_g)));
+}
+
+/// Coefficients of P(D = 0) = 1 - Phi(c1 + c2 ln ky + c3 ln^2 ky + c4 Ts ln ky + c5 Ts + c6 ln Sa).
+struct ZeroCoefficients {
+    double c1, c2, c3, c4, c5, c6;
+};
+
+double zero_by_period(const Inputs& x, double sa_g, const ZeroCoefficients& to_07_s, const ZeroCoefficients& above)
+{
+    const double t = period(x), ky = std::log(x.yield_coefficient);
+    const auto& [c1, c2, c3, c4, c5, c6] = t <= 0.7 ? to_07_s : above;
+    return normal_cdf(-(c1 + c2 * ky + c3 * ky * ky + c4 * t * ky + c5 * t + c6 * std::log(sa_g)));
+}
+
+/// P(D < 0.5 cm), eqs. (8a), (8b) of Bray & Macedo (2019), all motions.
+double macedo_zero(const Inputs& x)
+{
+    return zero_by_period(x, *x.sa_13_g, {-2.46, -2.98, -0.12, -0.71, 1.69, 2.76},
+                          {-3.40, -4.95, -0.30, -0.33, -0.62, 2.85});
+}
+
+/// P(D < 0.5 cm) of Bray, Macedo & Travasarou (2018).
+double subduction_zero(const Inputs& x)
+{
+    return zero_by_period(x, *x.sa_15_g, {-2.64, -3.20, -0.17, -0.49, 2.09, 2.91},
+                          {-3.53, -4.78, -0.34, -0.30, -0.67, 2.66});
 }
 
 double macedo(const Inputs& x)
@@ -118,6 +153,7 @@ double macedo(const Inputs& x)
            0.607 * *x.magnitude + of_pulse;
 }
 
+// c2 = 3.081 for T_s >= 0.1 s; some programs have 3.801, see docs/regressions.md.
 double subduction(const Inputs& x)
 {
     const double t = period(x), ky = std::log(x.yield_coefficient), sa = std::log(*x.sa_15_g);
@@ -127,11 +163,6 @@ double subduction(const Inputs& x)
 }
 
 } // namespace
-
-double normal_cdf(double z)
-{
-    return 0.5 * std::erfc(-z / std::sqrt(2.0));
-}
 
 std::vector<Regression> flexible_block_rows()
 {
@@ -143,7 +174,7 @@ std::vector<Regression> flexible_block_rows()
          antonakos_pgv,
          [](const Inputs& x) { return 0.400 + 0.284 * ratio_of_the_mass(x); },
          {Input::yield_coefficient, Input::pga, Input::pgv, Input::mean_period, Input::period},
-         {},
+         antonakos_range(),
          "as Saygili & Rathje 2008; Ts/Tm capped at 8",
          rathje_antonakos,
          EnsembleUse::estimate,
@@ -155,7 +186,7 @@ std::vector<Regression> flexible_block_rows()
          antonakos_magnitude,
          [](const Inputs& x) { return 0.694 + 0.32 * ratio_of_the_mass(x); },
          {Input::yield_coefficient, Input::pga, Input::magnitude, Input::mean_period, Input::period},
-         {},
+         antonakos_range(),
          "as Rathje & Saygili 2009; Ts/Tm capped at 8",
          rathje_antonakos,
          EnsembleUse::estimate,
@@ -168,7 +199,10 @@ std::vector<Regression> flexible_block_rows()
          travasarou,
          constant_sigma<660>,
          {Input::yield_coefficient, Input::pga, Input::magnitude, Input::spectral_15},
-         {},
+         {{Input::yield_coefficient, 0.01, 0.50},
+          {Input::period, 0.0, 2.0},
+          {Input::spectral_15, 0.002, 2.7},
+          {Input::magnitude, 5.5, 7.6}},
          "688 records, 41 earthquakes; nonzero D",
          bray_travasarou,
          EnsembleUse::estimate,
@@ -182,7 +216,9 @@ std::vector<Regression> flexible_block_rows()
          macedo_rigid,
          constant_sigma<720>,
          {Input::yield_coefficient, Input::pga, Input::magnitude},
-         {{Input::period, 0.0, 0.0}},
+         {{Input::period, 0.0, 0.0},
+          {Input::yield_coefficient, 0.01, 0.80},
+          {Input::magnitude, 5.5, 7.9, RangeSource::data}},
          "shallow crustal earthquakes, ordinary motions; nonzero D",
          bray_macedo,
          EnsembleUse::estimate,
@@ -198,11 +234,14 @@ std::vector<Regression> flexible_block_rows()
          macedo,
          constant_sigma<740>,
          {Input::yield_coefficient, Input::magnitude, Input::pgv, Input::period, Input::spectral_13},
-         {},
-         "shallow crustal earthquakes; nonzero D",
+         {{Input::yield_coefficient, 0.01, 0.80},
+          {Input::period, 0.0, 2.0},
+          {Input::magnitude, 5.5, 7.9, RangeSource::data}},
+         "6,711 two-component records of shallow crustal earthquakes; nonzero D",
          bray_macedo,
          EnsembleUse::estimate,
-         nullptr},
+         nullptr,
+         macedo_zero},
         {"bray-macedo-travasarou-2018",
          "Bray, Macedo & Travasarou 2018 (subduction)",
          "ln D = c1 + 0.550 M + c2 Ts + c3 Ts^2 - 3.353 ln ky - 0.390 ln^2 ky + 0.538 ln ky ln Sa + 3.060 ln Sa - "
@@ -212,11 +251,14 @@ std::vector<Regression> flexible_block_rows()
          subduction,
          constant_sigma<730>,
          {Input::yield_coefficient, Input::magnitude, Input::spectral_15},
-         {},
-         "subduction interface earthquakes; nonzero D",
+         {{Input::yield_coefficient, 0.01, 0.80},
+          {Input::period, 0.0, 2.0},
+          {Input::magnitude, 7.0, 9.0, RangeSource::data}},
+         "810 two-component records of subduction interface earthquakes; nonzero D",
          bray_macedo_travasarou,
          EnsembleUse::on_request,
-         nullptr},
+         nullptr,
+         subduction_zero},
     };
 }
 

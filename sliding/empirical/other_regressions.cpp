@@ -24,6 +24,20 @@ constexpr std::string_view hsieh_lee =
 
 const double ln_100 = std::log(100.0); // Fotopoulou & Pitilakis' D is in metres
 
+// Abscissa of the charts; magnitudes of the records behind them.
+std::vector<ValidityRange> hynes_griffin_range()
+{
+    return {{Input::ratio, 0.01, 1.0}, {Input::magnitude, 3.8, 7.7, RangeSource::data}};
+}
+
+// The models have yield coefficients of 0.05 to 0.30 and motions of these magnitudes and peaks.
+std::vector<ValidityRange> fotopoulou_range()
+{
+    return {{Input::yield_coefficient, 0.05, 0.30, RangeSource::data},
+            {Input::pga, 0.06, 0.91, RangeSource::data},
+            {Input::magnitude, 5.0, 7.62, RangeSource::data}};
+}
+
 double log10_ratio(const Inputs& x)
 {
     return std::log10(x.ratio());
@@ -43,7 +57,7 @@ std::vector<Regression> other_rows()
          [](const Inputs& x) { return quartic(log10_ratio(x), -0.287, -2.854, -1.733, -0.702, -0.116); },
          nullptr,
          {Input::yield_coefficient, Input::pga},
-         {},
+         hynes_griffin_range(),
          "fits to the published charts",
          hynes_griffin},
         {"hynes-griffin-franklin-1984-upper",
@@ -53,7 +67,7 @@ std::vector<Regression> other_rows()
          [](const Inputs& x) { return quartic(log10_ratio(x), 0.804, -1.847, -0.285, 0.193, 0.078); },
          nullptr,
          {Input::yield_coefficient, Input::pga},
-         {},
+         hynes_griffin_range(),
          "the same; upper bound, no estimate",
          hynes_griffin,
          EnsembleUse::on_request},
@@ -68,7 +82,7 @@ std::vector<Regression> other_rows()
          },
          constant_sigma<450>,
          {Input::yield_coefficient, Input::pga, Input::mean_period, Input::cycles},
-         {},
+         {{Input::ratio, 0.05, 1.0, RangeSource::assumed}},
          "normalised by amax Neq T^2; Neq by Arias intensity is ours",
          yegian,
          EnsembleUse::on_request},
@@ -81,7 +95,7 @@ std::vector<Regression> other_rows()
          },
          nullptr,
          {Input::yield_coefficient, Input::pga, Input::pgv, Input::magnitude},
-         {},
+         fotopoulou_range(),
          "finite-difference models of soil slopes",
          fotopoulou},
         {"fotopoulou-pitilakis-2015-pga-magnitude",
@@ -93,7 +107,7 @@ std::vector<Regression> other_rows()
          },
          nullptr,
          {Input::yield_coefficient, Input::pga, Input::magnitude},
-         {},
+         fotopoulou_range(),
          "the same",
          fotopoulou},
         {"fotopoulou-pitilakis-2015-ratio-magnitude",
@@ -105,7 +119,7 @@ std::vector<Regression> other_rows()
          },
          nullptr,
          {Input::yield_coefficient, Input::pga, Input::magnitude},
-         {},
+         fotopoulou_range(),
          "the same",
          fotopoulou},
         {"fotopoulou-pitilakis-2015-pgv-ratio",
@@ -118,7 +132,7 @@ std::vector<Regression> other_rows()
          },
          nullptr,
          {Input::yield_coefficient, Input::pga, Input::pgv},
-         {},
+         fotopoulou_range(),
          "the same",
          fotopoulou},
         {"hsieh-lee-2011",
@@ -131,7 +145,7 @@ std::vector<Regression> other_rows()
          },
          constant_sigma<294>,
          {Input::yield_coefficient, Input::pga, Input::arias_intensity},
-         {},
+         {{Input::yield_coefficient, 0.01, 0.40, RangeSource::data}},
          "one of the forms of the source",
          hsieh_lee},
     };

@@ -1,44 +1,68 @@
 #include "sliding/empirical/regression.hpp"
 
-#include "core/number.hpp"
+#include "core/status.hpp"
+#include "sliding/empirical/slip_distribution.hpp"
 
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <numbers>
 
 namespace damslip::sliding {
 namespace {
 
-/// Inputs that are needed and not there, or not positive (their logarithm is taken; the magnitude's is not).
-std::vector<std::string> missing_inputs(const Regression& regression, const RegressionInputs& inputs)
+/// The first input that is needed and not there, or not positive (its logarithm is taken; the magnitude's is not).
+std::optional<RegressionInput> missing_input(const Regression& regression, const RegressionInputs& inputs)
 {
-    std::vector<std::string> missing;
     for (const RegressionInput input : regression.inputs) {
         const std::optional<double> value = value_of(inputs, input);
         const bool usable = value && std::isfinite(*value) && (*value > 0.0 || input == RegressionInput::magnitude);
-        if (!usable) missing.push_back(std::string(regression.name) + " needs " + std::string(name_of(input)) + ".");
+        if (!usable) return input;
     }
-    return missing;
+    return std::nullopt;
 }
 
-void warn_outside_validity(const Regression& regression, const RegressionInputs& inputs, RegressionResult& result)
+/// "0.05 to 0.3 g", "1 to 2", "0 s".
+std::string interval(const ValidityRange& range)
 {
-    for (const ValidityRange& range : regression.validity) {
-        const std::optional<double> given = value_of(inputs, range.input);
-        if (!given) continue; // an input the formula does without
-        const double value = *given;
-        if (value >= range.low && value <= range.high) continue;
-        result.within_range = false;
-        result.warnings.push_back(std::string(regression.name) + ": " + std::string(name_of(range.input)) + " = " +
-                                  shortest(value) + " is outside the range of its data, " + shortest(range.low) +
-                                  " to " + shortest(range.high) + ".");
-    }
+    const std::string_view unit = words_of(range.input).unit;
+    std::string text = fmt::format("{:.4g}", range.low);
+    if (range.high > range.low) text += fmt::format(" to {:.4g}", range.high);
+    return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-RegressionResult no_slip(RegressionResult result, std::string_view demand)
+/// What lies outside its range: "a_c 0.007 g, data 0.02 to 0.4 g; M 8, data 5.3 to 7.6"; empty: nothing does.
+std::string outside_ranges(const Regression& regression, const RegressionInputs& inputs)
+{
+    std::string text;
+    for (const ValidityRange& range : regression.validity) {
+        const std::optional<double> value = value_of(inputs, range.input);
+        if (!value || (*value >= range.low && *value <= range.high)) continue; // not given: the formula does without it
+        const RegressionInputWords& words = words_of(range.input);
+        text += fmt::format("{}{} {:.4g}{}{}, data {}", text.empty() ? "" : "; ", words.symbol, *value,
+                            words.unit.empty() ? "" : " ", words.unit, interval(range));
+    }
+    return text;
+}
+
+/// Median and band with P(D = 0) counted: quantiles of zero or log-normal.
+void count_zero(const Regression& regression, RegressionResult& result)
+{
+    const double to_natural = regression.logarithm == Logarithm::decimal ? std::numbers::ln10 : 1.0;
+    const SlipDistribution d[] = {
+        {1.0, *result.zero_probability, *result.nonzero_median_cm, result.sigma * to_natural}};
+    result.minus_sd_cm = quantile(d, normal_cdf(-1.0));
+    result.median_cm = quantile(d, 0.5);
+    result.plus_sd_cm = quantile(d, normal_cdf(1.0));
+}
+
+/// @param demand  [g], which the yield acceleration reaches
+RegressionResult no_slip(RegressionResult result, const RegressionInputs& inputs, double demand,
+                         std::string_view symbol)
 {
     result.status = RegressionStatus::no_slip;
     result.median_cm = result.minus_sd_cm = result.plus_sd_cm = 0.0;
-    result.warnings.push_back("Yield acceleration at or above the " + std::string(demand) +
-                              ": D = 0, the regression is undefined there.");
+    result.remark = fmt::format("a_c {:.4g} g, {} {:.4g} g", inputs.yield_coefficient, symbol, demand);
     return result;
 }
 
@@ -49,31 +73,21 @@ double peak_of_ground(const RegressionInputs& inputs)
     return inputs.pga_g;
 }
 
-std::string_view name_of(RegressionInput input)
+const RegressionInputWords& words_of(RegressionInput input)
 {
-    switch (input) {
-    case RegressionInput::yield_coefficient:
-        return "yield acceleration [g]";
-    case RegressionInput::pga:
-        return "peak ground acceleration [g]";
-    case RegressionInput::arias_intensity:
-        return "Arias intensity [m/s]";
-    case RegressionInput::pgv:
-        return "peak ground velocity [cm/s]";
-    case RegressionInput::mean_period:
-        return "mean period [s]";
-    case RegressionInput::magnitude:
-        return "moment magnitude";
-    case RegressionInput::period:
-        return "period of the sliding mass [s]";
-    case RegressionInput::spectral_13:
-        return "spectral acceleration at 1.3 T_s [g]";
-    case RegressionInput::spectral_15:
-        return "spectral acceleration at 1.5 T_s [g]";
-    case RegressionInput::cycles:
-        return "equivalent number of cycles";
-    }
-    return "";
+    static constexpr std::array words{RegressionInputWords{"yield acceleration", "a_c", "g"},
+                                      RegressionInputWords{"PGA", "PGA", "g"},
+                                      RegressionInputWords{"Arias intensity", "I_a", "m/s"},
+                                      RegressionInputWords{"PGV", "PGV", "cm/s"},
+                                      RegressionInputWords{"mean period", "T_m", "s"},
+                                      RegressionInputWords{"magnitude", "M", ""},
+                                      RegressionInputWords{"period", "T_s", "s"},
+                                      RegressionInputWords{"response spectrum", "S_a(1.3 T_s)", "g"},
+                                      RegressionInputWords{"response spectrum", "S_a(1.5 T_s)", "g"},
+                                      RegressionInputWords{"cycle count", "N_eq", ""},
+                                      RegressionInputWords{"ratio", "a_c/PGA", ""}};
+    static_assert(words.size() == static_cast<std::size_t>(RegressionInput::ratio) + 1);
+    return words[static_cast<std::size_t>(input)];
 }
 
 std::optional<double> value_of(const RegressionInputs& inputs, RegressionInput input)
@@ -99,6 +113,8 @@ std::optional<double> value_of(const RegressionInputs& inputs, RegressionInput i
         return inputs.sa_15_g;
     case RegressionInput::cycles:
         return inputs.cycles;
+    case RegressionInput::ratio:
+        return inputs.pga_g > 0.0 ? std::optional(inputs.ratio()) : std::nullopt;
     }
     return std::nullopt;
 }
@@ -110,42 +126,63 @@ const Regression* find_regression(std::string_view id)
     return nullptr;
 }
 
+bool valid(const RegressionResult& result)
+{
+    return result.status == RegressionStatus::ok || result.status == RegressionStatus::no_slip;
+}
+
+std::string reason(const RegressionResult& result)
+{
+    switch (result.status) {
+    case RegressionStatus::ok:
+        return "valid";
+    case RegressionStatus::no_slip:
+        return "no slip expected";
+    case RegressionStatus::outside_range:
+        return std::string(outside_its_range);
+    case RegressionStatus::static_sliding:
+        return word(Status::static_failure);
+    case RegressionStatus::missing_input:
+        return "needs " + result.remark;
+    }
+    return "";
+}
+
 RegressionResult evaluate(const Regression& regression, const RegressionInputs& inputs)
 {
     RegressionResult result;
     result.regression = &regression;
     if (!(inputs.yield_coefficient > 0.0)) {
         result.status = RegressionStatus::static_sliding;
-        result.warnings.push_back(
-            "The yield acceleration is not above zero: the block slides without an earthquake, no regression applies.");
+        result.remark = "slides without an earthquake";
         return result;
     }
     // Where a_c reaches the ground's peak a rigid block does not move, whether or not the other inputs are there.
     const bool rigid = regression.demand == peak_of_ground;
-    if (rigid && inputs.yield_coefficient >= inputs.pga_g) return no_slip(result, "peak ground acceleration");
-    result.warnings = missing_inputs(regression, inputs);
-    if (!result.warnings.empty()) {
+    if (rigid && inputs.yield_coefficient >= inputs.pga_g) return no_slip(result, inputs, inputs.pga_g, "PGA");
+    if (const auto missing = missing_input(regression, inputs)) {
         result.status = RegressionStatus::missing_input;
+        result.remark = words_of(*missing).name;
         return result;
     }
     if (!rigid && regression.demand && inputs.yield_coefficient >= regression.demand(inputs))
-        return no_slip(result, "peak average acceleration of the sliding mass");
+        return no_slip(result, inputs, regression.demand(inputs), "k_max");
     const double log_median = regression.log_median(inputs);
     const auto displacement = [&](double log_d) {
         return regression.logarithm == Logarithm::decimal ? std::pow(10.0, log_d) : std::exp(log_d);
     };
-    result.median_cm = displacement(log_median);
+    result.median_cm = result.nonzero_median_cm = displacement(log_median);
     if (regression.sigma) {
         result.sigma = regression.sigma(inputs);
         result.minus_sd_cm = displacement(log_median - result.sigma);
         result.plus_sd_cm = displacement(log_median + result.sigma);
     }
-    warn_outside_validity(regression, inputs, result);
     if (regression.zero_probability) {
         result.zero_probability = regression.zero_probability(inputs);
-        result.warnings.push_back("P(D = 0) = " + shortest(std::round(1e3 * *result.zero_probability) / 1e3) +
-                                  "; D is that of nonzero displacements.");
+        count_zero(regression, result);
     }
+    result.remark = outside_ranges(regression, inputs);
+    if (!result.remark.empty()) result.status = RegressionStatus::outside_range;
     return result;
 }
 

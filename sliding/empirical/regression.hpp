@@ -36,21 +36,33 @@ enum class RegressionInput {
     period,
     spectral_13,
     spectral_15,
-    cycles
+    cycles,
+    ratio ///< r = a_c / a_max, never given by itself: for ranges
 };
 
-/// Name for people, with unit: "Arias intensity [m/s]".
-std::string_view name_of(RegressionInput input);
+/// How people call it: name "Arias intensity", symbol "I_a", unit "m/s" (empty: none).
+struct RegressionInputWords {
+    std::string_view name, symbol, unit;
+};
+const RegressionInputWords& words_of(RegressionInput input);
 
 /// The value; nothing where it was not given.
 std::optional<double> value_of(const RegressionInputs& inputs, RegressionInput input);
 
 enum class Logarithm { decimal, natural };
 
+/// Where a range comes from (docs/regressions.md, "Ranges").
+enum class RangeSource {
+    publication, ///< stated by the authors, in the publication or in the spreadsheet they hand out with it
+    data,        ///< the span of the data they name, as others describe it
+    assumed      ///< ours, where neither could be had
+};
+
 /// Interval of an input outside which the authors' data do not reach.
 struct ValidityRange {
     RegressionInput input;
     double low, high;
+    RangeSource source = RangeSource::publication;
 };
 
 /// Whether a regression counts in an ensemble of equal weights.
@@ -71,14 +83,14 @@ struct Regression {
     double (*log_median)(const RegressionInputs&);
     double (*sigma)(const RegressionInputs&); ///< standard deviation of log D; null: the source states none
     std::vector<RegressionInput> inputs;
-    std::vector<ValidityRange> validity; ///< ranges the source states; empty: it states none
+    std::vector<ValidityRange> validity; ///< of all inputs that are given, of those the formula does without too
     std::string_view data_set;
     std::string_view citation;
     EnsembleUse use = EnsembleUse::estimate;
     double (*demand)(const RegressionInputs&) =
         peak_of_ground; ///< [g]; D = 0 where a_c reaches it. null: no such limit
     double (*zero_probability)(const RegressionInputs&) =
-        nullptr; ///< P(D = 0), D above being that of nonzero D; null: none
+        nullptr; ///< P(D = 0), D in log_median and sigma being nonzero D; null: none
 };
 
 /// All of them, in the order of tables.
@@ -88,23 +100,35 @@ std::span<const Regression> regressions();
 const Regression* find_regression(std::string_view id);
 
 enum class RegressionStatus {
-    ok,             ///< value and band are given
+    ok,             ///< value given, all inputs within their ranges
     no_slip,        ///< r >= 1: D = 0; a rigid block does not move below its yield, and the formula is undefined there
+    outside_range,  ///< value given, but an input lies outside its range: to be shown, never to be averaged
     static_sliding, ///< a_y <= 0: the block slides without an earthquake, no value
-    missing_input   ///< see warnings; no value
+    missing_input   ///< see remark; no value
 };
 
 struct RegressionResult {
     const Regression* regression = nullptr;
     RegressionStatus status = RegressionStatus::ok;
-    std::optional<double> median_cm;   ///< D [cm]
-    std::optional<double> minus_sd_cm; ///< 16 %: one standard deviation below [cm]; none where sigma is not published
-    std::optional<double> plus_sd_cm;  ///< 84 %: one standard deviation above [cm]
-    double sigma = 0.0;                ///< of log D, in the regression's logarithm; 0 without a value
-    std::optional<double> zero_probability; ///< P(D = 0) [-], where the model has one; median and band are of nonzero D
-    bool within_range = true;               ///< no input lies outside the validity range
-    std::vector<std::string> warnings;      ///< inputs outside their range, missing inputs, D = 0 by definition
+    std::optional<double> median_cm;         ///< of D, P(D = 0) counted: 0 where that is a half or more [cm]
+    std::optional<double> minus_sd_cm;       ///< 16 % of D, P(D = 0) counted [cm]; none where sigma is not published
+    std::optional<double> plus_sd_cm;        ///< 84 %: one standard deviation above where D is never zero [cm]
+    std::optional<double> nonzero_median_cm; ///< of D > 0, what the formula gives [cm]; none at no_slip
+    double sigma = 0.0;                      ///< of log D > 0, in the regression's logarithm; 0 without a value
+    std::optional<double> zero_probability;  ///< P(D = 0) [-], where the model has one
+    std::string
+        remark; ///< numbers of the status: "a_c 0.007 g, data 0.02 to 0.4 g"; what is missing; empty: nothing to say
 };
+
+/// Does it count: a value (D = 0 included) from inputs within their ranges?
+bool valid(const RegressionResult& result);
+
+/// reason() of a value to be shown but never averaged.
+inline constexpr std::string_view outside_its_range = "outside its range";
+
+/// The status in three words at most: "valid", "no slip expected", "outside its range", "static failure",
+/// "needs magnitude".
+std::string reason(const RegressionResult& result);
 
 RegressionResult evaluate(const Regression& regression, const RegressionInputs& inputs);
 

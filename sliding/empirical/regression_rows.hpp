@@ -17,7 +17,4 @@ inline double quartic(double x, double c0, double c1, double c2, double c3, doub
     return c0 + x * (c1 + x * (c2 + x * (c3 + x * c4)));
 }
 
-/// Distribution function of the standard normal, to round-off in both tails.
-double normal_cdf(double z);
-
 } // namespace damslip::sliding

@@ -39,13 +39,26 @@ constexpr std::string_view records_2007 = "2,270 strong-motion components, 30 ea
 constexpr std::string_view records_arias_2007 = "875 strong-motion components";
 constexpr std::string_view records_2008 = "2,383 strong-motion components";
 
-std::vector<ValidityRange> jibson_range()
+// Ranges; those not of the publication are the span of the data it names (docs/regressions.md, "Ranges").
+std::vector<ValidityRange> ambraseys_range()
+{
+    return {{Input::ratio, 0.1, 0.9}, {Input::magnitude, 6.6, 7.3}};
+}
+std::vector<ValidityRange> jibson_1993_range()
+{
+    return {{Input::yield_coefficient, 0.02, 0.40}, {Input::arias_intensity, 0.2, 10.0}};
+}
+std::vector<ValidityRange> jibson_1998_range()
 {
     return {{Input::yield_coefficient, 0.02, 0.40}};
 }
+std::vector<ValidityRange> jibson_2007_range()
+{
+    return {{Input::yield_coefficient, 0.05, 0.40}, {Input::magnitude, 5.3, 7.6}};
+}
 std::vector<ValidityRange> saygili_range()
 {
-    return {{Input::yield_coefficient, 0.05, 0.30}};
+    return {{Input::yield_coefficient, 0.05, 0.30}, {Input::magnitude, 5.0, 7.9, RangeSource::data}};
 }
 
 } // namespace
@@ -60,7 +73,7 @@ std::vector<Regression> rigid_block_rows()
          [](const Inputs& x) { return 0.90 + ratio_term(x, 2.53, 1.09); },
          constant_sigma<300>,
          {Input::yield_coefficient, Input::pga},
-         {},
+         ambraseys_range(),
          "50 records, 11 earthquakes",
          ambraseys_menu},
         {"jibson-1993",
@@ -70,7 +83,7 @@ std::vector<Regression> rigid_block_rows()
          [](const Inputs& x) { return 1.460 * std::log10(*x.arias_m_s) - 6.642 * x.yield_coefficient + 1.546; },
          constant_sigma<409>,
          {Input::yield_coefficient, Input::arias_intensity},
-         jibson_range(),
+         jibson_1993_range(),
          "11 records",
          jibson_1993},
         {"jibson-1998",
@@ -84,7 +97,7 @@ std::vector<Regression> rigid_block_rows()
          },
          constant_sigma<375>,
          {Input::yield_coefficient, Input::arias_intensity},
-         jibson_range(),
+         jibson_1998_range(),
          "555 records, 13 earthquakes",
          jibson_1998},
         {"jibson-2007-ratio",
@@ -94,7 +107,7 @@ std::vector<Regression> rigid_block_rows()
          [](const Inputs& x) { return 0.215 + ratio_term(x, 2.341, 1.438); },
          constant_sigma<510>,
          {Input::yield_coefficient, Input::pga},
-         {},
+         jibson_2007_range(),
          records_2007,
          jibson_2007},
         {"jibson-2007-ratio-magnitude",
@@ -104,7 +117,7 @@ std::vector<Regression> rigid_block_rows()
          [](const Inputs& x) { return -2.710 + ratio_term(x, 2.335, 1.478) + 0.424 * *x.magnitude; },
          constant_sigma<454>,
          {Input::yield_coefficient, Input::pga, Input::magnitude},
-         {{Input::magnitude, 5.3, 7.6}},
+         jibson_2007_range(),
          records_2007,
          jibson_2007},
         {"jibson-2007-arias",
@@ -116,7 +129,7 @@ std::vector<Regression> rigid_block_rows()
          },
          constant_sigma<656>,
          {Input::yield_coefficient, Input::arias_intensity},
-         {},
+         jibson_2007_range(),
          records_arias_2007,
          jibson_2007},
         {"jibson-2007-arias-ratio",
@@ -126,7 +139,7 @@ std::vector<Regression> rigid_block_rows()
          [](const Inputs& x) { return 0.561 * std::log10(*x.arias_m_s) - 3.833 * std::log10(x.ratio()) - 1.474; },
          constant_sigma<616>,
          {Input::yield_coefficient, Input::pga, Input::arias_intensity},
-         {},
+         jibson_2007_range(),
          records_arias_2007,
          jibson_2007},
         {"saygili-rathje-2008-pga",
@@ -205,7 +218,7 @@ std::vector<Regression> rigid_block_rows()
          },
          [](const Inputs& x) { return 0.73 + x.ratio() * (0.789 - 0.539 * x.ratio()); },
          {Input::yield_coefficient, Input::pga, Input::magnitude},
-         {},
+         saygili_range(),
          "more than 2,000 strong-motion components",
          rathje_saygili},
     };

@@ -97,7 +97,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
         show(wedge_stability_table(scene, model));
         show(wedge_plane_table(scene, *model.wedge));
         show(wedge_yield_table(scene, *model.wedge));
-        show(regression_table(s));
+        show(regression_summary(s));
         show(slip_table(s, scene.criteria.allowable_slip));
         show(statistics_table(s));
         for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
@@ -111,7 +111,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     show(yield_table(s));
     show(lift_joint_table(given));
     show(sliding::uplift_comparison_table(s.uplifts));
-    show(regression_table(s));
+    show(regression_summary(s));
     show(slip_table(s, scene.criteria.allowable_slip));
     if (s.flexible) show(flexible_table(s, scene.criteria.allowable_slip));
     show(statistics_table(s));

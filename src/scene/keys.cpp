@@ -56,7 +56,7 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
     using W = RegressionWeightKey;
     groups.push_back(list_group<W>(
         "regressions.weight",
-        "Weight of one regression in the weighted mean and band; without any, all that are valid count equally.",
+        "Weight of one regression in the weighted median and band; without any, all that are valid count equally.",
         [](Scene& s) -> std::vector<W>& { return s.regressions.weights; },
         {word("model", "required", "id of a regression, as listed in docs/regressions.md", "\"jibson-2007-ratio\"",
               at(&W::model)),

@@ -203,7 +203,7 @@ struct Motion {
 enum class LiftOff { no_friction, ballistic };
 enum class SlidingScheme { exact, slammer };
 
-/// Weight of one empirical regression in the weighted mean and band.
+/// Weight of one empirical regression in the weighted median and band.
 struct RegressionWeightKey {
     std::string model;   ///< id, as in docs/regressions.md
     double weight = 1.0; ///< relative to the others [-]

@@ -1,4 +1,4 @@
-// Regressions in `screen`: the weighted mean under those of each record, weights and period from the scene.
+// Regressions in `screen`: the weighted median under those of each record, weights and period from the scene.
 #include "cli/run/screening.hpp"
 #include "core/input_error.hpp"
 #include "records/measure/measures.hpp"
@@ -47,11 +47,11 @@ const RegressionRow* row_named(const std::vector<RegressionRow>& rows, const std
 
 } // namespace
 
-TEST(ScreenRegressions, weighted_mean_is_the_last_row)
+TEST(ScreenRegressions, weighted_median_is_the_last_row)
 {
     const auto rows = regression_rows_of("");
     ASSERT_FALSE(rows.empty());
-    EXPECT_EQ(rows.back().model, "weighted mean");
+    EXPECT_EQ(rows.back().model, "weighted median");
     EXPECT_GT(*rows.back().median, 0.0);
     EXPECT_LT(*rows.back().low, *rows.back().high);
     EXPECT_NE(rows.back().remark.find("equal weights"), std::string::npos) << rows.back().remark;
@@ -63,21 +63,29 @@ TEST(ScreenRegressions, weights_of_the_scene)
                                          "[[regressions.weight]]\nmodel = \"ambraseys-menu-1988\"\nweight = 3\n");
     const RegressionRow *a = row_named(rows, "Ambraseys & Menu 1988"), *b = row_named(rows, "Jibson 2007 (6)");
     ASSERT_TRUE(a && b);
-    EXPECT_NEAR(*rows.back().median, 0.75 * *a->median + 0.25 * *b->median, 1e-12);
-    EXPECT_NE(rows.back().remark.find("2 valid regressions, weights of the scene"), std::string::npos);
+    // The quantile of the mixture: 0.75 Phi(log10(D/a)/0.30) + 0.25 Phi(log10(D/b)/0.51) = 1/2.
+    const auto phi = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+    EXPECT_NEAR(0.75 * phi(std::log10(*rows.back().median / *a->median) / 0.30) +
+                    0.25 * phi(std::log10(*rows.back().median / *b->median) / 0.51),
+                0.5, 1e-12);
+    EXPECT_DOUBLE_EQ(*a->weight, 0.75);
+    EXPECT_DOUBLE_EQ(*b->weight, 0.25);
+    EXPECT_EQ(rows.back().remark, "of 2, weights of the scene");
     EXPECT_THROW(regression_rows_of("[[regressions.weight]]\nmodel = \"jibson-207\"\n"), InputError);
 }
 
 // A magnitude calls the models that ask for one; a period those of flexible masses.
 TEST(ScreenRegressions, magnitude_and_period)
 {
-    EXPECT_EQ(row_named(regression_rows_of(""), "Bray & Travasarou 2007"), nullptr);
+    const auto bare = regression_rows_of("");
+    EXPECT_EQ(row_named(bare, "Bray & Travasarou 2007")->status, "needs magnitude");
+    EXPECT_FALSE(row_named(bare, "Bray & Travasarou 2007")->median);
     const auto rigid = regression_rows_of("", "magnitude = 6.5\n");
-    EXPECT_NE(row_named(rigid, "Bray & Travasarou 2007"), nullptr);
-    EXPECT_EQ(row_named(rigid, "Bray & Macedo 2019, general"), nullptr);
+    EXPECT_EQ(row_named(rigid, "Bray & Travasarou 2007")->status, "valid");
+    EXPECT_EQ(row_named(rigid, "Bray & Macedo 2019, general")->status, "needs period");
     const auto flexible = regression_rows_of("[regressions]\nperiod_s = 0.3\n", "magnitude = 6.5\n");
-    EXPECT_NE(row_named(flexible, "Bray & Macedo 2019, general"), nullptr);
-    EXPECT_NE(row_named(flexible, "Rathje & Antonakos 2011, PGA, M"), nullptr);
+    EXPECT_TRUE(row_named(flexible, "Bray & Macedo 2019, general")->median);
+    EXPECT_TRUE(row_named(flexible, "Rathje & Antonakos 2011, PGA, M")->median);
     // The oscillators of 0.39 and 0.45 s are near the 0.5 s of the motion: more slip than of the rigid mass.
     EXPECT_GT(*row_named(flexible, "Bray & Travasarou 2007")->median,
               *row_named(rigid, "Bray & Travasarou 2007")->median);

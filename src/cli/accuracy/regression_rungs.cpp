@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::size_t shown = 3;
 
-bool valid(const sliding::RegressionResult& r)
-{
-    return r.median_cm && r.within_range;
-}
-
 /// Standard deviation of ln D.
 double natural_sigma(const sliding::RegressionResult& r)
 {
@@ -39,8 +34,8 @@ std::optional<RegressionSlip> ensemble_slip(const Scene& scene, const std::vecto
     for (const RegressionWeightKey& key : scene.regressions.weights)
         if (sliding::find_regression(key.model)) weights.push_back({key.model, key.weight});
     const sliding::Ensemble e = sliding::weighted_ensemble(results, weights);
-    if (!e.mean_cm) return std::nullopt;
-    RegressionSlip slip{*e.mean_cm * units::cm, {}, {}, fmt::format("{} regressions", e.members.size())};
+    if (!e.median_cm) return std::nullopt;
+    RegressionSlip slip{*e.median_cm * units::cm, {}, {}, fmt::format("{} regressions", e.members.size())};
     if (e.low_cm) slip.low = *e.low_cm * units::cm;
     if (e.high_cm) slip.high = *e.high_cm * units::cm;
     return slip;
@@ -54,7 +49,7 @@ std::optional<RegressionSlip> regression_slip(const std::string& id, const Scene
     const std::vector<sliding::RegressionResult> results = results_of(scene, record, model);
     if (id == "ensemble") return ensemble_slip(scene, results);
     for (const sliding::RegressionResult& r : results) {
-        if (r.regression->id != id || !valid(r)) continue;
+        if (r.regression->id != id || !sliding::valid(r)) continue;
         RegressionSlip slip{*r.median_cm * units::cm, {}, {}, ""};
         if (r.minus_sd_cm) slip.low = *r.minus_sd_cm * units::cm;
         if (r.plus_sd_cm) slip.high = *r.plus_sd_cm * units::cm;
@@ -75,7 +70,7 @@ std::vector<std::string> best_regressions(const Scene& given, const std::vector<
         const auto results = results_of(scene, record, model);
         ensemble = ensemble && ensemble_slip(scene, results);
         for (const sliding::RegressionResult& r : results) {
-            if (!valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
+            if (!sliding::valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
             auto& [count, scatter] = seen[r.regression->id];
             ++count;
             scatter = std::max(scatter, natural_sigma(r));

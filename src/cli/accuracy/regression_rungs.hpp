@@ -10,7 +10,7 @@ namespace damslip::cli {
 
 /// Slip by one regression, or by all that are valid together.
 struct RegressionSlip {
-    double median = 0.0;             ///< [m]; of the ensemble the weighted mean
+    double median = 0.0;             ///< [m], P(D = 0) counted; of the ensemble the weighted median
     std::optional<double> low, high; ///< 16 and 84 % [m]; none where no sigma is published
     std::string remark;              ///< for the ensemble how many
 };

@@ -52,13 +52,6 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std
     return rows;
 }
 
-std::string joined(const std::vector<std::string>& sentences)
-{
-    std::string out;
-    for (const std::string& sentence : sentences) out += (out.empty() ? "" : "; ") + sentence;
-    return out;
-}
-
 /// The scene's weights. @throws InputError for an id that no regression has.
 std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
 {
@@ -82,16 +75,56 @@ std::optional<double> metres(const std::optional<double>& value_cm)
     return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
 }
 
-/// The weighted mean with the 16 and 84 % of the weighted distribution; nothing where no regression is valid.
-std::optional<RegressionRow> ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
+RegressionRow regression_row(const std::string& record, const sliding::RegressionResult& r)
 {
-    if (!e.mean_cm) return std::nullopt;
-    std::string remark = fmt::format("{} valid regressions, {}; median {:.4g} mm; band: 16 and 84 %", e.members.size(),
-                                     weights_given ? "weights of the scene" : "equal weights", 10.0 * *e.median_cm);
+    RegressionRow row;
+    row.record = record;
+    row.id = r.regression->id;
+    row.model = r.regression->name;
+    row.median = metres(r.median_cm), row.low = metres(r.minus_sd_cm), row.high = metres(r.plus_sd_cm);
+    row.nonzero_median = metres(r.nonzero_median_cm);
+    row.zero_probability = r.zero_probability;
+    row.valid = sliding::valid(r);
+    row.status = sliding::reason(r);
+    if (r.status != sliding::RegressionStatus::missing_input) row.remark = r.remark; // which the status names
+    return row;
+}
+
+/// 16, 50 and 84 % of the weighted distribution; no numbers where no regression is valid.
+RegressionRow ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
+{
+    RegressionRow row;
+    row.record = record;
+    row.id = weighted_median_id;
+    row.model = "weighted median";
+    row.valid = e.median_cm.has_value();
+    row.status = row.valid ? "valid" : "no regression valid";
+    row.remark = "no regression valid here";
+    if (!row.valid) return row;
+    row.median = metres(e.median_cm), row.low = metres(e.low_cm), row.high = metres(e.high_cm);
+    row.remark = fmt::format("of {}, {}", e.members.size(), weights_given ? "weights of the scene" : "equal weights");
     if (weights_given && e.weight_left_out > 0.0)
-        remark +=
-            fmt::format("; {:.3g} % of the weight is on regressions without a valid value", 100.0 * e.weight_left_out);
-    return RegressionRow{record, "weighted mean", metres(e.mean_cm), metres(e.low_cm), metres(e.high_cm), remark};
+        row.remark += fmt::format("; {:.3g} % of the weight on others", 100.0 * e.weight_left_out);
+    return row;
+}
+
+/// Every regression in table order, then all valid ones weighted.
+std::vector<RegressionRow> regression_rows_of(const std::string& record,
+                                              const std::vector<sliding::RegressionResult>& results,
+                                              const std::vector<sliding::RegressionWeight>& weights)
+{
+    const sliding::Ensemble ensemble = sliding::weighted_ensemble(results, weights);
+    std::vector<RegressionRow> rows;
+    for (const sliding::RegressionResult& r : results) {
+        rows.push_back(regression_row(record, r));
+        const auto member = std::find(ensemble.members.begin(), ensemble.members.end(), r.regression->id);
+        if (member != ensemble.members.end())
+            rows.back().weight = ensemble.weights[static_cast<std::size_t>(member - ensemble.members.begin())];
+        else if (rows.back().valid && rows.back().remark.empty())
+            rows.back().remark = "not weighted";
+    }
+    rows.push_back(ensemble_row(record, ensemble, !weights.empty()));
+    return rows;
 }
 
 std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
@@ -100,14 +133,13 @@ std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel&
     const std::vector<sliding::RegressionWeight> weights = regression_weights(scene);
     std::vector<RegressionRow> rows;
     for (const RecordPair& pair : records) {
-        const auto results =
-            sliding::evaluate_all(regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period));
-        for (const sliding::RegressionResult& r : results)
-            if (r.status != sliding::RegressionStatus::missing_input)
-                rows.push_back({pair.files.name, std::string(r.regression->name), metres(r.median_cm),
-                                metres(r.minus_sd_cm), metres(r.plus_sd_cm), joined(r.warnings)});
-        if (auto row = ensemble_row(pair.files.name, sliding::weighted_ensemble(results, weights), !weights.empty()))
-            rows.push_back(std::move(*row));
+        auto inputs = regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period);
+        const bool stands = model.state == sliding::StaticState::at_rest;
+        if (!stands) inputs.yield_coefficient = 0.0; // no regression is of a block that floats or slides upstream
+        for (RegressionRow& row : regression_rows_of(pair.files.name, sliding::evaluate_all(inputs), weights)) {
+            if (!stands && row.id != weighted_median_id) row.status = word(sliding::status_of(model.state));
+            rows.push_back(std::move(row));
+        }
     }
     return rows;
 }

@@ -51,11 +51,21 @@ struct SlipRow {
     const sliding::SlideResult& judged() const { return governing().slide; }
 };
 
+/// Id of the row of all valid regressions.
+inline constexpr std::string_view weighted_median_id = "weighted-median";
+
+/// One regression, or all valid ones weighted, for one record.
 struct RegressionRow {
     std::string record;
+    std::string id; ///< "jibson-1998", "weighted-median"
     std::string model;
-    std::optional<double> median, low, high; ///< slip and its -1/+1 sigma band [m]; none: not defined here
-    std::string remark;                      ///< outside its range, or why not defined
+    std::optional<double> median, low, high; ///< 50, 16 and 84 % of the slip, P(D = 0) counted [m]; none: no value
+    std::optional<double> nonzero_median;    ///< of slips above zero [m]
+    std::optional<double> zero_probability;  ///< P(D = 0) [-], where the model has one
+    bool valid = false;                      ///< has a value from inputs within their ranges
+    std::string status;                      ///< in three words at most: "valid", "outside its range"
+    std::optional<double> weight;            ///< share in the weighted median [-]; none: does not count
+    std::string remark;                      ///< numbers of the status
 };
 
 /// Over the records, each with the worse polarity. Records whose worse polarity has no slip are counted by their status.

@@ -206,7 +206,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
     if (!s.regressions.empty())
         section.parts.push_back(
-            TablePart{regression_table(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
+            TablePart{regression_summary(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
     return section;
 }
 

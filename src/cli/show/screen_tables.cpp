@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace damslip::cli {
 
@@ -78,6 +79,30 @@ void note_verdict(const Screening& s, const std::optional<double>& allowable, Ta
     if (std::any_of(s.slips.begin(), s.slips.end(),
                     [](const SlipRow& row) { return std::isnan(row.governing().error); }))
         table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
+}
+
+constexpr std::string_view regressions_title =
+    "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
+
+/// What gives no answer of its own for a record, by reason: "El Centro: outside its range, not weighted: jibson-1993
+/// 707.7 mm, ...; no slip expected: 8; needs magnitude: 7." Empty: nothing.
+std::string folded_line(const Screening& s, const std::string& record)
+{
+    std::vector<std::string> reasons;
+    std::map<std::string, std::size_t> count;
+    std::string outside;
+    for (const RegressionRow& row : s.regressions) {
+        if (row.record != record || row.status == "valid" || row.id == weighted_median_id) continue;
+        if (count[row.status]++ == 0) reasons.push_back(row.status);
+        if (!row.valid && row.median)
+            outside += fmt::format("{}{} {:.4g} mm", outside.empty() ? "" : ", ", row.id, *row.median / mm);
+    }
+    std::string line;
+    for (const std::string& reason : reasons)
+        line += fmt::format("{}{}", line.empty() ? record + ": " : "; ",
+                            reason == sliding::outside_its_range ? reason + ", not weighted: " + outside
+                                                                 : fmt::format("{}: {}", reason, count[reason]));
+    return line.empty() ? line : line + ".";
 }
 
 } // namespace
@@ -193,16 +218,47 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
 Table regression_table(const Screening& s)
 {
     Table t;
-    t.title = "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
+    t.title = regressions_title;
+    t.columns = {{"record", "record", "", 4},
+                 {"id", "id", "", 4},
+                 {"model", "regression", "", 4},
+                 {"slip_mm", "slip", "mm", 4},
+                 {"slip_minus_sigma_mm", "16 %", "mm", 4},
+                 {"slip_plus_sigma_mm", "84 %", "mm", 4},
+                 {"zero_probability", "P(D = 0)", "–", 3},
+                 {"nonzero_slip_mm", "slip where D > 0", "mm", 4},
+                 {"status", "status", "", 4},
+                 {"weight", "weight", "–", 3},
+                 {"remark", "remark", "", 4}};
+    for (const RegressionRow& row : s.regressions)
+        t.rows.push_back({row.record, row.id, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm),
+                          cell(row.zero_probability), cell(row.nonzero_median, mm), row.status, cell(row.weight),
+                          row.remark});
+    return t;
+}
+
+Table regression_summary(const Screening& s)
+{
+    Table t;
+    t.title = regressions_title;
     t.columns = {{"record", "record", "", 4},
                  {"model", "regression", "", 4},
                  {"slip_mm", "slip", "mm", 4},
-                 {"slip_minus_sigma_mm", "−1σ", "mm", 4},
-                 {"slip_plus_sigma_mm", "+1σ", "mm", 4},
-                 {"remark", "remark", "", 4}};
-    for (const RegressionRow& row : s.regressions)
-        t.rows.push_back(
-            {row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm), row.remark});
+                 {"slip_minus_sigma_mm", "16 %", "mm", 4},
+                 {"slip_plus_sigma_mm", "84 %", "mm", 4}};
+    const bool zeros = std::any_of(s.regressions.begin(), s.regressions.end(),
+                                   [](const RegressionRow& row) { return row.valid && row.zero_probability; });
+    if (zeros) t.columns.push_back({"zero_probability", "P(D = 0)", "–", 3});
+    t.columns.push_back({"remark", "remark", "", 4});
+    for (const RegressionRow& row : s.regressions) {
+        const bool weighted = row.id == weighted_median_id;
+        if (!weighted && row.status != "valid") continue;
+        t.rows.push_back({row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm)});
+        if (zeros) t.rows.back().push_back(cell(row.zero_probability));
+        t.rows.back().push_back(row.remark);
+        if (std::string line = weighted ? folded_line(s, row.record) : ""; !line.empty())
+            t.notes.push_back(std::move(line));
+    }
     return t;
 }
 

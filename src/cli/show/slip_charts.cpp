@@ -258,9 +258,9 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
     chart.title = "Regressions beside the rigid block";
     chart.x.label = "regression";
     chart.y = {"slip", "mm", Scale::asinh, 0.1, {}, {}, {}};
-    Curve curve{"regression, band ±1σ", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
+    Curve curve{"regression, 16 to 84 %", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
     for (const RegressionRow& row : s.regressions) {
-        if (row.record != s.slips[2 * number].record) continue;
+        if (row.record != s.slips[2 * number].record || !row.valid) continue;
         curve.x.push_back(static_cast<double>(chart.x.categories.size()));
         chart.x.categories.push_back(row.model);
         curve.y.push_back(row.median.value_or(nothing) / mm);
@@ -279,8 +279,8 @@ std::optional<report::Chart> regressions_beside(const Screening& s, std::size_t 
                                       [](const report::Line& line) { return line.at <= 0; });
     if (!any_zero) chart.y.scale = Scale::log;
     chart.curves.push_back(std::move(curve));
-    chart.note =
-        "Regressions take the horizontal component only; no point where one is not defined for this a_y and record.";
+    chart.note = "Regressions take the horizontal component only; no point where a_y, record or magnitude lie outside "
+                 "their data.";
     return chart;
 }
 

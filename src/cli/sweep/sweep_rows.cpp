@@ -33,7 +33,8 @@ std::optional<double> number_of(const FinishedRow& row, ResultColumn column)
     return value ? std::optional(*value) : std::nullopt;
 }
 
-/// Median and band of a regression. A block that does not stand has none.
+/// Median and band of a regression; the status says what is the matter with them, if anything. A block that does not stand
+/// has none.
 Results regression_results(const sliding::Regression& regression, const sliding::RegressionInputs& inputs,
                            sliding::StaticState state)
 {
@@ -46,13 +47,11 @@ Results regression_results(const sliding::Regression& regression, const sliding:
     const auto metres = [](const std::optional<double>& value_cm) {
         return value_cm ? Cell(*value_cm * units::cm) : Cell();
     };
-    std::string status;
-    for (const std::string& warning : r.warnings) status += (status.empty() ? "" : "; ") + warning;
     Results results;
     results.slip = results.max_slip = metres(r.median_cm);
     results.slip_low = metres(r.minus_sd_cm);
     results.slip_high = metres(r.plus_sd_cm);
-    results.status = status;
+    if (r.status != sliding::RegressionStatus::ok) results.status = sliding::reason(r);
     return results;
 }
 

@@ -1,6 +1,7 @@
 #include "cli/sweep/sweep_rows_view.hpp"
 
 #include "cli/sweep/sweep_rows.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,6 +98,8 @@ SweepView sweep_view(const Table& table)
         if (r.unanswered()) r.slip.reset();
         r.error_known = cells.word(row, "remark") != no_error_estimate;
         r.id = static_cast<std::int64_t>(cells.number(row, "id").value_or(0.0));
+        // Nor has a regression outside its data one to draw or to take medians of; the file has it.
+        if (r.status == sliding::outside_its_range) r.slip.reset(), r.low.reset(), r.high.reset();
         place_of(view.methods, r.method);
         place_of(view.records, r.record);
         place_of(view.frictions, r.friction);
