@@ -1,6 +1,7 @@
 #include "fe2d/solver/cholmod_factor.hpp"
 
 #include <cstring>
+#include <new>
 
 namespace damslip::fe2d {
 
@@ -78,7 +79,8 @@ void CholmodFactor::solve(double* columns, int n, int count)
     b.x = columns;
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &result_, nullptr, &work_y_, &work_e_, &common_);
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &result_, nullptr, &work_y_, &work_e_, &common_))
+        throw std::bad_alloc(); // sizes are right: nothing else can fail
     std::memcpy(columns, result_->x, b.nzmax * sizeof(double));
 }
 

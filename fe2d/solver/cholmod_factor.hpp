@@ -20,7 +20,7 @@ public:
                  bool supernodal);
     /// @returns false when CHOLMOD reports a pivot it cannot use or lack of memory (see `out_of_memory`).
     bool factorise(int n, std::vector<int>& columns, std::vector<int>& rows, std::vector<double>& values);
-    /// In place, `count` columns of length n.
+    /// In place, `count` columns of length n. @throws std::bad_alloc
     void solve(double* columns, int n, int count);
 
     bool out_of_memory() const

@@ -215,6 +215,7 @@ const SolverReport& LinearSolver::factorise(const Eigen::SparseMatrix<double>& m
     assert(matrix.rows() == matrix.cols());
     use_one_blas_thread();
     implementation_->begin_report(matrix);
+    if (implementation_->report.supernodal) demand_blas_memory();
     const SolverStatus status = implementation_->run(matrix);
     if (status == SolverStatus::out_of_memory) throw std::bad_alloc();
     implementation_->report.status = status;

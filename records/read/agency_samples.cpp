@@ -54,14 +54,20 @@ void warn_if_down(Record& record)
                                   "`record scale --factor -1`");
 }
 
-void warn_if_peak_differs(Record& record, double stated, double resolution)
+void check_stated_peak(const RecordText& text, Record& record, const StatedPeak& stated)
 {
+    constexpr double worth_a_word = 0.01, too_much = 0.10;
     double peak = 0.0;
     for (const double a : record.acceleration) peak = std::max(peak, std::abs(a));
-    const double off = std::abs(peak - std::abs(stated));
-    if (off > 0.01 * std::abs(stated) && off > resolution)
-        record.warnings.push_back(fmt::format("the largest sample is {:.4g} m/s2, the file's header says {:.4g} m/s2",
-                                              peak, std::abs(stated)));
+    const double said = std::abs(stated.accel), off = std::abs(peak - said);
+    if (off <= stated.resolution || off <= worth_a_word * said) return;
+    const std::string both =
+        fmt::format("the largest sample is {:.4g} m/s2, the file's header says {:.4g} m/s2", peak, said);
+    if (off > too_much * said)
+        refuse(text, {stated.line, 0}, both + fmt::format(" (samples in {}).", record.source.unit),
+               fmt::format("the same peak within {:.0f} %", 100.0 * too_much),
+               "the unit line, the peak or the samples are wrong: get the file anew from its source, or correct it");
+    record.warnings.push_back(both);
 }
 
 std::vector<Record> chosen_channels(const RecordText& text, std::vector<Record> records, const ReadOptions& options)

@@ -23,9 +23,17 @@ std::size_t checked_sample_count(const RecordText& text, double count, Place pla
 /// Adds a warning to a component whose name says that it is positive downwards.
 void warn_if_down(Record& record);
 
-/// The peak of the samples beside the one the file states. @param stated  [m/s^2]; differing by more than 1 % and by
-/// more than `resolution` [m/s^2] (half of the last digit printed) is a warning
-void warn_if_peak_differs(Record& record, double stated, double resolution);
+/// A peak that a file states beside its samples.
+struct StatedPeak {
+    double accel;      ///< [m/s^2]; of either sign
+    double resolution; ///< half of the last digit printed, at least [m/s^2]
+    std::size_t line;  ///< where it stands
+};
+
+/// The peak of the samples beside the one the file states. Up to a resolution they agree; more than 1 % apart is a
+/// warning. @throws InputError naming both numbers where they are more than 10 % apart: a unit that is wrong, samples
+/// that are missing or a number that was cut are worse than that, another processing is not
+void check_stated_peak(const RecordText& text, Record& record, const StatedPeak& stated);
 
 /// The channels of a file, those of equal names told apart by "(channel 3)"; with options.column the one it names:
 /// by name, first word of the name ("90" of "90 DEG") or number from 1. @throws InputError: there is none of that name.

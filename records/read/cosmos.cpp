@@ -198,6 +198,15 @@ void warn_of_length(const Channel& channel, double dt, Record& record)
         record.warnings.push_back(fmt::format("the header says {} s, but {} samples of {} s are there", length, n, dt));
 }
 
+/// Real header value 64: the largest of the samples, in their unit; of either sign. Zero and "unknown" say nothing.
+void check_peak(const RecordText& text, const Channel& channel, const AccelerationUnit& unit, Record& record)
+{
+    const double peak = channel.reals.at(63);
+    if (peak == channel.unknown_real || peak == 0.0) return;
+    check_stated_peak(text, record,
+                      {peak * unit.factor, 0.001 * std::abs(peak) * unit.factor, channel.reals.place(63).line});
+}
+
 Record read_channel(const RecordText& text, const Channel& channel, const ReadOptions& options)
 {
     const AccelerationUnit unit = unit_of(text, channel, options);
@@ -233,6 +242,7 @@ Record read_channel(const RecordText& text, const Channel& channel, const ReadOp
     source.last_line = line_after(*format, first, count.value) - 1;
     Record record = finished_record(text, samples_of(text, values, unit, *format, first, channel.unknown_real), dt,
                                     std::move(source));
+    check_peak(text, channel, unit, record);
     warn_of_length(channel, dt, record);
     warn_of_site(channel, record);
     warn_if_down(record);

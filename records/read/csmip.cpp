@@ -270,6 +270,25 @@ Record read_channel(const RecordText& text, const Channel& channel, const ReadOp
     return read_unnamed_samples(text, channel, options);
 }
 
+/// "PEAK ACCELERATION =   -421.547 CM/SEC/SEC     AT   4.880 SEC" of a corrected channel.
+void check_peak(const RecordText& text, const Channel& channel, Record& record)
+{
+    if (channel.volume != Volume::corrected) return;
+    const std::size_t end = std::min(channel.last, channel.first + layout_of(channel.volume).text_lines - 1);
+    for (std::size_t line = channel.first; line <= end; ++line) {
+        const std::string_view s = text.lines[line - 1];
+        const std::size_t at = lower(s).find("peak accel"), equals = at == std::string::npos ? at : s.find('=', at);
+        if (equals == std::string_view::npos) continue;
+        std::size_t used = 0;
+        const auto peak = parse_number(s.substr(equals + 1), &used);
+        const std::string_view rest = trimmed(s.substr(equals + 1 + used));
+        const auto unit = acceleration_unit(rest.substr(0, rest.find_first_of(" \t")));
+        if (peak && unit)
+            check_stated_peak(text, record, {*peak * unit->factor, 0.001 * std::abs(*peak) * unit->factor, line});
+        return;
+    }
+}
+
 } // namespace
 
 bool looks_like_csmip(const RecordText& text)
@@ -292,6 +311,7 @@ std::vector<Record> read_csmip(const RecordText& text, const ReadOptions& option
     std::vector<Record> records;
     for (const Channel& channel : channels) {
         records.push_back(read_channel(text, channel, options));
+        check_peak(text, channel, records.back());
         warn_if_down(records.back());
     }
     return chosen_channels(text, std::move(records), options);

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
+#include "records/read/cut_end.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -54,6 +55,12 @@ void demand_acceleration(const RecordText& text, std::size_t header)
                "DATA_TYPE: ACCELERATION", "take the acceleration file of the record (.ACC.MP.ASC and the like)");
 }
 
+/// The unit that the key of the peak names itself, whatever the line UNITS says: "PGA_CM/S^2".
+std::optional<AccelerationUnit> unit_of_key(std::string_view line)
+{
+    return acceleration_unit(trimmed(line.substr(4, line.find(':') - 4)));
+}
+
 std::vector<double> read_values(const RecordText& text, std::size_t first, const AccelerationUnit& unit)
 {
     std::vector<double> accel;
@@ -94,6 +101,7 @@ std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
     const Stated<std::size_t> count{checked_sample_count(text, number_of(text, header, "ndata"), count_place, "NDATA"),
                                     count_place.line};
     std::vector<double> accel = read_values(text, header + 1, unit);
+    refuse_cut_end(text, header + 1);
     check_count(text, count, accel.size(), "NDATA");
 
     const auto words = [&](std::string_view key) {
@@ -111,9 +119,11 @@ std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
     source.last_line = text.lines.size();
     Record record = finished_record(text, std::move(accel), dt, std::move(source));
     for (std::size_t k = 0; k < header; ++k) // "PGA_CM/S^2: -46.4"
-        if (lower(text.lines[k]).starts_with("pga_"))
+        if (lower(text.lines[k]).starts_with("pga_")) {
+            const AccelerationUnit peak_unit = unit_of_key(text.lines[k]).value_or(unit);
             if (const auto stated = parse_whole_number_text(text.lines[k].substr(text.lines[k].find(':') + 1)))
-                warn_if_peak_differs(record, *stated * unit.factor, 0.001 * unit.factor);
+                check_stated_peak(text, record, {*stated * peak_unit.factor, 0.001 * peak_unit.factor, k + 1});
+        }
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);

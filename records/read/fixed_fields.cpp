@@ -4,6 +4,7 @@
 #include "records/read/samples.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace damslip::records {
 
@@ -93,6 +94,11 @@ std::vector<double> read_fields(const RecordText& text, std::size_t first, std::
                        std::to_string(format.per_line) + " fields of " + std::to_string(format.width) +
                            " characters a line",
                        "check that the line was not changed: these fields are read by their columns");
+            const bool ends_file = line == text.lines.size() && at + field.size() == s.size();
+            if (ends_file && !text.last_line_ended && field.size() < format.width)
+                refuse(text, place,
+                       fmt::format("the last number, {}, ends in the middle of its field.", in_quotes(trimmed(field))),
+                       std::to_string(format.width) + " characters", "the file looks cut: get it anew from its source");
             values.push_back(value);
         }
     }

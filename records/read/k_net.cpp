@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
+#include "records/read/cut_end.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,7 @@ std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& option
     const Direction direction = direction_of(text, value("dir."));
 
     std::vector<double> accel = read_counts(text, header + 1, count);
+    refuse_cut_end(text, header + 1);
     check_count(text, count, accel.size(), "number of samples (frequency times duration)");
     for (double& a : accel) a = checked_sample(text, a * gal, unit, {header + 1, 0});
     const double offset = remove_offset(accel, dt);
@@ -150,7 +152,7 @@ std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& option
     if (direction.borehole) record.warnings.push_back("recorded in a borehole, not at the surface");
     const auto peak = value("max. acc");
     if (const auto stated = parse_number(peak.value))
-        warn_if_peak_differs(record, *stated * unit.factor, 0.001 * unit.factor);
+        check_stated_peak(text, record, {*stated * unit.factor, 0.001 * unit.factor, peak.line});
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);

@@ -1,6 +1,7 @@
 #include "records/read/number_table.hpp"
 
 #include "core/number.hpp"
+#include "records/read/cut_end.hpp"
 #include "records/read/header.hpp"
 #include "records/read/samples.hpp"
 #include "records/transform/transform.hpp"
@@ -211,6 +212,7 @@ NumberTable read_number_table(const RecordText& text)
         if (!is_comment(text.lines[line - 1]) && !trimmed(text.lines[line - 1]).empty())
             read_row(text, line, fields, table);
     read_headings(text, *first, table.width(0), table);
+    refuse_cut_end(text, *first);
     return table;
 }
 

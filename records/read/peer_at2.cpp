@@ -1,6 +1,7 @@
 #include "records/read/peer_at2.hpp"
 
 #include "core/number.hpp"
+#include "records/read/cut_end.hpp"
 #include "records/read/samples.hpp"
 #include "records/transform/transform.hpp"
 
@@ -134,6 +135,7 @@ std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& opt
     const double dt = *settle_dt(text, header.dt, options);
     std::vector<double> accel = read_values(text, last + 1, unit, header.samples.value);
     check_count(text, header.samples, accel.size(), "NPTS");
+    refuse_cut_end(text, last + 1);
 
     RecordSource source;
     source.format = "PEER AT2";

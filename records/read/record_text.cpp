@@ -39,11 +39,12 @@ void refuse_what_is_no_text(std::string_view content, const RecordText& text)
 
 RecordText split_lines(std::string_view content, std::string_view file_name)
 {
-    RecordText text{file_name, {}};
+    RecordText text{file_name, {}, true};
     if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
     refuse_what_is_no_text(content, text);
     // Lines end with LF or CRLF; a file without any LF may use CR alone.
     const char line_end = content.find('\n') == std::string_view::npos ? '\r' : '\n';
+    text.last_line_ended = content.ends_with(line_end);
     std::size_t begin = 0;
     while (begin < content.size()) {
         const std::size_t end = std::min(content.find(line_end, begin), content.size());

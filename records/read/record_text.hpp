@@ -10,6 +10,7 @@ namespace damslip::records {
 struct RecordText {
     std::string_view file_name;
     std::vector<std::string_view> lines;
+    bool last_line_ended = true; ///< by a line end: a file that was cut mostly has none
 };
 
 /// Place in a RecordText, both from 1; 0: the line or the file as a whole.

@@ -98,6 +98,15 @@ void warn_of_site(const Header& header, Record& record)
     }
 }
 
+/// Real header values 30 and 32: the largest and the smallest sample, in cm/s2.
+void check_peak(const RecordText& text, const Header& header, const AccelerationUnit& unit, Record& record)
+{
+    const double missing = header.reals[0], largest = header.reals[29], smallest = header.reals[31];
+    if (largest == missing || smallest == missing || (largest == 0.0 && smallest == 0.0)) return;
+    const double peak = std::max(std::abs(largest), std::abs(smallest));
+    check_stated_peak(text, record, {peak * unit.factor, 0.001 * peak * unit.factor, real_line + 29 / 5});
+}
+
 } // namespace
 
 bool looks_like_smc(const RecordText& text)
@@ -153,6 +162,7 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
     source.last_line = line_after(sample_format, first, count.value) - 1;
     Record record = finished_record(text, samples_of(text, values, unit, sample_format, first, header.reals[0]), dt,
                                     std::move(source));
+    check_peak(text, header, unit, record);
     warn_of_site(header, record);
     warn_if_down(record);
     std::vector<Record> records;

@@ -229,7 +229,8 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     const Stopwatch start;
     std::vector<RungResult> results = climb(facts, options, calls);
     if (!streams.quiet && !streams.terminal)
-        streams.talk << fmt::format("accuracy: {} rungs, {:.3g} s\n", results.size(), start.seconds());
+        streams.talk << fmt::format("accuracy: {} rung{}, {:.3g} s\n", results.size(), results.size() == 1 ? "" : "s",
+                                    start.seconds());
     return results;
 }
 

@@ -22,8 +22,9 @@ namespace damslip::cli {
 
 namespace {
 
-const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command line, 3 input file, 4 did not converge "
-                               "or a check failed (results so far are kept).";
+const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command line, 3 a file that cannot be read or "
+                               "written, 4 no answer: not converged, interrupted, too little memory, or a check failed "
+                               "(results so far are kept).";
 
 /// All option structs, owned together with the parser that fills them.
 struct Parser : ParserBase {
@@ -73,7 +74,8 @@ void add_screen(Parser& p)
     sub->add_option("--scale", p.screen.inputs.scale, "factor on all records")->group("Ground motion");
     sub->add_option("--friction", p.screen.inputs.friction, "Coulomb mu instead of the scene's");
     sub->add_option("--scheme", p.screen.inputs.scheme, "exact (default) or slammer");
-    sub->add_option("--out", p.screen.out, "folder for summary.json, displacements.csv and the resolved scene");
+    sub->add_option("--out", p.screen.out, "folder for summary.json, displacements.csv and the resolved scene")
+        ->check(output_to(OutputPath::folder, "--out"));
     sub->add_option("-j,--jobs", p.screen.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     sub->callback([&p] { p.chosen = [a = p.screen](const Streams& s) { return screen(a, s); }; });
 }
@@ -88,7 +90,9 @@ void add_sweep_parts(CLI::App* sub, SweepArguments& a)
            "put parts together: part files, or folders of them; with SCENE its report has the section and the records")
         ->group(group);
     sub->add_flag("--plan", a.plan, "print the commands of all parts, one a line")->group(group);
-    sub->add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")->group(group);
+    sub->add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
+        ->check(output_to(OutputPath::file, "--slurm-array"))
+        ->group(group);
     sub->add_option("--parts", a.parts, "of --plan and --slurm-array; default: one per scene variant and motion")
         ->check(CLI::Range(1, 1000000))
         ->group(group);
@@ -124,9 +128,10 @@ void add_sweep(Parser& p)
         ->check(CLI::Range(1.0, 1e20));
     sub->add_option("--scheme", p.sweep.inputs.scheme, "exact (default) or slammer");
     sub->add_option(
-        "-o,--out", p.sweep.out,
-        "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
-        "output");
+           "-o,--out", p.sweep.out,
+           "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
+           "output")
+        ->check(output_to(OutputPath::regular_file, "--out"));
     sub->add_option("-j,--jobs", p.sweep.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     add_sweep_parts(sub, p.sweep);
     sub->callback([&p] { p.chosen = [a = p.sweep](const Streams& s) { return sweep(a, s); }; });
@@ -141,7 +146,9 @@ void add_study(Parser& p)
     add_run_inputs(sub, p.study.inputs);
     sub->add_option("--method", p.study.method, "as of sweep; with fe the finite elements run to the default accuracy")
         ->capture_default_str();
-    sub->add_option("-o,--out", p.study.out, "folder for rows.csv, findings.csv and report.html")->required();
+    sub->add_option("-o,--out", p.study.out, "folder for rows.csv, findings.csv and report.html")
+        ->check(output_to(OutputPath::folder, "--out"))
+        ->required();
     sub->add_option("-j,--jobs", p.study.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     sub->add_flag("--resume", p.study.resume, "go on where a study with the same --out stopped");
     sub->callback([&p] { p.chosen = [a = p.study](const Streams& s) { return study(a, s); }; });
@@ -162,7 +169,10 @@ void add_explain(Parser& p)
         sub->add_flag("--ablate", p.explain.ablate,
                       "runs the scene without each of its effects in turn: change of slip and crest motion, seconds")
             ->group(group);
-    sub->add_option("--report", p.explain.report, "HTML file with the changes as charts")->needs(ablate)->group(group);
+    sub->add_option("--report", p.explain.report, "HTML file with the changes as charts")
+        ->check(output_to(OutputPath::file, "--report"))
+        ->needs(ablate)
+        ->group(group);
     sub->add_option("-j,--jobs", p.explain.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")
         ->check(CLI::Range(0, 1024))
         ->needs(ablate)
@@ -191,7 +201,8 @@ void add_fe(Parser& p)
         ->needs(reduced)
         ->group("Reduced run");
     reduced->excludes(sub->get_option("--base"));
-    sub->add_option("--out", p.fe.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene");
+    sub->add_option("--out", p.fe.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
+        ->check(output_to(OutputPath::folder, "--out"));
     sub->callback([&p] { p.chosen = [a = p.fe](const Streams& s) { return fe(a, s); }; });
 }
 
@@ -204,7 +215,8 @@ void add_modes(Parser& p)
     sub->add_option("-n,--count", p.modes.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
     sub->add_flag("--frf", p.modes.frequency_response,
                   "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");
-    sub->add_option("--out", p.modes.out, "folder for the mode shapes as VTU files and the transfer functions as CSV");
+    sub->add_option("--out", p.modes.out, "folder for the mode shapes as VTU files and the transfer functions as CSV")
+        ->check(output_to(OutputPath::folder, "--out"));
     sub->callback([&p] { p.chosen = [a = p.modes](const Streams& s) { return modes(a, s); }; });
 }
 
@@ -213,7 +225,8 @@ void add_mesh(Parser& p)
     CLI::App* sub = command(p, "mesh", "the finite-element mesh of a scene: sizes and shapes; written for Gmsh",
                             "damslip mesh examples/reference_dam.toml --out dam.msh");
     sub->add_option("SCENE", p.mesh.inputs.scene, "scene file (TOML)")->required();
-    sub->add_option("--out", p.mesh.out, "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it");
+    sub->add_option("--out", p.mesh.out, "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it")
+        ->check(output_to(OutputPath::file, "--out"));
     sub->add_option("--format", p.mesh.format, "version of the Gmsh file")
         ->check(CLI::IsMember({"2.2", "4.1"}))
         ->capture_default_str();
@@ -243,9 +256,10 @@ void add_accuracy(Parser& p)
     sub->add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
     sub->add_option("--rung", a.rung, "run this rung alone, named as in the table: fe-acoustic:dt/4,2h");
     sub->add_option("--out", a.out,
-                    "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes");
-    sub->add_option("--report", a.report, "the report alone (.html)");
-    sub->add_option("--svg", a.svg, "the chart alone (.svg)");
+                    "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes")
+        ->check(output_to(OutputPath::folder, "--out"));
+    sub->add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
+    sub->add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));
     sub->callback([&p] { p.chosen = [a = p.accuracy](const Streams& s) { return accuracy(a, s); }; });
 }
 
@@ -269,7 +283,8 @@ void add_small_commands(Parser& p)
 
     CLI::App* pages = command(p, "man", "manual pages, made from the help texts", "damslip man fe | man -l -");
     pages->add_option("COMMAND", p.man.command, "the command whose page is printed; none: the program's own");
-    pages->add_option("--out", p.man.out, "folder for the pages of all commands");
+    pages->add_option("--out", p.man.out, "folder for the pages of all commands")
+        ->check(output_to(OutputPath::folder, "--out"));
     pages->callback([&p] { p.chosen = [a = p.man](const Streams& s) { return man(a, s); }; });
 }
 
@@ -350,6 +365,14 @@ CLI::App* add_command(CLI::App& parent, ParserBase& base, const std::string& nam
     sub->add_flag("--json", base.json, "one JSON object on standard output, for machines");
     sub->add_flag("-q,--quiet", base.quiet, "no progress, no talk");
     return sub;
+}
+
+std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
+{
+    return [kind, flag](const std::string& path) -> std::string {
+        if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+        return {};
+    };
 }
 
 Invocation parse_arguments(const std::vector<std::string>& arguments)

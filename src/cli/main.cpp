@@ -2,23 +2,40 @@
 
 #include <gsl/gsl_errno.h>
 
+#include <climits>
 #include <csignal>
-#include <cstdlib>
+#include <cstring>
 #include <iostream>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
 
-/// OpenBLAS starts a thread for each core when it is loaded, which the program takes back (fe2d/solver/blas_threads.hpp),
-/// and tries for ever where memory is short (ulimit -v). Asked for one thread before that, it starts none: functions of
-/// this section run before those of the libraries.
-void ask_for_one_blas_thread(int, char**, char**)
+constexpr const char* one_thread = "OPENBLAS_NUM_THREADS=1";
+constexpr std::size_t most_variables = 4096; ///< of an environment that is taken over
+
+/// Where memory is limited (ulimit -v), the program starts anew with OpenBLAS asked for one thread. It starts one for each
+/// core as soon as it is loaded, which the program takes back (fe2d/solver/blas_threads.hpp), and tries for ever where
+/// they do not fit. Functions of this section run before those of the libraries; the environment of a process that
+/// runs already cannot grow before they do.
+void start_with_one_blas_thread(int, char** arguments, char** environment)
 {
-    ::setenv("OPENBLAS_NUM_THREADS", "1", 1);
-    ::setenv("OMP_NUM_THREADS", "1", 1);
+    rlimit memory{};
+    if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return;
+    static const char* variables[most_variables + 2];
+    std::size_t count = 0;
+    for (; environment[count] && count < most_variables; ++count) {
+        if (std::strncmp(environment[count], one_thread, std::strchr(one_thread, '=') - one_thread + 1) == 0) return;
+        variables[count] = environment[count];
+    }
+    if (environment[count]) return;
+    variables[count] = one_thread;
+    static char program[PATH_MAX];
+    if (::readlink("/proc/self/exe", program, sizeof program - 1) > 0)
+        ::execve(program, arguments, const_cast<char* const*>(variables)); // comes back only where it failed
 }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**, char**) =
-    ask_for_one_blas_thread;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
+                                                                             char**) = start_with_one_blas_thread;
 
 } // namespace
 
@@ -26,6 +43,7 @@ int main(int argc, char** argv)
 {
     gsl_set_error_handler_off(); // GSL's own handler ends the process; statuses are checked where it is called
     std::ios::sync_with_stdio(false);
-    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is a failed write: files are finished, and the code says it
+    std::signal(SIGPIPE,
+                SIG_IGN); // a reader that went away is a failed write: files are finished, and the code says it
     return damslip::cli::run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(2) != 0);
 }

@@ -137,7 +137,7 @@ internal error
 command line
 .TP
 .B 3
-input file
+a file that cannot be read or written, standard output included
 .TP
 .B 4
 no answer (not resolved, tolerance missed, diverged, interrupted), or a check failed; the results so far are kept

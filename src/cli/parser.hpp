@@ -2,6 +2,7 @@
 
 #include "cli/record_command.hpp"
 #include "cli/terminal/streams.hpp"
+#include "core/file.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -18,6 +19,10 @@ struct ParserBase {
 
 CLI::App* add_command(CLI::App& parent, ParserBase& base, const std::string& name, const std::string& description,
                       const std::string& example);
+
+/// Check of an option that names output: what would fail after minutes is said before anything begins.
+/// @throws UsageError, from the check
+std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);
 
 /// Arguments of all `record` commands.
 struct RecordArguments {

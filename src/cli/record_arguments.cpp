@@ -22,7 +22,8 @@ void add_input(CLI::App* sub, RecordInput& in)
 
 void add_target(CLI::App* sub, RecordTarget& target, std::string& form)
 {
-    sub->add_option("-o,--out", target.out, "file; without it: standard output");
+    sub->add_option("-o,--out", target.out, "file; without it: standard output")
+        ->check(output_to(OutputPath::file, "--out"));
     sub->add_option("--to", form, "csv, csv-time or at2; default: by the ending of --out");
 }
 
@@ -70,7 +71,8 @@ void add_spectrum(CLI::App* record, ParserBase& base, RecordArguments& a)
         add_command(*record, base, "spectrum", "elastic response spectrum, exact for the piecewise-linear record",
                     "damslip record spectrum ns.at2 --damping 0.05");
     add_input(sub, s.input);
-    sub->add_option("-o,--out", s.out, "CSV file; without it a table on standard output");
+    sub->add_option("-o,--out", s.out, "CSV file; without it a table on standard output")
+        ->check(output_to(OutputPath::file, "--out"));
     sub->add_option("--damping", s.ratio, "damping ratio")->capture_default_str();
     sub->add_option("--from", s.from, "first period [s]")->capture_default_str();
     sub->add_option("--to", s.to, "last period [s]")->capture_default_str();

@@ -41,6 +41,9 @@ void check_flags(const SweepArguments& a, Form form)
     if (parts && !a.shard.empty())
         usage("--shard together with --plan or --slurm-array.", "a part, or the commands of all parts",
               "delete --shard");
+    if (a.out.extension() == ".html")
+        usage("--out " + a.out.string() + " is the name of the report.", "a name for the rows; the report is beside it",
+              "write  --out " + std::filesystem::path(a.out).replace_extension(".csv").string());
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
         usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
               "delete --json");
@@ -90,11 +93,20 @@ int merge(const SweepArguments& arguments, const Streams& streams)
     return exit_no_answer;
 }
 
+/// A line break in a name would end a command of the plan, or a comment of the job script, in the middle.
+void check_for_scripts(const std::string& command)
+{
+    if (std::any_of(command.begin(), command.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+        usage("a name on the command line has a line break or another control character.",
+              "printable characters: the commands are lines of a file", "rename the file");
+}
+
 /// The commands of all parts, or a job script that runs them.
 int print_plan(const SweepArguments& arguments, const TaskList& tasks, const Streams& streams)
 {
     const std::size_t parts =
         arguments.parts ? static_cast<std::size_t>(*arguments.parts) : tasks.variants() * tasks.motions();
+    check_for_scripts(sweep_command_line(arguments));
     if (arguments.plan) streams.out << plan_text(arguments, parts);
     if (!arguments.slurm_array.empty()) write_file(arguments.slurm_array, slurm_script(arguments, parts));
     if (!streams.quiet)

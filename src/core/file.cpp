@@ -2,7 +2,12 @@
 
 #include "core/input_error.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <openssl/evp.h>
@@ -36,28 +41,153 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes)
     return content;
 }
 
+namespace {
+
+constexpr std::size_t longest_name = 255;     ///< of a file or folder, bytes
+constexpr std::size_t longest_file_word = 80; ///< leaves room for what is put around it
+constexpr std::size_t longest_path = PATH_MAX - 1;
+
+bool is_stream(fs::file_type type)
+{
+    return type == fs::file_type::character || type == fs::file_type::fifo;
+}
+
+/// The file behind links, whether it exists or not. @param error  set for links in a circle
+fs::path behind_links(fs::path path, std::error_code& error)
+{
+    constexpr int most = 40; // as the system follows
+    for (int k = 0; k < most; ++k) {
+        if (!fs::is_symlink(fs::symlink_status(path, error))) {
+            error.clear();
+            return path;
+        }
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) return path;
+        path = target.is_absolute() ? target : path.parent_path() / target;
+    }
+    error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+    return path;
+}
+
+/// All bytes into an open descriptor. @returns errno; 0: all written
+int write_all(int descriptor, std::string_view content)
+{
+    while (!content.empty()) {
+        const ssize_t n = ::write(descriptor, content.data(), content.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return errno;
+        content.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return 0;
+}
+
+/// Opens, writes, closes. @returns errno; 0: all written
+int write_descriptor(const fs::path& path, int flags, std::string_view content)
+{
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+    if (descriptor < 0) return errno;
+    const int failure = write_all(descriptor, content);
+    const bool closed = ::close(descriptor) == 0;
+    return failure != 0 || closed ? failure : errno;
+}
+
+} // namespace
+
 void write_file(const fs::path& path, std::string_view content)
 {
-    const auto fail = [&](const std::string& why) {
-        throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why,
-                                    "a folder with write permission and space left", "choose another output folder"});
+    const auto fail = [&](const std::string& why,
+                          const char* expected = "a folder with write permission and space left") {
+        throw InputError(
+            Diagnostic{path.string(), 0, 0, "cannot be written: " + why, expected, "choose another output"});
     };
     std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    const fs::path target = behind_links(path, error);
     if (error) fail(error.message());
-    fs::path part = path;
-    part += fmt::format(".{}.part", ::getpid());
-    {
-        std::ofstream out(part, std::ios::binary);
-        out.write(content.data(), static_cast<std::streamsize>(content.size()));
-        out.flush();
-        if (!out) {
-            fs::remove(part, error);
-            fail("the write failed");
-        }
+    const fs::file_type type = fs::status(target, error).type();
+    if (type == fs::file_type::directory) fail("it is a folder.", "a file");
+    if (is_stream(type)) {
+        if (const int failure = write_descriptor(target, 0, content); failure != 0) fail(std::strerror(failure));
+        return;
     }
-    fs::rename(part, path, error);
+    if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular) fail("it is no file.", "a file");
+    error.clear();
+    if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
     if (error) fail(error.message());
+    const fs::path part = target.parent_path() / fmt::format(".damslip.{}.{}.part", ::getpid(),
+                                                             sha256(target.filename().string()).substr(0, 8));
+    if (const int failure = write_descriptor(part, O_CREAT | O_TRUNC, content); failure != 0) {
+        fs::remove(part, error);
+        fail(std::strerror(failure));
+    }
+    fs::rename(part, target, error);
+    if (error) {
+        const std::string why = error.message();
+        fs::remove(part, error);
+        fail(why);
+    }
+}
+
+std::optional<Diagnostic> output_path_problem(const fs::path& path, OutputPath kind, const std::string& named)
+{
+    const std::string text = path.string();
+    const char* const wanted = kind == OutputPath::folder ? "a folder, made if it is not there" : "a file";
+    const auto problem = [&](std::string what, std::string expected, std::string fix) {
+        return Diagnostic{"", 0, 0, named + " " + std::move(what), std::move(expected), std::move(fix)};
+    };
+    if (text.empty()) return problem("is empty.", wanted, "name one, or leave " + named + " out");
+    if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+        return problem(text + " has a line break or another control character in its name.",
+                       "a name of printable characters", "rename it: such names break job scripts and file lists");
+    if (text.size() > longest_path) return problem("has a path of more than 4095 bytes.", wanted, "shorten it");
+    constexpr std::size_t endings = 32; // "... .12-of-40.csv.journal"
+    const std::size_t longest = longest_name - (kind == OutputPath::regular_file ? endings : 0);
+    for (const fs::path& part : path)
+        if (part.string().size() > longest)
+            return problem(fmt::format("has a name of {} bytes.", part.string().size()),
+                           fmt::format("at most {} bytes for a file or folder", longest), "shorten it");
+    std::error_code error;
+    const fs::path target = behind_links(path, error);
+    if (error) return problem(text + ": " + error.message() + ".", wanted, "choose another");
+    const fs::file_type type = fs::status(target, error).type();
+    const bool exists = fs::exists(fs::file_status(type));
+    if (kind == OutputPath::folder) {
+        if (exists && type != fs::file_type::directory)
+            return problem(text + " is not a folder.", wanted, "choose another, or move the file away");
+    } else if (type == fs::file_type::directory || !path.has_filename()) {
+        return problem(text + " is a folder.", wanted, "name a file inside it: " + (path / "NAME").string());
+    } else if (exists && kind == OutputPath::regular_file && type != fs::file_type::regular) {
+        return problem(text + " is a device or a pipe.", "a file: others are kept beside it",
+                       "name a file, or leave " + named + " out: standard output then has the rows");
+    } else if (exists && type != fs::file_type::regular && !is_stream(type)) {
+        return problem(text + " is no file.", wanted, "choose another");
+    }
+    if (exists) {
+        if (::access(target.c_str(), W_OK) != 0)
+            return problem(text + " is write-protected.", "write permission",
+                           "choose another, or change its permission");
+        if (type == fs::file_type::directory || is_stream(type)) return std::nullopt;
+    }
+    fs::path folder = fs::absolute(target, error).parent_path();
+    while (!fs::exists(fs::status(folder, error)) && folder.has_relative_path()) folder = folder.parent_path();
+    if (!fs::is_directory(fs::status(folder, error)))
+        return problem(fmt::format("{} lies below {}, which is not a folder.", text, folder.string()), wanted,
+                       "choose another");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return problem(fmt::format("{}: the folder {} cannot be written.", text, folder.string()), "write permission",
+                       "choose another, or change its permission");
+    return std::nullopt;
+}
+
+std::string file_word(std::string_view name)
+{
+    std::string word;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        word += plain || c == '-' || c == '.' ? c : '_';
+    }
+    constexpr std::size_t digits = 8;
+    if (word.size() <= longest_file_word) return word;
+    return word.substr(0, longest_file_word - digits - 1) + "-" + sha256(name).substr(0, digits);
 }
 
 std::string sha256(std::string_view bytes)

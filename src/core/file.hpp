@@ -1,7 +1,10 @@
 #pragma once
 
+#include "core/input_error.hpp"
+
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,9 +13,28 @@ namespace damslip {
 /// The whole file as bytes. @throws InputError when it is missing, a folder, unreadable or larger than `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = 256u << 20);
 
-/// Writes beside the target and renames: the file appears whole or not at all. Makes missing parent folders.
-/// @throws InputError when the folder cannot be written.
+/// Writes beside the target and renames: the file appears whole or not at all. Makes missing parent folders. A link is
+/// kept: what it leads to is written. A device or a pipe (FIFO) takes the bytes as they come and is never replaced.
+/// @throws InputError when it cannot be written; for a folder or a socket
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+enum class OutputPath {
+    file,         ///< a file, a device or a pipe, through links too
+    regular_file, ///< a file alone: others are written beside it
+    folder
+};
+
+/// What would keep output from being written to `path`, said before anything is computed: a folder for a file and the
+/// reverse, a parent that is no folder, no write permission, a name that is empty, too long, or holds control characters
+/// (they reach job scripts and terminals). Makes nothing.
+/// @param named  how the user gave it: "--out"
+/// @returns what is wrong and what to do; nothing: it can be written as far as can be seen
+std::optional<Diagnostic> output_path_problem(const std::filesystem::path& path, OutputPath kind,
+                                              const std::string& named);
+
+/// A name for files made of `name`: letters, digits, "-" and "." stay, others become "_"; what is longer than 80 characters
+/// is cut and told apart by a part of its SHA-256.
+std::string file_word(std::string_view name);
 
 /// SHA-256 of the bytes, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);

@@ -1,6 +1,7 @@
 #include "report/table_text.hpp"
 
 #include "core/number.hpp"
+#include "report/escape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +62,15 @@ std::string aligned(const std::vector<Line>& lines, std::size_t header, const st
 /// Title above, notes below.
 std::string framed(const Table& table, const std::string& body)
 {
-    std::string out = (table.title.empty() ? "" : table.title + "\n") + body;
-    for (const std::string& note : table.notes) out += "  " + note + "\n";
+    std::string out = (table.title.empty() ? "" : visible(table.title, LineEnds::replaced) + "\n") + body;
+    for (const std::string& note : table.notes) out += "  " + visible(note, LineEnds::replaced) + "\n";
     return out;
+}
+
+/// A spreadsheet takes a cell that begins so for a formula and runs it: an apostrophe in front says that it is text.
+std::string no_formula(const std::string& text)
+{
+    return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
 }
 
 std::string csv_field(const Cell& cell)
@@ -74,9 +81,10 @@ std::string csv_field(const Cell& cell)
         std::string operator()(std::int64_t v) const { return std::to_string(v); }
         std::string operator()(const std::string& v) const
         {
-            if (v.find_first_of(",\"\n\r") == std::string::npos) return v;
+            const std::string safe = no_formula(visible(v, LineEnds::replaced));
+            if (safe.find_first_of(",\"\n\r") == std::string::npos) return safe;
             std::string quoted = "\"";
-            for (char c : v) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+            for (char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
             return quoted + "\"";
         }
         std::string operator()(bool v) const { return v ? "true" : "false"; }
@@ -93,7 +101,7 @@ std::string cell_text(const Cell& cell, int digits)
         std::string operator()(std::monostate) const { return "–"; }
         std::string operator()(double v) const { return number_text(v, digits); }
         std::string operator()(std::int64_t v) const { return std::to_string(v); }
-        std::string operator()(const std::string& v) const { return v; }
+        std::string operator()(const std::string& v) const { return visible(v, LineEnds::replaced); }
         std::string operator()(bool v) const { return v ? "yes" : "no"; }
     };
     return std::visit(Show{digits}, cell);
@@ -142,7 +150,7 @@ std::string text_by_columns(const Table& table, std::size_t labels)
 std::string csv(const Table& table, const std::vector<std::string>& comments)
 {
     std::string out;
-    for (const std::string& comment : comments) out += "# " + comment + "\n";
+    for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
     for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j ? "," : "") + table.columns[j].key;
     out += "\n";
     for (const auto& row : table.rows) {

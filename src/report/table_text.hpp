@@ -21,6 +21,8 @@ std::string text(const Table& table);
 std::string text_by_columns(const Table& table, std::size_t labels);
 
 /// Header row of keys, one row per line, numbers as shortest exact text, RFC 4180 quoting; `comments` become "# ..." lines on top.
+/// Text that begins with = + - @ gets an apostrophe in front, so that a spreadsheet does not take it for a formula;
+/// control characters are shown as their pictures. Numbers stay as they are.
 std::string csv(const Table& table, const std::vector<std::string>& comments = {});
 
 /// A JSON array of objects, one per row, by column key; nothing and non-finite numbers are null.

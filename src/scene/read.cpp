@@ -219,15 +219,23 @@ private:
             fmt::format("write  {} = \"{}\"", key.name, near.empty() ? choice.words.front() : std::string(near)));
     }
 
+    /// Names and titles stand in tables and in notes of one line.
+    static std::string in_one_line(std::string text)
+    {
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+        return text;
+    }
+
     void read_text(const Key& key, const Slot& slot, const std::string& spelling, const toml::node& node)
     {
         const auto text = node.value_exact<std::string>();
         if (!text || text->empty() || text->size() > 4096 || text->find('\0') != std::string::npos)
             return not_allowed(key, spelling, node, "a text in quotes: " + key.meaning);
         if (auto* const* s = std::get_if<std::string*>(&slot))
-            **s = *text;
+            **s = in_one_line(*text);
         else if (auto* const* os = std::get_if<std::optional<std::string>*>(&slot))
-            **os = *text;
+            **os = in_one_line(*text);
         else if (auto* const* p = std::get_if<std::filesystem::path*>(&slot))
             **p = *text;
         else if (auto* const* op = std::get_if<std::optional<std::filesystem::path>*>(&slot))

@@ -30,11 +30,11 @@ TEST(RecordEsm, samples_step_and_names)
 TEST(RecordEsm, peak_of_the_header_is_compared)
 {
     Esm file;
-    file.pga = "-4.0";
+    file.pga = "-3.2";
     bool found = false;
     const Record r = parse_record(file.text(), "e").at(0);
     for (const std::string& warning : r.warnings)
-        found |= warning == "the largest sample is 0.03 m/s2, the file's header says 0.04 m/s2";
+        found |= warning == "the largest sample is 0.03 m/s2, the file's header says 0.032 m/s2";
     EXPECT_TRUE(found);
     file.pga = ""; // empty values are about everywhere
     EXPECT_EQ(parse_record(file.text(), "e").at(0).acceleration.size(), 3u);
@@ -52,6 +52,7 @@ TEST(RecordEsm, other_kinds_are_refused)
     EXPECT_NE(esm_error(file.text()).find("e.ASC:11: error: the unit 'cm/s' is not known"), std::string::npos);
     file.units = "";
     EXPECT_NE(esm_error(file.text()).find("does not say the unit"), std::string::npos);
+    file.pga = ""; // which says the unit too, and would contradict the one given
     ReadOptions options;
     options.unit = "m/s2";
     EXPECT_DOUBLE_EQ(parse_record(file.text(), "e", options).at(0).acceleration[0], 1.0);
@@ -72,7 +73,8 @@ TEST(RecordEsm, refused)
     EXPECT_NE(esm_error(file.text()).find("e.ASC:17:1: error: '2.0 3.0' is not one number"), std::string::npos);
     file.values = "1.0\nNaN\n4.0\n";
     EXPECT_NE(esm_error(file.text()).find("e.ASC:17:1: error: the sample is 'NaN'"), std::string::npos);
-    EXPECT_NE(esm_error("EVENT_NAME: x\nUNITS: cm/s^2\n1\n").find("the header has no line SAMPLING_INTERVAL_S"), std::string::npos);
+    EXPECT_NE(esm_error("EVENT_NAME: x\nUNITS: cm/s^2\n1\n").find("the header has no line SAMPLING_INTERVAL_S"),
+              std::string::npos);
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include "scene/write.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <iterator>
 #include <ostream>
@@ -60,13 +59,6 @@ Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& un
 Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::VectorXd& displacement)
 {
     return node_vectors(model.dofs, displacement).col(model.mesh.crest.back());
-}
-
-std::string file_word(const std::string& name)
-{
-    std::string word;
-    for (const char c : name) word += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' ? c : '_';
-    return word;
 }
 
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,

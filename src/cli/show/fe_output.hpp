@@ -20,9 +20,6 @@ Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::Vector
 /// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
 
-/// A name with everything that is awkward in file names replaced by '_'.
-std::string file_word(const std::string& name);
-
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {
 public:

@@ -129,8 +129,8 @@ private:
 
     void run_prepared(const PreparedModel& model, const GridIndex& at, const FeGroup& group, FeSweepCounts& counts)
     {
-        const GroundMotion motion = ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale],
-                                                  in_.axes.polarity[at.polarity]);
+        const GroundMotion motion =
+            ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale], in_.axes.polarity[at.polarity]);
         if (in_.axes.method[at.method].reduced)
             run_reduced_group(model, motion, group, counts);
         else
@@ -157,7 +157,8 @@ private:
             model.scene = scene_of(in_, at);
             const StopAsked stop = [this] { return interrupt_.interrupted(); };
             if (!in_.axes.method[at.method].reduced)
-                if (const auto choice = resolve_reservoir_model(model.scene, stop)) counts.choices.insert(choice->reason);
+                if (const auto choice = resolve_reservoir_model(model.scene, stop))
+                    counts.choices.insert(choice->reason);
             resolve_dam_period(model.scene, stop);
             SeepageSource seepage;
             model.options = contact_options(model.scene, in_.records, seepage);

@@ -161,10 +161,18 @@ std::vector<std::string> fields_of(const std::string& line)
     return fields;
 }
 
+/// A name that begins like a formula has an apostrophe in front in the file (report::csv).
+std::string without_apostrophe(const std::string& field)
+{
+    const bool put =
+        field.size() > 1 && field[0] == '\'' && std::string_view("=+-@").find(field[1]) != std::string_view::npos;
+    return put ? field.substr(1) : field;
+}
+
 Cell cell_of(const std::string& key, const std::string& field)
 {
     for (const char* word : {"uplift", "reservoir", "record", "method", "status"})
-        if (key == word) return field;
+        if (key == word) return without_apostrophe(field);
     if (field.empty()) return {};
     const std::optional<double> number = parse_number(field);
     if (!number) return field;

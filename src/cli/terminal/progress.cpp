@@ -29,9 +29,9 @@ Progress::~Progress()
         return;
     }
     const double spent = seconds_since(start_);
-    streams_.talk << (share() >= 1.0 ? fmt::format("{}: 100 %, {:.3g} s\n", label_, spent)
-                                     : fmt::format("{}: stopped at {:.0f} % after {:.3g} s\n", label_,
-                                                   100.0 * share(), spent))
+    streams_.talk << (share() >= 1.0
+                          ? fmt::format("{}: 100 %, {:.3g} s\n", label_, spent)
+                          : fmt::format("{}: stopped at {:.0f} % after {:.3g} s\n", label_, 100.0 * share(), spent))
                   << std::flush;
 }
 

@@ -19,8 +19,8 @@ struct Streams {
     std::ostream& out;
     std::ostream& talk;
     Form form = Form::text;
-    bool quiet = false;    ///< no talk but errors
-    bool terminal = false; ///< `talk` is a terminal: progress is drawn
+    bool quiet = false;          ///< no talk but errors
+    bool terminal = false;       ///< `talk` is a terminal: progress is drawn
     std::ostream* bar = nullptr; ///< the terminal itself, for a bar that is drawn over; null: no terminal
     StopAsked stop = {};         ///< does the user want the command to end? empty: never
 };
