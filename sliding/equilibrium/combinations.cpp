@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <tuple>
 
 namespace damslip::sliding {
 
@@ -35,11 +37,90 @@ CrackRule crack_rule(const Scene& scene, const Combination& c)
     return rule == CrackRule::none || rule == CrackRule::fixed_static ? CrackRule::seismic_unchanged : rule;
 }
 
+/// The combination with the seismic coefficients that it gives as shares of the records' peaks.
+Combination with_coefficients(Combination c, const PeakGround& peak)
+{
+    if (c.pga_fraction) c.k_h = *c.pga_fraction * std::abs(peak.a_h) / units::standard_gravity;
+    if (c.pga_v_fraction) c.k_v = 0.0 - *c.pga_v_fraction * std::abs(peak.a_v) / units::standard_gravity;
+    return c;
+}
+
+/// What the program's own seismic combination takes of the records.
+std::string coefficients_note(const Criteria& criteria, const PeakGround& peak)
+{
+    std::string note = criteria.pga_fraction == 1.0
+                           ? "k_h is the largest PGA of the records in full (criteria.pga_fraction)"
+                           : fmt::format("k_h is {:.3g} of the largest PGA of the records (criteria.pga_fraction)",
+                                         criteria.pga_fraction);
+    if (peak.a_v == 0.0) return note;
+    return note + (criteria.pga_v_fraction == 0.0
+                       ? fmt::format("; k_v is 0 although the records have a vertical component of up to {:.3g} g "
+                                     "(criteria.pga_v_fraction)",
+                                     std::abs(peak.a_v) / units::standard_gravity)
+                       : fmt::format("; k_v is {:.3g} of their largest vertical acceleration and lightens the dam "
+                                     "(criteria.pga_v_fraction)",
+                                     criteria.pga_v_fraction));
+}
+
+/// The joint that an extreme combination leaves behind.
+struct OpenedJoint {
+    std::string combination;
+    Crack crack;
+};
+
+OpenedJoint opened_by(const std::string& name, const Equilibrium& e)
+{
+    Crack crack = e.base.crack;
+    if (e.base.status == CrackStatus::through || e.base.status == CrackStatus::open) crack.length = e.frame.length;
+    return {name, crack};
+}
+
+/// One combination: without crack rule of its own also with a crack, where that matters.
+std::vector<Equilibrium> reports(const Scene& scene, Combination c, const SeepageProfile& seepage, const Crack& opened)
+{
+    const Requirements required = requirements(scene, c);
+    const bool after = c.kind == CombinationKind::post_seismic;
+    if (c.crack) return {evaluate(scene, c, required, {seepage, after ? opened : Crack{}})};
+    c.crack = CrackRule::none;
+    std::vector<Equilibrium> out{evaluate(scene, c, required, {seepage, {}})};
+    if (tension(out.back()) || (after && opened.length > 0.0)) {
+        c.crack = crack_rule(scene, c);
+        c.name += ", cracked";
+        out.push_back(evaluate(scene, c, required, {seepage, opened}));
+    }
+    return out;
+}
+
+/// Is the post-seismic state `a` the worse one? The same answer in whatever order the states come.
+bool governs(const Equilibrium& a, const Equilibrium& b)
+{
+    return std::tuple(a.sliding_factor, -a.base.crack.length, a.follows) <
+           std::tuple(b.sliding_factor, -b.base.crack.length, b.follows);
+}
+
+/// A post-seismic combination after the extreme one it names, or after the one that leaves it worst.
+std::vector<Equilibrium> post_seismic_reports(const Scene& scene, const Combination& c, const SeepageProfile& seepage,
+                                              const std::vector<OpenedJoint>& joints)
+{
+    std::vector<Equilibrium> worst;
+    for (const OpenedJoint& joint : joints) {
+        if (!c.follows.empty() && c.follows != joint.combination) continue;
+        std::vector<Equilibrium> state = reports(scene, c, seepage, joint.crack);
+        for (Equilibrium& e : state) e.follows = joint.combination;
+        if (worst.empty() || governs(state.back(), worst.back())) worst = std::move(state);
+    }
+    return worst.empty() ? reports(scene, c, seepage, {}) : worst;
+}
+
 } // namespace
 
 std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak)
 {
-    if (!scene.combinations.empty()) return scene.combinations;
+    if (!scene.combinations.empty()) {
+        std::vector<Combination> given;
+        for (const Combination& c : scene.combinations) given.push_back(with_coefficients(c, peak));
+        return given;
+    }
     std::vector<Combination> out{named("usual", CombinationKind::usual)};
     if (scene.drains) {
         out.push_back(named("drains ineffective", CombinationKind::unusual));
@@ -52,9 +133,9 @@ std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak
     if (peak.a_h != 0.0 || peak.a_v != 0.0) {
         Combination c = named("seismic", CombinationKind::extreme);
         c.ice = scene.ice.has_value();
-        c.k_h = std::abs(peak.a_h) / units::standard_gravity;
-        c.k_v = peak.a_v / units::standard_gravity;
-        out.push_back(c);
+        c.pga_fraction = scene.criteria.pga_fraction;
+        c.pga_v_fraction = scene.criteria.pga_v_fraction;
+        out.push_back(with_coefficients(c, peak));
     }
     Combination after = named("post-seismic", CombinationKind::post_seismic);
     after.ice = scene.ice.has_value();
@@ -67,18 +148,24 @@ std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak
 std::vector<Equilibrium> evaluate_combinations(const Scene& scene, const PeakGround& peak,
                                                const SeepageProfile& seepage)
 {
+    const std::vector<Combination> all = combinations(scene, peak);
+    std::vector<std::vector<Equilibrium>> states(all.size());
+    std::vector<OpenedJoint> joints;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].kind == CombinationKind::post_seismic) continue;
+        states[i] = reports(scene, all[i], seepage, {});
+        if (all[i].kind == CombinationKind::extreme) joints.push_back(opened_by(all[i].name, states[i].back()));
+        if (scene.combinations.empty() && all[i].kind == CombinationKind::extreme)
+            states[i].front().notes.push_back(coefficients_note(scene.criteria, peak));
+    }
     std::vector<Equilibrium> out;
-    Crack opened;
-    for (Combination c : combinations(scene, peak)) {
-        const Requirements required = requirements(scene, c);
-        const bool rule_given = c.crack.has_value(), after = c.kind == CombinationKind::post_seismic;
-        if (!rule_given) c.crack = CrackRule::none;
-        out.push_back(evaluate(scene, c, required, {seepage, rule_given && after ? opened : Crack{}}));
-        if (!rule_given && (tension(out.back()) || (after && opened.length > 0.0))) {
-            c.crack = crack_rule(scene, c);
-            out.push_back(evaluate(scene, c, required, {seepage, opened}));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].kind == CombinationKind::post_seismic)
+            states[i] = post_seismic_reports(scene, all[i], seepage, joints);
+        for (Equilibrium& e : states[i]) {
+            if (e.k_h != 0.0 && peak.a_h != 0.0) e.of_pga = e.k_h * units::standard_gravity / std::abs(peak.a_h);
+            out.push_back(std::move(e));
         }
-        if (c.kind == CombinationKind::extreme) opened = out.back().base.crack;
     }
     return out;
 }

@@ -20,14 +20,24 @@ Cell level(const std::optional<double>& y)
     return y ? Cell(*y) : Cell(std::monostate{});
 }
 
+/// Of a base that takes no tension: what has become of its joint.
+Cell joint(const Equilibrium& e)
+{
+    if (e.crack_rule == CrackRule::none) return {};
+    if (e.base.status == CrackStatus::closed && e.base.crack.length > 0.0) return std::string("cracked, closed again");
+    return std::string(word(e.base.status));
+}
+
 std::vector<Cell> equilibrium_row(const Equilibrium& e)
 {
     return {e.name,
             std::string(word(e.kind)),
             std::string(word(e.crack_rule)),
+            e.follows.empty() ? Cell() : Cell(e.follows),
             level(e.reservoir_level),
             level(e.tailwater_level),
             e.k_h,
+            level(e.of_pga),
             e.k_v,
             e.base.effective_normal / kilo,
             e.shear / kilo,
@@ -42,6 +52,7 @@ std::vector<Cell> equilibrium_row(const Equilibrium& e)
             std::string(word(e.zone)),
             e.heel_stress / units::kPa,
             e.toe_stress / units::kPa,
+            joint(e),
             e.base.crack.length,
             e.cohesive_length,
             e.critical_friction,
@@ -77,9 +88,11 @@ Table equilibrium_table(const std::vector<Equilibrium>& all)
                 {{"combination", "combination", "", 4},
                  {"kind", "kind", "", 4},
                  {"crack_rule", "crack rule", "", 4},
+                 {"follows", "follows", "", 4},
                  {"reservoir_level_m", "reservoir", "m", 4},
                  {"tailwater_level_m", "tailwater", "m", 4},
                  {"k_h", "k_h", "–", 3},
+                 {"k_h_of_pga", "k_h of the PGA", "–", 3},
                  {"k_v", "k_v", "–", 3},
                  {"normal_force_effective_kN_per_m", "N'", "kN/m", 5},
                  {"shear_force_kN_per_m", "T", "kN/m", 5},
@@ -94,6 +107,7 @@ Table equilibrium_table(const std::vector<Equilibrium>& all)
                  {"resultant_zone", "zone", "", 4},
                  {"heel_stress_kPa", "heel stress", "kPa", 4},
                  {"toe_stress_kPa", "toe stress", "kPa", 4},
+                 {"joint", "joint", "", 4},
                  {"crack_m", "crack", "m", 4},
                  {"cohesive_length_m", "bonded length", "m", 4},
                  {"critical_friction", "critical μ", "–", 4},

@@ -3,10 +3,12 @@
 #include "core/units.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
+#include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/equilibrium/shaken_base.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace damslip::sliding {
@@ -40,6 +42,14 @@ StaticCase static_case_of(const Scene& scene, const Combination& c, CrackRule ru
     out.crack = rule;
     if (c.kind == CombinationKind::post_seismic) out.opened = options.opened;
     return out;
+}
+
+/// A sum of the loads, and of the uplift, that is no more than the rounding of its terms is none.
+double without_round_off(double sum, const Equilibrium& e)
+{
+    double terms = std::abs(e.base.uplift.force);
+    for (const Load& load : e.loads) terms += std::abs(load.force.total().x) + std::abs(load.force.total().y);
+    return std::abs(sum) <= 1e-13 * terms ? 0.0 : sum;
 }
 
 double factor(double resisting, double driving)
@@ -140,7 +150,7 @@ void base_stresses(Equilibrium& e)
 {
     const CrackedBase& base = e.base;
     const double length = base.compressed_length;
-    if (base.status == CrackStatus::open || !(length > 0.0)) {
+    if (base.status == CrackStatus::open || base.status == CrackStatus::through || !(length > 0.0)) {
         e.heel_stress = e.toe_stress = nan;
         return;
     }
@@ -160,20 +170,8 @@ void resultant_position(Equilibrium& e)
 {
     e.resultant_from_toe = e.frame.length - e.base.resultant_distance;
     e.eccentricity = e.base.resultant_distance - 0.5 * e.frame.length;
-    e.zone = zone_of(e.eccentricity, e.frame.length, e.base.effective_normal > 0.0);
-}
-
-/// Moments about the toe, static part + a_h x unit part = 0; uplift unchanged.
-double tipping_acceleration(const Scene& scene, const AddedMassIntegral& water, const BaseState& before, double a_v,
-                            Point toe_point)
-{
-    Force fixed = before.load, unit;
-    const double u = before.base.uplift.force;
-    fixed += {u * before.frame.n.x, u * before.frame.n.y, before.base.uplift.moment_about_heel};
-    for (const Load& load : earthquake_loads(scene, water, 0.0, a_v)) fixed += load.force.total();
-    for (const Load& load : earthquake_loads(scene, water, 1.0, 0.0)) unit += load.force.total();
-    const double per_a_h = moment_about(unit, toe_point);
-    return per_a_h < 0.0 ? -moment_about(fixed, toe_point) / per_a_h : infinity;
+    const bool pressed = e.base.effective_normal > 0.0 && e.base.status != CrackStatus::through;
+    e.zone = zone_of(e.eccentricity, e.frame.length, pressed);
 }
 
 Check least(const char* quantity, double value, const std::optional<double>& required, const std::string& source)
@@ -215,6 +213,11 @@ void add_notes(Equilibrium& e)
     else if (e.base.status == CrackStatus::open)
         e.notes.push_back(
             "no equilibrium without tension: the joint opens over the whole base and the block tips or rocks");
+    else if (e.base.status == CrackStatus::through)
+        e.notes.push_back(
+            fmt::format("cracked through: what is left, {:.3g} m of {:.4g} m, would be pressed by {:.3g} MPa",
+                        e.base.compressed_length, e.frame.length,
+                        2.0 * e.base.effective_normal / e.base.compressed_length / units::MPa));
     if (e.crack_rule == CrackRule::none && std::min(e.heel_stress, e.toe_stress) < 0.0)
         e.notes.push_back("tension across the base, no crack considered");
     if (e.sliding_factor < 1.0) e.notes.push_back("slides: the shear exceeds the strength");
@@ -246,7 +249,11 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
         for (Load& load : earthquake_loads(scene, water, a_h, a_v)) e.loads.push_back(std::move(load));
     e.load = resultant(e.loads);
     if (seismic(c)) e.base = shaken_base(scene, static_case, before, e.load, options.seepage);
-    e.cohesive_length = bonded_length(before, e.base);
+    e.base.effective_normal = without_round_off(e.base.effective_normal, e);
+    if (e.base.effective_normal == 0.0) e.base.resultant_distance = nan;
+    const bool kept = e.crack_rule == CrackRule::fixed_static && seismic(c); // a crack that may not open further
+    if (!kept && cracked_through(e.base, e.frame.length)) e.base.status = CrackStatus::through;
+    e.cohesive_length = e.base.status == CrackStatus::through ? 0.0 : bonded_length(before, e.base);
 
     // 3. strengths and factors
     const Strength residual_strength = residual(scene, c);
@@ -255,7 +262,7 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
     e.cohesion = used.cohesion;
     e.residual_friction = residual_strength.friction;
     e.residual_cohesion = residual_strength.cohesion;
-    e.shear = shear(e.frame, e.load);
+    e.shear = without_round_off(shear(e.frame, e.load), e);
     const Point toe_point = toe(scene.section);
     sliding_factors(e);
     e.overturning_factor = overturning_factor(e, toe_point);
@@ -270,7 +277,7 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
     const RigidBlock block = make_rigid_block(scene, before, e.reservoir_level, block_options);
     e.yield_acceleration = yield_downstream(block).law.at(a_v);
     e.yield_acceleration_upstream = yield_upstream(block).law.at(a_v);
-    e.tipping_acceleration = tipping_acceleration(scene, water, before, a_v, toe_point);
+    e.tipping_acceleration = tipping_acceleration(scene, water, before, a_v, Towards::downstream);
 
     add_checks(e, c, required);
     add_notes(e);

@@ -13,7 +13,7 @@ enum class ResultantZone {
     kern,        ///< middle third: no tension
     middle_half, ///< within a quarter of the base from its middle
     base,        ///< within the base
-    outside      ///< outside, or N' <= 0
+    outside      ///< outside, N' <= 0, or the joint cracked through
 };
 
 /// Required value of one check; none: no criterion.
@@ -50,7 +50,9 @@ struct Equilibrium {
     std::string name;
     CombinationKind kind = CombinationKind::usual;
     CrackRule crack_rule = CrackRule::none;
-    double k_h = 0.0, k_v = 0.0; ///< seismic coefficients a / 9.80665 [-]; a_h upstream, a_v up
+    std::string follows;          ///< post-seismic: the extreme combination that opened the joint; empty: none did
+    std::optional<double> of_pga; ///< a_h over the largest PGA of the records, where both are known [-]
+    double k_h = 0.0, k_v = 0.0;  ///< seismic coefficients a / 9.80665 [-]; a_h upstream, a_v up
     std::optional<double> reservoir_level, tailwater_level;  ///< above the heel [m]
     double friction = 0.0, cohesion = 0.0;                   ///< used for `sliding_factor` [-], [Pa]
     double residual_friction = 0.0, residual_cohesion = 0.0; ///< [-], [Pa]
@@ -72,7 +74,7 @@ struct Equilibrium {
     double eccentricity = 0.0;       ///< from the middle of the base [m]
     ResultantZone zone = ResultantZone::outside;
     double heel_stress = 0.0,
-           toe_stress = 0.0;         ///< effective, at the ends of the compressed part [Pa]; NaN without equilibrium
+           toe_stress = 0.0; ///< effective, at the ends of the compressed part [Pa]; NaN where it is open or through
     double yield_acceleration = 0.0; ///< downstream [m/s^2], static uplift and crack of this combination, its k_v
     double yield_acceleration_upstream = 0.0; ///< [m/s^2]
     double tipping_acceleration = 0.0;        ///< a_h at which N' reaches the toe, uplift unchanged [m/s^2]
@@ -92,6 +94,7 @@ struct Equilibrium {
 ///   it (USACE 1995, FERC 1991), `seismic-full` full head in it, drains ignored once reached (ICOLD 1986). Without one:
 ///   all but `none` mean the static crack.
 /// - Post-seismic: `options.opened` holds the full head and no cohesion.
+/// - A joint that is cracked through has no bond left and no stresses.
 Equilibrium evaluate(const Scene& scene, const Combination& combination, const Requirements& required,
                      const EquilibriumOptions& options = {});
 

@@ -56,6 +56,8 @@ const char* word(CrackStatus status)
         return "closed";
     case CrackStatus::partial:
         return "partial";
+    case CrackStatus::through:
+        return "cracked through";
     case CrackStatus::open:
         return "open";
     }

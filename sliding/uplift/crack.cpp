@@ -101,6 +101,14 @@ std::vector<double> scan_bounds(std::vector<double> events, Side side, double le
 
 } // namespace
 
+bool cracked_through(const CrackedBase& base, double length)
+{
+    constexpr double least_share = 0.02, greatest_pressure = 50e6; // [-], [Pa]
+    if (base.status != CrackStatus::partial || !(base.compressed_length > 0.0)) return false;
+    return base.compressed_length < least_share * length ||
+           2.0 * base.effective_normal / base.compressed_length > greatest_pressure;
+}
+
 CrackedBase uncracked_base(const BaseLoad& load, double length, const PressureProfile& profile)
 {
     CrackedBase base = loaded(load, profile);

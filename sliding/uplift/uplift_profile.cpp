@@ -191,7 +191,9 @@ PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, con
 {
     const double length = base_length(scene.section);
     if (!scene.uplift || scene.uplift->model == UpliftModel::none) return {{{0.0, 0.0}, {length, 0.0}}};
-    const Base base = base_of(scene, state, crack.side);
+    Base base = base_of(scene, state, crack.side);
+    if (crack.length >= length)
+        base.first_head = std::max(base.first_head, base.second_head); // water enters at both ends
     PressureProfile profile;
     if (crack.length > 0.0) {
         const double tip = std::min(crack.length, length);

@@ -57,7 +57,8 @@ inline SeepageProfile fixed_profile(PressureProfile profile)
 /// With water flowing upstream (tailwater higher) curtain and drains are read from the other end: the mirrored dam
 /// gives the mirrored profile.
 ///
-/// A crack holds the head of its own end over its whole length; beyond its tip
+/// A crack holds the head of its own end over its whole length; one from end to end holds the higher of the two. Beyond
+/// its tip
 /// linear: straight to the other end; curtain: as uncracked unless the crack has reached the curtain, then linear;
 /// drains: (L - X)/(L - T) with crack length T in place of (L - X)/L, from the tip on, E = 0 once the crack has reached
 /// the drains (EM 1110-2-2200); points and seepage: unchanged, with a jump at the tip.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <set>
+#include <tuple>
 
 namespace damslip::checks {
 
@@ -41,6 +42,42 @@ void check_motion(const Scene& s, Findings& f, FileCheck files)
     }
 }
 
+namespace {
+
+/// A post-seismic state follows an earthquake that the scene has.
+void check_follows(const Scene& s, const Combination& c, const std::string& label, Findings& f)
+{
+    if (c.follows.empty()) return;
+    if (c.kind != CombinationKind::post_seismic)
+        return f.wrong(label + ".follows",
+                       fmt::format("{}.follows = \"{}\", but its kind is not \"post-seismic\".", label, c.follows),
+                       "follows in combinations of kind \"post-seismic\" only",
+                       "delete follows, or write  kind = \"post-seismic\"");
+    std::string extremes;
+    for (const Combination& other : s.combinations) {
+        if (other.kind != CombinationKind::extreme) continue;
+        if (other.name == c.follows) return;
+        extremes += fmt::format("{}\"{}\"", extremes.empty() ? "" : ", ", other.name);
+    }
+    f.wrong(label + ".follows",
+            fmt::format("{}.follows = \"{}\" is no combination of kind \"extreme\".", label, c.follows),
+            extremes.empty() ? "the name of an extreme combination; the scene has none" : "one of " + extremes,
+            "correct the name, or leave follows out: the governing one is then taken");
+}
+
+/// A seismic coefficient is a value or a share of the records' peak.
+void check_coefficients(const Combination& c, const std::string& label, Findings& f)
+{
+    for (const auto& [value, fraction, given] : {std::tuple("k_h", "pga_fraction", c.pga_fraction.has_value()),
+                                                 std::tuple("k_v", "pga_v_fraction", c.pga_v_fraction.has_value())})
+        if (given && f.given(label + "." + value))
+            f.wrong(label + "." + fraction,
+                    fmt::format("{0}.{1} is given together with {0}.{2}.", label, fraction, value), "one of the two",
+                    fmt::format("delete {} or {}", value, fraction));
+}
+
+} // namespace
+
 void check_combinations(const Scene& s, Findings& f)
 {
     std::set<std::string> names;
@@ -58,6 +95,8 @@ void check_combinations(const Scene& s, Findings& f)
             f.wrong(label + ".reservoir_level", label + " changes a water level of a table the scene does not have.",
                     "[reservoir] for reservoir_level_m, [tailwater] for tailwater_level_m",
                     "add the table; its level_m may be 0");
+        check_follows(s, c, label, f);
+        check_coefficients(c, label, f);
         if (c.required_resultant && *c.required_resultant != "kern" && *c.required_resultant != "middle-half" &&
             *c.required_resultant != "base")
             f.wrong(label + ".required_resultant",

@@ -3,6 +3,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "scene/section.hpp"
+#include "scene/wet_base.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,18 @@ void check_crack_water(const Scene& s, Findings& f)
                 "depth of the water above the foot of the crack, at most the crack's depth", "lower it");
 }
 
+/// What presses up under the base is never assumed away: a dry base is written down.
+void check_uplift_is_said(const Scene& s, Findings& f)
+{
+    if (s.uplift || !water_on_dam(s)) return;
+    f.wrong(
+        s.reservoir ? "reservoir" : "tailwater",
+        fmt::format("there is water on the dam, [{}], but nothing says how it presses up under the base.",
+                    s.reservoir ? "reservoir" : "tailwater"),
+        "[uplift], or a [curtain] (uplift by seepage) or [drains] (uplift with drains)",
+        "add  [uplift]  with  model = \"linear\"  (heel to toe, the safe side), or  model = \"none\"  for a dry base");
+}
+
 } // namespace
 
 void check_water(const Scene& s, Findings& f)
@@ -87,6 +100,7 @@ void check_water(const Scene& s, Findings& f)
                             value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
                 "metres above the heel", "check datum and unit");
     check_crack_water(s, f);
+    check_uplift_is_said(s, f);
     if (s.reservoir) check_acoustic_water(*s.reservoir, f);
     check_face_of_added_mass(s, f);
     if (s.added_mass.period && s.reservoir) {

@@ -53,8 +53,8 @@ void fill_defaults(Scene& scene, const Findings& findings)
             scene.foundation->depth = std::max(base * 20.0 / 9.0, scene.curtain ? 2 * scene.curtain->depth : 0.0);
     }
     const bool water = scene.reservoir || scene.tailwater;
-    if (!scene.uplift && scene.curtain && water)
-        scene.uplift.emplace().model = UpliftModel::seepage;
+    if (!scene.uplift && water && (scene.curtain || scene.drains))
+        scene.uplift.emplace().model = scene.curtain ? UpliftModel::seepage : UpliftModel::drains;
     else if (scene.uplift && !findings.given("uplift.model"))
         scene.uplift->model = !scene.uplift->points.empty() ? UpliftModel::points
                               : scene.curtain               ? UpliftModel::seepage

@@ -1,4 +1,5 @@
 #include "scene/effect_row.hpp"
+#include "scene/wet_base.hpp"
 #include "scene/words.hpp"
 
 #include <fmt/format.h>
@@ -19,11 +20,11 @@ bool uplift_acts(const Scene& s)
 
 Decision decide_uplift(const Scene& s, Method)
 {
-    if (!s.uplift)
+    if (!s.uplift) return {false, "no [uplift]", ""};
+    if (!uplift_acts(s))
         return {false,
-                s.reservoir || s.tailwater ? "no [uplift] and no [curtain]: the base is taken as dry" : "no [uplift]",
+                std::string("uplift.model = \"none\"") + (base_taken_as_dry(s) ? ": the base is taken as dry" : ""),
                 ""};
-    if (!uplift_acts(s)) return {false, "uplift.model = \"none\"", ""};
     return {true, std::string("uplift.model = \"") + word(s.uplift->model) + "\"", "one pressure profile"};
 }
 
@@ -71,7 +72,10 @@ std::vector<EffectRow> uplift_effects()
              s.uplift = Uplift{.model = UpliftModel::none, .points = {}};
              return Removal{s, "uplift.model = \"none\": dry base"};
          },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.uplift.reset(); },
+         .leave_out =
+             [](Scene& s, const EffectPlan&) { // said by name, so that the scene that was run can be read again
+                 if (s.uplift) s.uplift = Uplift{.model = UpliftModel::none, .points = {}};
+             },
          .named = Effect::uplift},
         {.name = "seepage",
          .decide = [](const Scene& s, Method) -> Decision {

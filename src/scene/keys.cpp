@@ -66,7 +66,13 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
         "criteria", "What is allowed.", &Scene::criteria,
         {number("allowable_slip", {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}, Range::at_least(0), "none",
                 "slip verdicts compare with this", "0.1", at(&Criteria::allowable_slip)),
-         word("document", "none", "shipped set of required safety factors", "\"cadam3d\"", at(&Criteria::document))}));
+         word("document", "none", "shipped set of required safety factors", "\"cadam3d\"", at(&Criteria::document)),
+         number("pga_fraction", none, Range::half_open(0, 2), "1",
+                "of the seismic combination that the program makes: k_h as share of the largest PGA of the records",
+                "0.67", at(&Criteria::pga_fraction)),
+         number("pga_v_fraction", none, Range::between(0, 2), "0",
+                "and k_v as share of their largest vertical acceleration; it lightens the dam", "0.3",
+                at(&Criteria::pga_v_fraction))}));
     groups.push_back(combination_group());
     append(fe_groups());
     return groups;

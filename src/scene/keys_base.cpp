@@ -146,7 +146,10 @@ std::vector<KeyGroup> base_groups()
         "separation, enforcement and slip tolerance are those of [contact].",
         [](Scene& s) -> std::vector<LiftJoint>& { return s.lift_joints; }, lift_joint_keys(groups.back().keys)));
     groups.push_back(optional_group(
-        "uplift", "Water pressure in the base. Without this table: seepage where a [curtain] is given, else none.",
+        "uplift",
+        "Water pressure in the base. Without this table: seepage where a [curtain] is given, drains where [drains] "
+        "are; "
+        "water with none of the three is refused, a dry base is said by name: model = \"none\".",
         &Scene::uplift,
         {word("model", "seepage with [curtain], drains with [drains], else linear", uplift_meanings(), "\"points\"",
               choice(&Uplift::model, uplift_models())),

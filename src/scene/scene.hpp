@@ -243,6 +243,7 @@ enum class CombinationKind { usual, unusual, extreme, post_seismic };
 struct Combination {
     std::string name;
     CombinationKind kind = CombinationKind::usual;
+    std::string follows; ///< post-seismic: the extreme combination it comes after; empty: the governing
     std::optional<double> reservoir_level; ///< [m]
     std::optional<double> tailwater_level; ///< [m]
     bool ice = false;
@@ -250,10 +251,12 @@ struct Combination {
     bool curtain_intact = true;
     bool residual_strength = false;
     std::optional<CrackRule> crack;
-    std::optional<double> friction; ///< [-]
-    std::optional<double> cohesion; ///< [Pa]
-    double k_h = 0.0;               ///< seismic coefficient a_h / 9.80665, positive drives downstream [-]
-    double k_v = 0.0;               ///< a_v / 9.80665, positive up [-]
+    std::optional<double> friction;       ///< [-]
+    std::optional<double> cohesion;       ///< [Pa]
+    double k_h = 0.0;                     ///< seismic coefficient a_h / 9.80665, positive drives downstream [-]
+    double k_v = 0.0;                     ///< a_v / 9.80665, positive up [-]
+    std::optional<double> pga_fraction;   ///< takes the place of k_h: share of the largest PGA of the records [-]
+    std::optional<double> pga_v_fraction; ///< of k_v: share of their largest vertical acceleration, which lightens [-]
     double weight_factor = 1.0, water_factor = 1.0, uplift_factor = 1.0, silt_factor = 1.0,
            ice_factor = 1.0;                           ///< load factors [-]
     std::optional<double> required_sliding_factor;     ///< [-]
@@ -266,6 +269,8 @@ struct Combination {
 struct Criteria {
     std::optional<double> allowable_slip; ///< [m]
     std::string document;                 ///< name of a shipped criteria file or path of one; empty: no required values
+    double pga_fraction = 1.0;   ///< of the seismic combination that the program makes: k_h as share of the PGA [-]
+    double pga_v_fraction = 0.0; ///< and k_v as share of the largest vertical acceleration, which lightens [-]
 };
 
 enum class ElementKind { q4_incompatible, q4, t3, q8, q9, t6 };

@@ -21,7 +21,8 @@ protected:
         std::ofstream(folder / "pulse.csv") << "time_s,accel_m_s2\n0,0\n1,2\n2,0\n3,0\n";
         std::ofstream(folder / "block.toml")
             << "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = 25\n"
-               "[contact]\nfriction = 0.5\n[reservoir]\nlevel_m = 8\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
+               "[contact]\nfriction = 0.5\n[reservoir]\nlevel_m = 8\n[uplift]\nmodel = "
+               "\"none\"\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
     std::string path(const std::string& name) const { return (folder / name).string(); }

@@ -14,7 +14,7 @@ const char* const wet_scene =
 std::string water_message(const std::string& reservoir)
 {
     try {
-        parse_scene(wet_scene + reservoir, "dam.toml", FileCheck::skip);
+        parse_scene(wet_scene + reservoir + "[uplift]\nmodel = \"none\"\n", "dam.toml", FileCheck::skip);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -44,7 +44,7 @@ TEST(WaterInput, GoldgrubersMassIsOfSteepFaces)
         "[contact]\nfriction = 0.77\n[added_mass]\nformula = \"goldgruber\"\n[reservoir]\n";
     const auto message = [&](const std::string& reservoir) -> std::string {
         try {
-            parse_scene(section + reservoir, "dam.toml", FileCheck::skip);
+            parse_scene(section + reservoir + "[uplift]\nmodel = \"none\"\n", "dam.toml", FileCheck::skip);
         } catch (const InputError& error) {
             return error.what();
         }

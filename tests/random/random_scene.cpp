@@ -254,7 +254,13 @@ void add_water(Writer& w)
 void add_uplift(Writer& w)
 {
     Draw& draw = w.draw;
-    if (!draw.chance(0.6)) return;
+    const bool water = w.has("[reservoir]") || w.has("[tailwater]");
+    if (!draw.chance(0.6)) {
+        if (!water || w.curtain || w.drains) return;
+        w.table("uplift");
+        w.word("model", "none");
+        return;
+    }
     w.table("uplift");
     std::string model = draw.word({"none", "linear", "linear", "curtain", "drains", "points", "seepage"});
     const bool lacks =

@@ -314,7 +314,7 @@ TEST_F(CliScene, ScaleThatOverflowsIsRefusedWithAFix)
 // Full water on friction 0.1: the block needs no earthquake to slide, and no slip is a result.
 TEST_F(CliScene, StaticSlidingHasNoSlip)
 {
-    std::ofstream(folder / "block.toml", std::ios::app) << "[reservoir]\nlevel_m = 10\n";
+    std::ofstream(folder / "block.toml", std::ios::app) << "[reservoir]\nlevel_m = 10\n[uplift]\nmodel = \"none\"\n";
     const auto j = nlohmann::json::parse(answer_of({"screen", scene(), "--json"}).out);
     for (const auto& row : j["displacements"]) {
         EXPECT_EQ(row["status"], "static failure");

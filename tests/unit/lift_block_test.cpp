@@ -16,7 +16,8 @@ using namespace damslip::sliding;
 Scene lift_block_scene(const std::string& more)
 {
     return parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\ncrest_m = 12\nneck_m = 11\n[dam]\ndensity_kg_m3 = "
-                       "2500\n[reservoir]\n[added_mass]\nformula = \"westergaard-simplified\"\n[contact]\nfriction = "
+                       "2500\n[uplift]\nmodel = \"none\"\n[reservoir]\n[added_mass]\nformula = "
+                       "\"westergaard-simplified\"\n[contact]\nfriction = "
                        "0.77\n" +
                            more,
                        "dam.toml", FileCheck::skip);

@@ -7,7 +7,8 @@
 
 namespace damslip::cli {
 
-/// What has to be known of the contact law the scene chooses, one sentence each; none for the default.
+/// What has to be known of the contact law the scene chooses and of the water in its joint, one sentence each; none for the
+/// default.
 std::vector<std::string> contact_law_notes(const Scene& scene);
 
 } // namespace damslip::cli

@@ -4,6 +4,7 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "scene/wet_base.hpp"
 #include "sliding/empirical/ensemble.hpp"
 
 #include <algorithm>
@@ -22,6 +23,25 @@ double peak(const std::vector<double>& a)
     return p;
 }
 
+void set_status(SlipRow& row, Status status)
+{
+    row.horizontal.status = status;
+    if (row.with_vertical) row.with_vertical->status = status;
+    if (!row.flexible) return;
+    if (row.flexible->decoupled) row.flexible->decoupled->slide.status = status;
+    if (row.flexible->coupled) row.flexible->coupled->slide.status = status;
+}
+
+/// Largest acceleration of the mass: that of the ground, or what a flexible mass makes of it [m/s^2].
+double strongest_shaking(const SlipRow& row)
+{
+    double strongest = row.pga;
+    if (row.flexible)
+        for (const auto* slide : {&row.flexible->decoupled, &row.flexible->coupled})
+            if (*slide) strongest = std::max(strongest, (*slide)->peak_acceleration);
+    return strongest;
+}
+
 std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records, int jobs,
                                std::vector<std::string>& warnings)
 {
@@ -36,6 +56,7 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std
             row.record = motions.back().name;
             row.polarity = polarity;
             row.pga = peak(motions.back().accel_h);
+            row.vertical_pga = peak(motions.back().accel_v);
             rows.push_back(std::move(row));
         }
     }
@@ -49,6 +70,10 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std
         else if (task % 3 == 2 && s.flexible)
             row.flexible = slide_flexible(scene, *s.flexible, model, motion, row.polarity);
     });
+    for (SlipRow& row : rows) {
+        if (overturns(s.bases.front())) set_status(row, Status::overturns);
+        row.broken_premises = broken_premises(s.bases.front(), strongest_shaking(row));
+    }
     return rows;
 }
 
@@ -240,7 +265,7 @@ std::vector<const sliding::SlideResult*> all_slides(const SlipRow& row)
 
 void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
 {
-    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, 0.0}, seepage);
+    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, s.largest_vertical_pga}, seepage);
     if (scene.reservoir || scene.tailwater)
         s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
 }
@@ -263,8 +288,13 @@ void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warning
 
 void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
 {
-    if ((scene.reservoir || scene.tailwater) && !s.plan.on(Effect::uplift))
-        warnings.push_back("The base is taken as dry although there is water: give [uplift] or a [curtain].");
+    if (overturns(s.bases.front()))
+        warnings.push_back("The resultant of the static loads acts outside the base: the dam tips over without any "
+                           "earthquake.");
+    if (s.dry_base)
+        warnings.push_back("The base is taken as dry although there is water on the dam: no answer here counts any "
+                           "uplift.");
+    for (const std::string& premise : broken_premises(s)) warnings.push_back("No PASS: the dam " + premise + ".");
     const RigidModel& model = s.bases.front().model;
     if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
         warnings.push_back(fmt::format(
@@ -295,6 +325,19 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
         }
 }
 
+std::string in_g(double a)
+{
+    return fmt::format("{:.3g} g", a / units::standard_gravity);
+}
+
+/// "tips at 0.305 g before it slides at 0.869 g: ..."; nothing where it slides first, or the motion stays below.
+std::optional<std::string> before_sliding(const std::string& what, double limit, double yield, double pga)
+{
+    if (!(limit > 0.0 && limit < pga && limit < yield)) return std::nullopt; // without an earthquake: `overturns`
+    const std::string slides = std::isfinite(yield) ? " before it slides at " + in_g(yield) : " and does not slide";
+    return fmt::format("{} at {}{}: the rigid sliding block does not hold here", what, in_g(limit), slides);
+}
+
 } // namespace
 
 GoverningSlip SlipRow::governing() const
@@ -319,7 +362,8 @@ Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& al
 Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
 {
     const GoverningSlip g = row.governing();
-    return judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    const Verdict verdict = judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
 }
 
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b)
@@ -337,6 +381,41 @@ StatusCount statuses_of(const Screening& screening)
     for (const SlipRow& row : screening.slips)
         for (const sliding::SlideResult* slide : all_slides(row)) count.add(slide->status);
     return count;
+}
+
+bool overturns(const BaseRow& base)
+{
+    return base.model.state == sliding::StaticState::at_rest &&
+           (base.limits.tips <= 0.0 || base.limits.tips_upstream <= 0.0);
+}
+
+std::vector<std::string> broken_premises(const BaseRow& base, double pga)
+{
+    const sliding::BaseLimits& limits = base.limits;
+    const double down = base.model.downstream.law.constant, up = base.model.upstream.law.constant;
+    std::vector<std::string> out;
+    const auto add = [&](const char* what, double limit, double yield) {
+        if (auto sentence = before_sliding(what, limit, yield, pga)) out.push_back(std::move(*sentence));
+    };
+    add("tips", limits.tips, down);
+    if (limits.opens < limits.tips * (1.0 - 1e-9)) add("has its joint open from heel to toe", limits.opens, down);
+    const double bond = limits.bond_fails;
+    if (bond < pga && bond < down * (1.0 - 1e-9))
+        out.push_back(
+            fmt::format("slides at {} with the crack that the same acceleration opens, not at {}: its bond does "
+                        "not hold until then",
+                        in_g(bond), in_g(down)));
+    add("tips upstream", limits.tips_upstream, up);
+    return out;
+}
+
+std::vector<std::string> broken_premises(const Screening& screening)
+{
+    std::vector<std::string> all;
+    for (const SlipRow& row : screening.slips)
+        for (const std::string& premise : row.broken_premises)
+            if (std::find(all.begin(), all.end(), premise) == all.end()) all.push_back(premise);
+    return all;
 }
 
 double percentile(std::vector<double> samples, double q)
@@ -370,7 +449,10 @@ namespace {
 void add_slips(const Scene& scene, const std::vector<RecordPair>& records, int jobs, Screening& s)
 {
     s.slips = slip_rows(scene, s, records, jobs, s.warnings);
-    for (const SlipRow& row : s.slips) s.largest_pga = std::max(s.largest_pga, row.pga);
+    for (const SlipRow& row : s.slips) {
+        s.largest_pga = std::max(s.largest_pga, row.pga);
+        s.largest_vertical_pga = std::max(s.largest_vertical_pga, row.vertical_pga);
+    }
 }
 
 /// What the kept way of sliding of a wedge leaves out.
@@ -418,12 +500,14 @@ Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::v
     s.plan = plan;
     SeepageSource source;
     const sliding::SeepageProfile seepage = source.profile_of(scene);
-    s.bases.push_back(
-        {plan.on(Effect::base_crack) ? "cracked, as given" : "uncracked, as given", make_rigid_model(scene, seepage)});
-    if (!plan.on(Effect::base_crack))
-        s.bases.push_back({"cracked under static loads", make_rigid_model(scene, seepage, CrackRule::fixed_static)});
-    else
-        s.bases.push_back({"uncracked", make_rigid_model(scene, seepage, CrackRule::none)});
+    const auto base = [&](const char* name, std::optional<CrackRule> crack) {
+        return BaseRow{name, make_rigid_model(scene, seepage, crack), sliding::base_limits(scene, seepage, crack)};
+    };
+    const bool cracks = plan.on(Effect::base_crack);
+    s.bases.push_back(base(cracks ? "cracked, as given" : "uncracked, as given", std::nullopt));
+    s.bases.push_back(cracks ? base("uncracked", CrackRule::none)
+                             : base("cracked under static loads", CrackRule::fixed_static));
+    s.dry_base = base_taken_as_dry(scene);
     s.flexible = flexible_block(scene);
     s.mass_ratio_words = mass_ratio_words(scene);
     add_slips(scene, records, jobs, s);

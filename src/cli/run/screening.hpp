@@ -4,6 +4,7 @@
 #include "cli/run/rigid_model.hpp"
 #include "cli/run/run_inputs.hpp"
 #include "core/status_count.hpp"
+#include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
 
@@ -18,6 +19,7 @@ namespace damslip::cli {
 struct BaseRow {
     std::string base; ///< "as given", "cracked base"
     RigidModel model;
+    sliding::BaseLimits limits = {}; ///< how far the sliding block is the dam; none of a wedge
 };
 
 /// Slip of a block that is flexible, by the analyses the scene asks for; with the vertical component where the record has one.
@@ -37,10 +39,14 @@ struct SlipRow {
     std::string record;
     int polarity = 1;
     double pga = 0.0;                                  ///< of the scaled horizontal component [m/s^2]
+    double vertical_pga = 0.0;                         ///< of the vertical one; 0: there is none [m/s^2]
     sliding::SlideResult horizontal;                   ///< without the vertical component
     std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
 
     std::optional<FlexibleSlips> flexible; ///< where the sliding mass is flexible
+
+    std::vector<std::string> broken_premises =
+        {}; ///< why the slip is none of a dam in this motion: no PASS rests on it
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
@@ -90,7 +96,9 @@ struct Screening {
     std::vector<SlipRow> slips;
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
-    double largest_pga = 0.0; ///< of all records [m/s^2]
+    double largest_pga = 0.0;          ///< of all records [m/s^2]
+    bool dry_base = false;             ///< there is water on the dam, but no uplift
+    double largest_vertical_pga = 0.0; ///< of their vertical components; 0: they have none [m/s^2]
     std::vector<std::string> warnings;
 };
 
@@ -100,7 +108,7 @@ double slip_error(const sliding::SlideResult& slide);
 /// The slide's largest slip against the allowable [m].
 Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable);
 
-/// The governing slip against the allowable [m].
+/// The governing slip against the allowable [m]; no PASS where a premise of the slip is broken.
 Verdict judge(const SlipRow& row, const std::optional<double>& allowable);
 
 /// The one that decides: one that is no answer, else one without a slip, else the larger.
@@ -111,6 +119,17 @@ StatusCount statuses_of(const Screening& screening);
 
 /// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
 Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
+
+/// The resultant of the static loads acts outside the base: it tips without any earthquake.
+bool overturns(const BaseRow& base);
+
+/// What must hold for the block's slip to be the dam's, and does not in a motion of this peak: the dam tips, or its joint
+/// opens and loses its bond, at a smaller acceleration than slides it, and the motion reaches it. One sentence each.
+/// @param peak  of the mass [m/s^2], reached both ways
+std::vector<std::string> broken_premises(const BaseRow& base, double peak);
+
+/// Those of all rows, each once.
+std::vector<std::string> broken_premises(const Screening& screening);
 
 FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
                              const GroundMotion& motion, int polarity,

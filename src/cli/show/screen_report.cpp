@@ -292,6 +292,13 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
         return {fmt::format("The {} slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
                             sliding_body(scene), model.block.friction, model.critical_friction),
                 Outcome::fail, "FAIL"};
+    if (overturns(s.bases.front()))
+        return {
+            fmt::format("The {} tips over without any earthquake: the resultant of the static loads acts outside its "
+                        "base.",
+                        sliding_body(scene)),
+            Outcome::fail, "FAIL"};
+    const std::string pass = s.dry_base ? "PASS on a dry base" : "PASS"; // there is water, and no uplift
     if (s.slips.empty()) {
         const std::string sentence =
             fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
@@ -299,10 +306,13 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
                         sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
             checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
-        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : "PASS"};
+        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : pass};
     }
     const std::string standing = standing_sentence(s);
-    const std::string sentence = slip_sentence(scene, s) + checks_sentence(checks) + standing;
+    const std::vector<std::string> premises = broken_premises(s);
+    const std::string sentence = slip_sentence(scene, s) +
+                                 (premises.empty() ? "" : " But it " + premises.front() + ".") +
+                                 checks_sentence(checks) + standing;
     if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
     const auto any = [&](Verdict verdict) {
         return std::any_of(s.slips.begin(), s.slips.end(),
@@ -310,12 +320,14 @@ report::Headline screen_headline(const Scene& scene, const Screening& s)
     };
     if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (!premises.empty())
+        return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
     if (any(Verdict::undecided))
         return {sentence, Outcome::unresolved,
                 s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
                            : "Undecided: the error of SLAMMER's scheme is not known."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
-    return {sentence, Outcome::pass, "PASS"};
+    return {sentence, Outcome::pass, pass};
 }
 
 report::Page screen_page(const ScreenReportInput& in)

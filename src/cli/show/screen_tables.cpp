@@ -23,11 +23,11 @@ Cell cell(const std::optional<double>& value, double unit = 1.0)
     return value ? Cell(*value / unit) : Cell();
 }
 
-std::string state_word(const RigidModel& model)
+std::string state_word(const BaseRow& row)
 {
-    switch (model.state) {
+    switch (row.model.state) {
     case sliding::StaticState::at_rest:
-        return "stands";
+        return overturns(row) ? "OVERTURNS" : "stands";
     case sliding::StaticState::slides_downstream:
         return "SLIDES STATICALLY";
     case sliding::StaticState::slides_upstream:
@@ -58,6 +58,10 @@ void note_static_sliding(const Screening& s, Table& table)
 {
     if (s.slips.empty() || !fails_statically(s.slips.front().horizontal.status)) return;
     const RigidModel& m = s.bases.front().model;
+    if (overturns(s.bases.front())) {
+        table.notes.push_back("tips over without any earthquake: no slip is given.");
+        return;
+    }
     table.notes.push_back("slides statically: no slip is given, it would grow for as long as the record lasts; " +
                           (std::isfinite(m.critical_friction) ? fmt::format("critical μ = {:.4g}.", m.critical_friction)
                                                               : std::string("no friction would hold it.")));
@@ -68,6 +72,14 @@ Cell rigid_verdict_cell(const SlipRow& row, const std::optional<double>& allowab
 {
     if (row.flexible) return fmt::format("judged by {}", row.governing().method);
     return verdict_cell(judge(row, allowable));
+}
+
+/// What no PASS may rest on, and what a PASS rests on.
+void note_premises(const Screening& s, const std::optional<double>& allowable, Table& table)
+{
+    if (allowable && s.dry_base)
+        table.notes.push_back("verdict: of a base taken as dry although there is water on the dam.");
+    for (const std::string& premise : broken_premises(s)) table.notes.push_back("no PASS: the dam " + premise + ".");
 }
 
 /// What a verdict says, and what it cannot say.
@@ -117,16 +129,24 @@ Table yield_table(const Screening& s)
                  {"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6},
                  {"yield_coefficient_g", "a_y downstream", "g", 6},
                  {"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 6},
+                 {"tips_m_s2", "a tips", "m/s²", 4},
+                 {"tips_g", "a tips", "g", 4},
+                 {"opens_m_s2", "a opens base", "m/s²", 4},
+                 {"opens_g", "a opens base", "g", 4},
                  {"critical_friction", "critical μ", "–", 6},
                  {"state", "without earthquake", "", 4}};
     for (const BaseRow& row : s.bases) {
         const RigidModel& m = row.model;
         t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant,
-                          m.downstream.law.constant / standard_gravity, m.upstream.law.constant, m.critical_friction,
-                          state_word(m)});
+                          m.downstream.law.constant / standard_gravity, m.upstream.law.constant, row.limits.tips,
+                          row.limits.tips / standard_gravity, row.limits.opens, row.limits.opens / standard_gravity,
+                          m.critical_friction, state_word(row)});
     }
     t.notes.push_back("a_y: ground acceleration at which it starts to slide; critical μ: friction that just holds "
                       "it without an earthquake.");
+    t.notes.push_back(
+        "a tips: constant ground acceleration at which the dam tips about its toe, uplift unchanged; a opens "
+        "base: at which its joint is open from heel to toe (by uplift.crack) and its bond lost.");
     return t;
 }
 
@@ -165,6 +185,7 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
                           "component where the record has one.");
     note_static_sliding(s, t);
     note_verdict(s, allowable, t);
+    note_premises(s, allowable, t);
     return t;
 }
 
@@ -212,6 +233,7 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
         t.notes.push_back(fmt::format("verdict: largest slip of the analysis in \"judged by\" against "
                                       "criteria.allowable_slip = {:.4g} mm; the rigid slip has none of its own.",
                                       *allowable / mm));
+    note_premises(s, allowable, t);
     return t;
 }
 
