@@ -207,16 +207,6 @@ bool curtain_is_meshed(const Scene& scene)
            (scene.stages.pore_pressure != PorePressure::none && curtain_changes_flow(scene));
 }
 
-MeshSizes mesh_sizes(const Scene& scene)
-{
-    const double lowest = std::min(heel(scene.section).y, toe(scene.section).y);
-    MeshSizes sizes;
-    sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
-    sizes.contact = scene.mesh.contact_size.value_or(std::min(sizes.dam, base_length(scene.section) / 60.0));
-    if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
-    return sizes;
-}
-
 Mesh build_mesh(const Scene& scene, const ContactExtension& extension)
 {
     Mesh mesh = scene.mesh.file ? import_mesh(scene, extension).mesh : own_mesh(scene, extension);

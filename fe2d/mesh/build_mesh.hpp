@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/mesh/mesh.hpp"
+#include "scene/mesh_sizes.hpp"
 #include "scene/scene.hpp"
 
 namespace damslip::fe2d {
@@ -10,14 +11,6 @@ struct ContactExtension {
     double upstream = 1.0;   ///< [m], >= 0
     double downstream = 1.0; ///< [m], >= 0
 };
-
-/// Element sizes of a scene with all defaults filled in [m].
-struct MeshSizes {
-    double dam = 0.0;     ///< height / 40
-    double contact = 0.0; ///< min(dam, base / 60)
-    double rock = 0.0;    ///< largest in the rock: scene.mesh.rock_size, else depth / 8
-};
-MeshSizes mesh_sizes(const Scene& scene);
 
 /// Turns the linear quadrilaterals and triangles of a mesh, whoever made it, into elements of the wanted kind:
 /// quadrilaterals split along their shorter diagonal (t3, t6), middle nodes added (q8, q9, t6; quadratic.hpp).

@@ -4,6 +4,7 @@
 #include "fe2d/mesh/faces.hpp"
 #include "fe2d/mesh/grading.hpp"
 #include "fe2d/mesh/quality.hpp"
+#include "scene/mesh_sizes.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace damslip::fe2d {
 
 namespace {
 
-constexpr double rows_over_depth = 20.0;   ///< by default
 constexpr double columns_per_depth = 12.0; ///< far from the dam: 12 resolve three quarter waves with an error of 0.2 %
 
 /// Points of the wet face from the heel up to the surface.
@@ -44,7 +44,7 @@ ReservoirMesh build_reservoir_mesh(const Scene& scene)
 {
     assert(scene.reservoir && scene.reservoir->level > 0.0);
     const Reservoir& water = *scene.reservoir;
-    const double size = water.mesh_size.value_or(water.level / rows_over_depth);
+    const double size = water_mesh_size(water);
     const Polyline face = wet_face(scene, size);
     const double length = water.length > 0.0 ? water.length : 2.4 * water.level;
     const double leftmost = std::min_element(face.begin(), face.end(), [](Point a, Point b) { return a.x < b.x; })->x;

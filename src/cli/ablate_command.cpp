@@ -72,7 +72,7 @@ void print_text(const Scene& scene, const EffectPlan& plan, const Ablations& in,
 int ablate(const ExplainArguments& arguments, const Streams& streams)
 {
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
-    const Scene given = read_run_scene(arguments.inputs);
+    const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip explain --ablate", "damslip explain SCENE gives the effects of the wedge");
     check_records(given, method);
     const auto [scene, choice] = full_scene(given, method);

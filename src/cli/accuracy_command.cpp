@@ -16,6 +16,7 @@
 #include "core/units.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <cmath>
@@ -79,10 +80,10 @@ struct Loaded {
     std::size_t in_scene = 0; ///< records of the scene, whether used or not
 };
 
-Loaded load(const AccuracyArguments& a)
+Loaded load(const AccuracyArguments& a, const Streams& streams)
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    Loaded loaded{read_run_scene(a.inputs), {}, 0.0, 0};
+    Loaded loaded{read_run_scene(a.inputs, streams), {}, 0.0, 0};
     need_section(loaded.scene, "damslip accuracy",
                  "the slip of a wedge is exact for its record: damslip screen SCENE gives it");
     if (loaded.scene.mesh.file)
@@ -102,7 +103,8 @@ Loaded load(const AccuracyArguments& a)
 std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loaded,
                                      const std::vector<RungResult>& results, bool interrupted)
 {
-    std::vector<std::string> messages = facts.left_out;
+    std::vector<std::string> messages = note_texts(loaded.scene.notes);
+    messages.insert(messages.end(), facts.left_out.begin(), facts.left_out.end());
     if (loaded.records.size() < loaded.in_scene)
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
                                        "worst counts.",
@@ -239,7 +241,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
 int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
-    const Loaded loaded = load(a);
+    const Loaded loaded = load(a, streams);
     const InterruptGuard interrupt;
     const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, [&] { return interrupt.interrupted(); });
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);

@@ -50,12 +50,18 @@ CLI::App* command(Parser& p, const std::string& name, const std::string& descrip
     return add_command(p.app, p, name, description, example);
 }
 
+void add_scene(CLI::App* sub, RunInputs& in)
+{
+    sub->add_option("SCENE", in.scene, "scene file (TOML); -: standard input")->required();
+    sub->add_flag("--strict", in.strict, "values outside the range of real dams are errors, not notes");
+}
+
 void add_run_inputs(CLI::App* sub, RunInputs& in)
 {
-    sub->add_option("SCENE", in.scene, "scene file (TOML)")->required();
+    add_scene(sub, in);
     sub->add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's")
         ->group("Ground motion");
-    sub->add_option("--vertical", in.verticals, "vertical accelerogram(s), one for each --record, in the same order")
+    sub->add_option("--vertical", in.verticals, "vertical accelerogram(s), one for each --record, in the same order; none for a record without one")
         ->group("Ground motion");
     sub->add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
         ->group("Ground motion");
@@ -224,7 +230,7 @@ void add_mesh(Parser& p)
 {
     CLI::App* sub = command(p, "mesh", "the finite-element mesh of a scene: sizes and shapes; written for Gmsh",
                             "damslip mesh examples/reference_dam.toml --out dam.msh");
-    sub->add_option("SCENE", p.mesh.inputs.scene, "scene file (TOML)")->required();
+    add_scene(sub, p.mesh.inputs);
     sub->add_option("--out", p.mesh.out, "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it")
         ->check(output_to(OutputPath::file, "--out"));
     sub->add_option("--format", p.mesh.format, "version of the Gmsh file")

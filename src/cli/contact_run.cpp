@@ -19,6 +19,7 @@
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -33,7 +34,8 @@ namespace {
 std::vector<std::string> run_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                       const std::vector<std::string>& of_rock)
 {
-    std::vector<std::string> messages = contact_law_notes(scene);
+    std::vector<std::string> messages = note_texts(scene.notes);
+    for (std::string& note : contact_law_notes(scene)) messages.push_back(std::move(note));
     messages.insert(messages.end(), of_rock.begin(), of_rock.end());
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));

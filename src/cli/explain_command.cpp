@@ -10,6 +10,7 @@
 #include "cli/terminal/usage_error.hpp"
 #include "report/table_text.hpp"
 #include "scene/effect_plan.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ std::string cost_text(const ContactCost& cost)
 int explain(const ExplainArguments& arguments, const Streams& streams)
 {
     if (arguments.ablate) return ablate(arguments, streams);
-    Scene scene = read_run_scene(arguments.inputs);
+    Scene scene = read_run_scene(arguments.inputs, streams);
     if (arguments.method == "fe")
         need_section(scene, "damslip explain --method fe", "leave --method out: the wedge is rigid");
     const std::string hash = scene_hash(scene);
@@ -118,7 +119,8 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const Table table = effect_table(plan);
     const std::optional<ModelTables> model = model_tables(scene, plan);
     const std::optional<ContactCost> cost = cost_of(scene, plan);
-    std::vector<std::string> notes = water_notes(scene, plan, choice);
+    std::vector<std::string> notes = note_texts(scene.notes);
+    for (std::string& note : water_notes(scene, plan, choice)) notes.push_back(std::move(note));
     if (plan.method == Method::finite_elements) notes.push_back(time_scheme_note(scene));
     if (streams.form == Form::json) {
         auto j = json_header("explain");

@@ -13,7 +13,7 @@ namespace damslip::cli {
 
 int fe(const FeArguments& arguments, const Streams& streams)
 {
-    Scene given = read_run_scene(arguments.inputs);
+    Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip fe", "damslip screen SCENE gives the slip of the wedge");
     EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = fe_scene(given, plan);

@@ -9,6 +9,7 @@
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <fmt/format.h>
@@ -77,13 +78,14 @@ Scene of_first_order(Scene scene)
 
 int mesh(const MeshArguments& arguments, const Streams& streams)
 {
-    const Scene given = read_run_scene(arguments.inputs);
+    const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Scene scene = fe_scene(given, make_effect_plan(given, Method::finite_elements));
     fe2d::ContactExtension extension;
     if (scene.contact.sliding == JointPath::finite) extension.downstream = scene.contact.max_slip;
     const fe2d::Mesh mesh = fe2d::build_mesh(scene, extension);
     Table table = mesh_table(mesh);
+    for (std::string& note : note_texts(given.notes)) table.notes.push_back(std::move(note));
     if (scene.mesh.file) table.notes.push_back(import_note(scene, fe2d::import_mesh(scene, extension).summary));
     if (!arguments.out.empty()) {
         const auto version = arguments.format == "2.2" ? fe2d::GmshVersion::v2_2 : fe2d::GmshVersion::v4_1;
@@ -95,6 +97,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
         auto j = json_header("mesh");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(given)}};
         j["mesh"] = json_of(table);
+        j["notes"] = note_texts(given.notes);
         streams.out << j.dump(2) << "\n";
     } else {
         streams.out << scene.title << "\n\n" << report::text(table);

@@ -12,6 +12,7 @@
 #include "records/measure/response_spectrum.hpp"
 #include "report/table_text.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/loads/added_mass.hpp"
 
@@ -192,11 +193,11 @@ Table transfer_of(const Scene& scene, const fe2d::Model& model, const fe2d::Flui
 
 int modes(const ModesArguments& arguments, const Streams& streams)
 {
-    const Scene given = read_run_scene(arguments.inputs);
+    const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip modes", "a wedge is rigid; damslip screen SCENE gives its slip");
     const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
     Scene scene = called_for(plan, given);
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = note_texts(given.notes);
     const auto choice = resolve_reservoir_model(scene, streams.stop);
     if (choice) notes.push_back(choice->reason);
     const bool acoustic =

@@ -13,6 +13,7 @@
 #include "fe2d/reduction/reduced_run.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -96,7 +97,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
                                     "record " + pair.files.name}));
         progress.advance();
     }
-    std::vector<std::string> messages;
+    std::vector<std::string> messages = note_texts(scene.notes);
     for (const ReducedRecord& run : runs)
         if (run.result.status != Status::at_rest) messages.push_back(run.record + ": " + run.result.message);
     auto j = json_header("fe");

@@ -8,6 +8,7 @@
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
@@ -122,7 +123,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
 
 int screen(const ScreenArguments& arguments, const Streams& streams)
 {
-    Scene given = read_run_scene(arguments.inputs);
+    Scene given = read_run_scene(arguments.inputs, streams);
     const std::string modes = resolve_flexible_modes(given);
     const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
     const Scene scene = called_for(plan, given);
@@ -134,6 +135,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
                     streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
 
     Screening s = run_screening(scene, plan, records, arguments.jobs);
+    for (std::string& note : note_texts(given.notes)) s.warnings.push_back(std::move(note));
     if (!modes.empty()) {
         s.mass_ratio_words = "of the tied modes";
         s.warnings.push_back(modes);

@@ -9,6 +9,7 @@
 #include "records/measure/peaks.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ std::string json_text(const Scene& scene, const Table& rows, const std::vector<F
     j["modes"] = {{"table_4_3", json_of(modes_table(modes, 1.0))}, {"table_4_4", json_of(modes_table(modes, 2.0))}};
     j["settings"] = json_of(settings_table(settings));
     j["rows"] = json_of(rows);
+    j["notes"] = note_texts(scene.notes);
     return j.dump(2) + "\n";
 }
 
@@ -88,7 +90,7 @@ void talk_of(const std::vector<Finding>& findings, const Streams& streams)
 int study(const StudyArguments& arguments, const Streams& streams)
 {
     // 1. the scene and the grid of the chapter
-    Scene scene = read_run_scene(arguments.inputs);
+    Scene scene = read_run_scene(arguments.inputs, streams);
     need_section(scene, "damslip study", "damslip screen or sweep SCENE for the wedge");
     check_scene(scene);
     scene.motion.records.resize(1);

@@ -8,6 +8,7 @@
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "report/table_text.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ void put_merged_report(const SweepArguments& arguments, const MergedSweep& merge
     std::optional<Scene> scene;
     std::vector<RecordPair> records;
     if (!arguments.inputs.scene.empty()) {
-        scene = read_run_scene(arguments.inputs);
+        scene = read_run_scene(arguments.inputs, streams);
         if (merged.text.find("\n# scene " + scene_hash(*scene) + "\n") == std::string::npos)
             usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
                   "the scene the parts were made from, with the same changes on the command line", "leave SCENE out");
@@ -142,6 +143,7 @@ std::string json_text(const Scene& scene, const Grid& grid, const Table& table, 
     auto j = json_header("sweep");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["rows"] = json_of(table);
+    j["notes"] = note_texts(scene.notes);
     if (outcome.fe) {
         j["comparison"] = json_of(comparison(scene, grid, outcome));
         j["counts"] = json_of(count_table(*outcome.fe))[0];
@@ -263,14 +265,19 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
 {
     check_flags(arguments, streams.form);
     if (!arguments.merge.empty()) return merge(arguments, streams);
-    const Scene scene = read_run_scene(arguments.inputs);
+    Scene scene = read_run_scene(arguments.inputs, streams);
     const Axes axes = make_axes(arguments, scene);
+    say(axes.notes, arguments.inputs.strict, streams);
+    scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
     if (scene.motion.records.empty())
         usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
               "add  --record FILE");
     const TaskList tasks = make_tasks(axes, scene.motion.records.size());
     if (tasks.rows() > 20'000'000)
         usage(fmt::format("the grid has {} rows.", tasks.rows()), "at most 20 million", "split it");
+    for (const auto& [flag, given] :
+         {std::pair{"--plan", arguments.plan}, {"--slurm-array", !arguments.slurm_array.empty()}})
+        if (given) need_scene_file(arguments.inputs, flag);
     if (arguments.plan || !arguments.slurm_array.empty()) return print_plan(arguments, tasks, streams);
     Job job{arguments, scene, axes, tasks, std::nullopt, arguments.out};
     if (!arguments.shard.empty()) {

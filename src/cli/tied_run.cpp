@@ -22,6 +22,7 @@
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -218,6 +219,8 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     j["stages"] = json_of(stage_table(model, statics));
     j["runs"] = json_of(run_table(runs));
     for (const TiedRun& r : runs) j["notes"][r.record] = r.notes;
+    const std::vector<std::string> messages = note_texts(scene.notes);
+    j["messages"] = messages;
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
@@ -225,6 +228,7 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
                     << report::text(counts) << "\n"
                     << report::text(stage_table(model, statics)) << "\n"
                     << report::text(run_table(runs));
+        for (const std::string& message : messages) streams.out << "note: " << message << "\n";
         for (const TiedRun& r : runs)
             for (const std::string& note : r.notes) streams.out << "note: " << r.record << ": " << note << "\n";
     }
@@ -241,7 +245,9 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             "finite elements, base bonded to the rock",
             fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, report::page_html(tied_page(frame, runs, stage_table(model, statics), run_table(runs))));
+        report::Page page = tied_page(frame, runs, stage_table(model, statics), run_table(runs));
+        page.warnings.insert(page.warnings.begin(), messages.begin(), messages.end());
+        write_file(file, report::page_html(page));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
     const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {

@@ -15,4 +15,7 @@ void fill_defaults(Scene& scene, const Findings& findings);
 /// Checks that involve more than one key; each names all keys and values concerned.
 void check_consistency(const Scene& scene, Findings& findings, FileCheck files);
 
+/// Notes values that are allowed but unusual beside others: a level above the crest, a tailwater above the reservoir.
+void note_unusual(const Scene& scene, Findings& findings);
+
 } // namespace damslip

@@ -1,6 +1,9 @@
 #include "scene/document.hpp"
 
+#include "core/number.hpp"
+#include "core/units.hpp"
 #include "scene/key_table.hpp"
+#include "scene/usual.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -24,6 +27,15 @@ Json number_schema(const Range& range, double canonical_to_unit)
     if (std::isfinite(range.low)) j[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low * canonical_to_unit;
     if (std::isfinite(range.high)) j[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high * canonical_to_unit;
     return j;
+}
+
+/// The usual range of a number in the unit of one spelling. Checkers pass over a keyword they do not know.
+Json usual_schema(const Usual& usual, const UnitSuffix& unit, const UnitSuffix& first)
+{
+    const auto in_unit = [&](double x) {
+        return unit.tangent ? std::atan(x) / units::degree : x * first.factor / unit.factor;
+    };
+    return {{"minimum", in_unit(usual.low)}, {"maximum", in_unit(usual.high)}, {"source", usual.source}};
 }
 
 Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
@@ -64,6 +76,9 @@ Json group_schema(const KeyGroup& group, Scene& scene)
         for (const UnitSuffix& unit : units) {
             Json schema = value_schema(key, unit, slot);
             schema["description"] = key.meaning + (key.default_text.empty() ? "" : ". Default: " + key.default_text);
+            if (key.usual)
+                schema["usual"] = key.second_units.empty() ? usual_schema(*key.usual, unit, units.front())
+                                                           : usual_schema(*key.usual, {}, {});
             const std::string name = unit.suffix.empty() ? key.name : key.name + "_" + unit.suffix;
             properties[name] = schema;
             spellings.push_back({{"required", {name}}});
@@ -99,6 +114,23 @@ std::string allowed(const Key& key, const Slot& slot)
     if (is_number(slot)) return key.range.text();
     if (std::holds_alternative<std::vector<Point>*>(slot)) return "list of pairs, second entry " + key.range.text();
     return "text";
+}
+
+std::string usual_cell(const Key& key)
+{
+    if (!key.usual) return "";
+    return fmt::format("{} ... {}{} ({})", shortest(key.usual->low), shortest(key.usual->high),
+                       key.usual->or_zero && !(key.usual->low <= 0.0) ? ", or 0" : "", key.usual->source);
+}
+
+std::string sources_markdown()
+{
+    std::string out = "\n## Sources of the usual ranges\nThe ranges are rounded outward from what a source gives.\n\n"
+                      "| source | |\n| --- | --- |\n";
+    for (const UsualSource& source : usual_sources()) out += fmt::format("| {} | {} |\n", source.name, source.full);
+    out += "\nNumbers without a usual range:\n\n| key | why |\n| --- | --- |\n";
+    for (const NoUsualRange& key : no_usual_range()) out += fmt::format("| `{}` | {} |\n", key.key, key.reason);
+    return out;
 }
 
 } // namespace
@@ -141,25 +173,35 @@ std::string scene_keys_markdown()
 {
     SectionInput section;
     Scene scene;
-    std::string out = "# Keys of a scene file\n\nMade from the key table of the program (`damslip schema --markdown`). "
-                      "Numbers carry their unit in the key; the other spellings of a key "
-                      "accept other units.\nTables and keys that are not given switch nothing on.\n";
+    std::string out =
+        "# Keys of a scene file\n\nMade from the key table of the program (`damslip schema --markdown`). "
+        "Numbers carry their unit in the key; the other spellings of a key "
+        "accept other units.\nTables and keys that are not given switch nothing on.\n\nA value outside what is allowed "
+        "is an "
+        "error. A value that is allowed, but outside what is usual, is noted: on standard error, in the "
+        "results and in the report, with the value one unit step away that would be usual. With `--strict` "
+        "a note is an error (exit code 3), before anything is computed. Values of the command line "
+        "(`--friction`, `--scale`, `--dt`, axes of `sweep`) are looked at like their keys. Values beside "
+        "each other are looked at, too: water levels beside the crest and each other, base, rock box, "
+        "curtain and drains beside the size of the dam.\n";
     for (const KeyGroup& group : key_groups(section)) {
         const std::string header = group.name.empty()                 ? "Top level"
                                    : group.presence == Presence::list ? "`[[" + group.name + "]]`"
                                                                       : "`[" + group.name + "]`";
-        out += fmt::format("\n## {}\n{}\n\n| key | allowed | default | meaning |\n| --- | --- | --- | --- |\n", header,
-                           group.meaning);
+        out += fmt::format(
+            "\n## {}\n{}\n\n| key | allowed | usual | default | meaning |\n| --- | --- | --- | --- | --- |\n", header,
+            group.meaning);
         for (const Key& key : group.keys) {
             std::vector<std::string> others = key.spellings();
             others.erase(others.begin());
             const Slot slot = probe(group, key, scene);
-            out += fmt::format("| `{}`{} | {} | {} | {} |\n", key.canonical(),
+            out += fmt::format("| `{}`{} | {} | {} | {} | {} |\n", key.canonical(),
                                others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")),
-                               escaped(allowed(key, slot)), escaped(key.default_text), escaped(key.meaning));
+                               escaped(allowed(key, slot)), escaped(usual_cell(key)), escaped(key.default_text),
+                               escaped(key.meaning));
         }
     }
-    return out;
+    return out + sources_markdown();
 }
 
 } // namespace damslip

@@ -8,7 +8,7 @@
 
 namespace damslip {
 
-/// What reading found: where each key stands in the file, and everything that is wrong so far.
+/// What reading found: where each key stands in the file, everything that is wrong so far, and what is unusual.
 class Findings {
 public:
     struct Place {
@@ -24,13 +24,17 @@ public:
     /// `key` says where; `problem` is the whole first sentence.
     void wrong(const std::string& key, std::string problem, std::string expected, std::string fix);
     void wrong_at(Place place, std::string problem, std::string expected, std::string fix);
+    /// Allowed, but not what real dams have; its place is filled in here.
+    void note(const std::string& key, Diagnostic note) { note_at(place(key), std::move(note)); }
+    void note_at(Place place, Diagnostic note);
     bool any() const { return !diagnostics_.empty(); }
-    void throw_if_any(); ///< @throws InputError, in the order of the file
+    void throw_if_any();                   ///< @throws InputError, in the order of the file
+    std::vector<Diagnostic> notes() const; ///< in the order of the file
 
 private:
     std::string file_;
     std::map<std::string, Place> places_;
-    std::vector<Diagnostic> diagnostics_;
+    std::vector<Diagnostic> diagnostics_, notes_;
 };
 
 } // namespace damslip

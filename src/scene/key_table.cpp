@@ -23,6 +23,12 @@ std::string Range::text() const
     return (low_open ? "above " : "") + shortest(low) + " ... " + (high_open ? "below " : "") + shortest(high);
 }
 
+bool Usual::contains(double x) const
+{
+    if (or_zero && x == 0.0) return true;
+    return x >= low - 1e-9 * std::abs(low) && x <= high + 1e-9 * std::abs(high);
+}
+
 namespace {
 std::string spelled(const std::string& name, const UnitSuffix& unit)
 {

@@ -41,6 +41,15 @@ struct Range {
     std::string text() const;      ///< "> 0", "0 ... 1", "any number"
 };
 
+/// What real dams have, within what is allowed. A value outside it is noted, not refused.
+struct Usual {
+    double low, high;     ///< in the unit of the key's first suffix; of pairs: of the second entry
+    std::string source;   ///< short: "ACI 207.1R"; in full in usual_sources(). "judgement": nobody's but ours
+    bool or_zero = false; ///< 0 is usual too: it means "not there"
+
+    bool contains(double x) const; ///< the ends included, up to the rounding of a unit
+};
+
 /// An enumeration by its words in the file.
 struct Choice {
     std::vector<std::string> words;
@@ -72,7 +81,8 @@ struct Key {
     std::string example; ///< as written in a file: "0.77"
     std::function<Slot(void*)> slot;
     std::function<bool(const void*)> applies =
-        {}; ///< false: left out of resolved scenes, another choice makes it meaningless
+        {};                          ///< false: left out of resolved scenes, another choice makes it meaningless
+    std::optional<Usual> usual = {}; ///< numbers and pairs; none: any value allowed is as usual as another (usual.hpp)
 
     std::string canonical() const;              ///< name with the first suffix: "level_m"
     std::vector<std::string> spellings() const; ///< all accepted names

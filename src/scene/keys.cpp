@@ -1,6 +1,7 @@
 #include "scene/keys.hpp"
 
 #include "scene/key_parts.hpp"
+#include "scene/usual.hpp"
 
 namespace damslip {
 
@@ -75,6 +76,7 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                 at(&Criteria::pga_v_fraction))}));
     groups.push_back(combination_group());
     append(fe_groups());
+    add_usual_ranges(groups);
     return groups;
 }
 

@@ -6,6 +6,7 @@
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/key_table.hpp"
+#include "scene/plausible.hpp"
 #include "scene/preset.hpp"
 
 #include <algorithm>
@@ -166,6 +167,37 @@ private:
         return std::nullopt;
     }
 
+    /// Notes a number that is allowed but not what real dams have.
+    void look_at(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node)
+    {
+        const double value = node.value<double>().value_or(0.0);
+        const std::string subject = fmt::format("{} = {}", full_name(label_, spelling), value_text(node));
+        if (auto note = unusual(key, {subject, value, unit})) findings_.note_at(place_of(node.source()), *note);
+    }
+
+    /// The same of pairs, whose usual range is that of the second entries: the first unusual one is noted.
+    void look_at_pairs(Key key, const UnitSuffix& unit, const std::string& spelling, const toml::array& list)
+    {
+        key.units = key.second_units;
+        for (const toml::node& item : list) {
+            const toml::node& second = (*item.as_array())[1];
+            const double value = second.value<double>().value_or(0.0);
+            const std::string subject =
+                fmt::format("{} with the second entry {}", full_name(label_, spelling), value_text(second));
+            if (auto note = unusual(key, {subject, value, unit, false}))
+                return findings_.note_at(place_of(second.source()), *note);
+        }
+    }
+
+    /// The number of a key that has one, looked at.
+    std::optional<double> number_of(const Key& key, const UnitSuffix& unit, const std::string& spelling,
+                                    const toml::node& node, const std::string& expected_extra = "")
+    {
+        const auto v = number(key, unit, key.units, key.range, spelling, node, expected_extra);
+        if (v) look_at(key, unit, spelling, node);
+        return v;
+    }
+
     std::optional<int> whole_number(const Key& key, const std::string& spelling, const toml::node& node)
     {
         const auto v = node.value_exact<int64_t>();
@@ -179,14 +211,13 @@ private:
     {
         const Slot slot = key.slot(object);
         if (auto* const* d = std::get_if<double*>(&slot)) {
-            if (const auto v = number(key, unit, key.units, key.range, spelling, node)) **d = *v;
+            if (const auto v = number_of(key, unit, spelling, node)) **d = *v;
         } else if (auto* const* o = std::get_if<std::optional<double>*>(&slot)) {
-            if (const auto v = number(key, unit, key.units, key.range, spelling, node)) **o = *v;
+            if (const auto v = number_of(key, unit, spelling, node)) **o = *v;
         } else if (const auto* either = std::get_if<NumberOrWord>(&slot)) {
             if (node.value<std::string>() == either->word)
                 *either->word_given = true;
-            else if (const auto v =
-                         number(key, unit, key.units, key.range, spelling, node, " or \"" + either->word + "\""))
+            else if (const auto v = number_of(key, unit, spelling, node, " or \"" + either->word + "\""))
                 *either->number = *v;
         } else if (auto* const* i = std::get_if<int*>(&slot)) {
             if (const auto v = whole_number(key, spelling, node)) **i = *v;
@@ -262,6 +293,7 @@ private:
             points.push_back({*x, *y});
         }
         out = std::move(points);
+        look_at_pairs(key, same ? unit : key.second_units.front(), spelling, *list);
     }
 
     const KeyGroup& group_;
@@ -430,10 +462,12 @@ Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
         apply_preset(scene, [&findings](const char* key) { return !findings.given(key); }); // what the file says wins
         fill_defaults(scene, findings);
         check_consistency(scene, findings, check);
+        note_unusual(scene, findings);
         std::sort(scene.lift_joints.begin(), scene.lift_joints.end(),
                   [](const LiftJoint& a, const LiftJoint& b) { return a.elevation < b.elevation; });
     }
     findings.throw_if_any();
+    scene.notes = findings.notes();
     return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "core/input_error.hpp"
 #include "scene/rock_wedge.hpp"
 
 #include <filesystem>
@@ -373,6 +374,7 @@ struct Scene {
     TimeOptions time;
     Analysis analysis;
     std::vector<Expectation> expectations;
+    std::vector<Diagnostic> notes; ///< values that are allowed but not those of real dams (plausible.hpp)
 };
 
 } // namespace damslip

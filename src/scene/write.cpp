@@ -3,6 +3,7 @@
 #include "core/file.hpp"
 #include "core/number.hpp"
 #include "scene/key_table.hpp"
+#include "scene/mesh_sizes.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -130,8 +131,9 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
 
 } // namespace
 
-std::string resolved_toml(const Scene& scene, RecordPaths paths)
+std::string resolved_toml(const Scene& given, RecordPaths paths)
 {
+    const Scene scene = with_mesh_sizes(given);
     SectionInput section;
     std::string out;
     for (const KeyGroup& group : key_groups(section)) {

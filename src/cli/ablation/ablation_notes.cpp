@@ -1,6 +1,7 @@
 #include "cli/ablation/ablation_tables.hpp"
 
 #include "core/units.hpp"
+#include "scene/plausible.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ std::optional<std::string> interaction_note(const Ablations& in)
 
 std::vector<std::string> ablation_notes(const Ablations& in)
 {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = note_texts(in.plan.full.notes);
     if (!in.water.empty()) notes.push_back(in.water + " in all runs");
     if (in.runs.step) notes.push_back(step_note(*in.runs.step));
     if (in.plan.method == Method::rigid_block)

@@ -10,9 +10,9 @@
 #include "core/input_error.hpp"
 #include "core/processor_clock.hpp"
 #include "core/units.hpp"
-#include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/mesh_sizes.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -91,7 +91,7 @@ bool linear_elements(ElementKind kind)
 
 double coarsest_mesh(const Scene& scene)
 {
-    const double elements = base_length(scene.section) / fe2d::mesh_sizes(scene).contact;
+    const double elements = base_length(scene.section) / mesh_sizes(scene).contact;
     double factor = 1.0;
     while (factor < 4.0 && elements / (2.0 * factor) >= least_elements) factor *= 2.0;
     return factor;

@@ -1,5 +1,7 @@
 #include "cli/show/acoustic_modes.hpp"
 
+#include "scene/mesh_sizes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -109,7 +111,7 @@ std::vector<std::string> reservoir_warnings(const Scene& scene, double highest)
                         "resonance at {:.3g} "
                         "Hz: vertical motion may raise the slip several times; give the bottom its bottom_reflection",
                         first));
-    const double size = water.mesh_size.value_or(water.level / 20.0),
+    const double size = water_mesh_size(water),
                  resolved = c / (10.0 * std::max(size, water.level / 12.0));
     if (highest > resolved)
         warnings.push_back(

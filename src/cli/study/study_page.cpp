@@ -173,8 +173,9 @@ report::Headline headline(const std::vector<Finding>& findings)
 
 std::vector<std::string> warnings(const StudyPageInput& in)
 {
-    std::vector<std::string> list{"The source's pair of records is not published; " + in.records.front().files.name +
-                                  " stands in for it. Signs, orders and ratios compare; digits do not."};
+    std::vector<std::string> list = note_texts(in.scene.notes);
+    list.push_back("The source's pair of records is not published; " + in.records.front().files.name +
+                                  " stands in for it. Signs, orders and ratios compare; digits do not.");
     if (!in.rows.has("fe"))
         list.emplace_back("The finite elements ran in whole steps of the record. With --method ...,fe they run to the "
                           "default accuracy.");

@@ -24,9 +24,10 @@ std::vector<std::string> split(const std::string& text, char separator)
 
 [[noreturn]] void fail(const std::string& flag, const std::string& text, const std::string& why)
 {
-    throw UsageError(Diagnostic{"", 0, 0, fmt::format("{} {}: {}", flag, text, why),
-                                "numbers 1.00,0.84,0.77 or a range first:last:step 0.65:1.0:0.05",
-                                fmt::format("for example  {} 0.65:1.0:0.05", flag)});
+    throw UsageError(
+        Diagnostic{"", 0, 0, fmt::format("{} {}: {}", flag, text, why),
+                   "numbers with a decimal point, 1.00,0.84,0.77, or a range first:last:step 0.65:1.0:0.05",
+                   fmt::format("for example  {} 0.65:1.0:0.05", flag)});
 }
 
 void append_range(const std::vector<std::string>& parts, const std::string& flag, const std::string& text,
@@ -61,6 +62,15 @@ std::vector<double> number_list(const std::string& text, const std::string& flag
         }
     }
     return values;
+}
+
+std::optional<double> decimal_comma(const std::string& text)
+{
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == text.size()) return std::nullopt;
+    if (text.find_first_not_of("0123456789", comma + 1) != std::string::npos) return std::nullopt;
+    if (text.find_first_not_of("0123456789") != comma) return std::nullopt;
+    return parse_whole_number_text(text.substr(0, comma) + "." + text.substr(comma + 1));
 }
 
 std::vector<std::string> word_list(const std::string& text, const std::string& flag,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace damslip::cli {
 /// @param flag  for messages: "--friction"
 /// @throws UsageError  for anything else, non-finite numbers, a step of the wrong sign, more than 100 000 values
 std::vector<double> number_list(const std::string& text, const std::string& flag);
+
+/// "0,7" read with a decimal comma: 0.7. Nothing for any other list than two whole numbers.
+std::optional<double> decimal_comma(const std::string& text);
 
 /// "a,b,c" as words; each must be one of `allowed` (empty: any). @throws UsageError with the nearest allowed word.
 std::vector<std::string> word_list(const std::string& text, const std::string& flag,

@@ -1,10 +1,12 @@
 #include "cli/sweep/sweep_axes.hpp"
 
+#include "cli/run/run_inputs.hpp"
 #include "cli/sweep/number_list.hpp"
 #include "cli/sweep/sweep_size.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "scene/plausible.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_row.hpp"
 #include "scene/words.hpp"
@@ -56,8 +58,76 @@ std::vector<double> checked_numbers(const std::string& text, const std::string& 
     for (const double v : values)
         if (!(v >= low && v <= high))
             usage(fmt::format("{}: {} is not allowed.", flag, v), meaning,
-                  fmt::format("give values from {} to {}", low, high));
+                  fmt::format("give values from {} to {}, with a decimal point: a comma parts two values", low, high));
     return values;
+}
+
+/// Notes the first value that is not one of real dams, and says how many more there are.
+/// @param key  whose range it is: "contact.friction"; @param unit  of the values, one of the key's; {}: without
+/// @throws UsageError for "0,7", where both are unusual and 0.7 is not: a decimal comma
+void look_at(const std::string& text, const std::string& flag, const std::string& key,
+             const std::vector<double>& values, std::vector<Diagnostic>& notes, const UnitSuffix& unit = {})
+{
+    if (text.empty()) return;
+    const Key of = key_named(key);
+    const auto note_of = [&](double v) {
+        return unusual(of, {fmt::format("{} {}", flag, shortest(v)), v, unit, false});
+    };
+    const auto is_unusual = [&](double v) { return note_of(v).has_value(); };
+    const auto count = std::count_if(values.begin(), values.end(), is_unusual);
+    if (count == 0) return;
+    const std::optional<double> comma = decimal_comma(text);
+    const bool comma_meant = comma && !is_unusual(*comma);
+    Diagnostic note = *note_of(*std::find_if(values.begin(), values.end(), is_unusual));
+    if (comma_meant && count == 2)
+        usage(fmt::format("{} {} is read as two values, {} and {}, and neither is usual.", flag, text,
+                          shortest(values[0]), shortest(values[1])),
+              note.expected,
+              fmt::format("a decimal comma? write  {0} {1} ; for the two values  {0} {2}.0,{3}", flag, shortest(*comma),
+                          shortest(values[0]), shortest(values[1])));
+    if (comma_meant) note.fix = fmt::format("a decimal comma? write  {} {}", flag, shortest(*comma));
+    if (count > 1) note.problem += fmt::format(" So are {} more of the {} values.", count - 1, values.size());
+    notes.push_back(std::move(note));
+}
+
+void look_at_levels(const std::string& text, const Scene& scene, const std::vector<double>& levels,
+                    std::vector<Diagnostic>& notes)
+{
+    if (text.empty() || scene.wedge || scene.section.rock_slope) return;
+    const double highest = *std::max_element(levels.begin(), levels.end());
+    if (auto note = unusual_level("--level " + shortest(highest), highest, crest_level(scene.section)))
+        notes.push_back(std::move(*note));
+}
+
+/// Heights of the dam at the sizes of the axis.
+void look_at_sizes(const std::string& text, const Scene& scene, const std::vector<double>& sizes,
+                   std::vector<Diagnostic>& notes)
+{
+    if (text.empty() || scene.wedge) return;
+    for (const double size : sizes) {
+        const double height = size * crest_level(scene.section);
+        auto note = unusual_argument(fmt::format("--size {}: a height of {:.6g} m", shortest(size), height),
+                                     "section.height", height);
+        if (!note) continue;
+        note->fix = "--size is a factor on the lengths of the scene, not a length";
+        notes.push_back(std::move(*note));
+        return;
+    }
+}
+
+void look_at_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
+{
+    look_at(a.friction, "--friction", "contact.friction", axes.friction, axes.notes);
+    if (!a.friction_deg.empty())
+        look_at(a.friction_deg, "--friction-deg", "contact.friction", number_list(a.friction_deg, "--friction-deg"),
+                axes.notes, {"deg", 1.0, true});
+    look_at(a.scale, "--scale", "motion.scale", axes.scale, axes.notes);
+    look_at_levels(a.level, scene, axes.level, axes.notes);
+    look_at_sizes(a.size, scene, axes.size, axes.notes);
+    if (a.penalty_stiffness)
+        if (auto note = unusual_argument("--penalty-stiffness " + shortest(*a.penalty_stiffness),
+                                         "contact.tangential_stiffness", *a.penalty_stiffness))
+            axes.notes.push_back(std::move(*note));
 }
 
 std::string reservoir_word(const Scene& scene)
@@ -213,6 +283,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     axes.method = method_axis(a, scene);
     if (scene.wedge) check_wedge_axes(a, axes.method);
     check_repeats(axes);
+    look_at_axes(a, scene, axes);
     return axes;
 }
 

@@ -14,6 +14,7 @@ struct Axes {
     std::vector<int> polarity;                  ///< 1, -1
     std::vector<std::string> uplift, reservoir; ///< words as typed
     std::vector<SweepMethod> method;
+    std::vector<Diagnostic> notes; ///< of values that are allowed but unusual
 
     bool finite_elements() const; ///< is there an FE method?
 };

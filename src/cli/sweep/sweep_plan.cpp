@@ -41,6 +41,7 @@ std::string sweep_command_line(const SweepArguments& a)
     if (a.modes) add("--modes", std::to_string(*a.modes));
     if (a.penalty_stiffness) add("--penalty-stiffness", shortest(*a.penalty_stiffness));
     add("--scheme", a.inputs.scheme);
+    if (a.inputs.strict) line += " --strict";
     add("--out", a.out.string());
     return line;
 }

@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "report/page_html.hpp"
 #include "scene/effect_plan.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/uplift/uplift_profile.hpp"
 
@@ -312,7 +313,8 @@ report::Page sweep_page(const SweepReportInput& in)
                         {"Records", fmt::format("{}", view.records.size())},
                         {"Methods", fmt::format("{}", view.methods.size())}};
     if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
-    page.warnings = warnings(view);
+    if (in.scene) page.warnings = note_texts(in.scene->notes);
+    for (std::string& w : warnings(view)) page.warnings.push_back(std::move(w));
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     if (view.rows.empty()) return page;
 

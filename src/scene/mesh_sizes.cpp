@@ -1,0 +1,38 @@
+#include "scene/mesh_sizes.hpp"
+
+#include "scene/section.hpp"
+
+#include <algorithm>
+
+namespace damslip {
+
+MeshSizes mesh_sizes(const Scene& scene)
+{
+    const double lowest = std::min(heel(scene.section).y, toe(scene.section).y);
+    MeshSizes sizes;
+    sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
+    sizes.contact = scene.mesh.contact_size.value_or(std::min(sizes.dam, base_length(scene.section) / 60.0));
+    if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
+    return sizes;
+}
+
+double water_mesh_size(const Reservoir& water)
+{
+    constexpr double rows_over_depth = 20.0;
+    return water.mesh_size.value_or(water.level / rows_over_depth);
+}
+
+Scene with_mesh_sizes(Scene scene)
+{
+    if (scene.wedge) return scene;
+    if (!scene.mesh.file) {
+        const MeshSizes sizes = mesh_sizes(scene);
+        scene.mesh.size = sizes.dam;
+        scene.mesh.contact_size = sizes.contact;
+        if (scene.foundation) scene.mesh.rock_size = sizes.rock;
+    }
+    if (scene.reservoir && scene.reservoir->level > 0.0) scene.reservoir->mesh_size = water_mesh_size(*scene.reservoir);
+    return scene;
+}
+
+} // namespace damslip

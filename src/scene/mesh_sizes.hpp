@@ -1,0 +1,21 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace damslip {
+
+/// Element sizes of a scene with all defaults filled in [m].
+struct MeshSizes {
+    double dam = 0.0;     ///< height / 40
+    double contact = 0.0; ///< min(dam, base / 60)
+    double rock = 0.0;    ///< largest in the rock: scene.mesh.rock_size, else depth / 8
+};
+MeshSizes mesh_sizes(const Scene& scene);
+
+/// Element height in acoustic water: reservoir.mesh_size, else level / 20 [m].
+double water_mesh_size(const Reservoir& water);
+
+/// The scene with these sizes as keys of its own. With mesh.file dam and rock have no sizes; the scene of a wedge has no mesh.
+Scene with_mesh_sizes(Scene scene);
+
+} // namespace damslip

@@ -1,0 +1,228 @@
+#include "scene/usual.hpp"
+
+#include <array>
+#include <cassert>
+#include <map>
+
+namespace damslip {
+
+namespace {
+
+/// In the unit of the key's first suffix.
+struct Row {
+    const char* key;
+    double low, high;
+    const char* source;
+    bool or_zero = false;
+};
+
+constexpr const char* judgement = "judgement";
+constexpr const char* joints =
+    "Skempton 1985; Barton & Choubey 1977"; // clay seams to rough clean joints: 6 to 58 degrees
+constexpr const char* bond = "EPRI 1992";
+constexpr const char* rock_weight = "Hoek & Bray 1981";
+constexpr const char* safety = "EM 1110-2-2100";
+
+// clang-format off
+constexpr std::array rows{
+    Row{"site.gravity", 9.76, 9.84, "WGS 84"},
+
+    // Section: from weirs to Grande Dixence, 285 m.
+    Row{"section.height", 2, 300, "ICOLD register"},
+    Row{"section.base", 1, 300, "ICOLD register"},
+    Row{"section.crest", 0.3, 60, judgement, true},
+    Row{"section.neck", 0, 60, judgement},
+    Row{"section.upstream_slope", 0, 1, "USBR 1976"},
+    Row{"section.upstream_slope_height", 1, 300, "ICOLD register"},
+    Row{"section.base_inclination", -20, 20, judgement},
+    Row{"section.slope_height", 2, 500, rock_weight},
+    Row{"section.face_dip", 20, 90, rock_weight},
+    Row{"section.plane_dip", 10, 45, rock_weight},
+    Row{"section.crack_distance", -100, 100, judgement},
+    Row{"section.upper_dip", -45, 45, judgement},
+
+    Row{"wedge.density", 1900, 3100, rock_weight},
+    Row{"wedge.height", 2, 500, rock_weight},
+    Row{"wedge.face_dip", 20, 90, rock_weight},
+    Row{"wedge.upper_dip", 0, 60, judgement},
+    Row{"wedge.volume", 1, 1e7, judgement},
+    Row{"wedge.plane.dip", 5, 90, rock_weight},
+    Row{"wedge.plane.friction", 0.1, 1.6, joints},
+    Row{"wedge.plane.cohesion", 0, 3000, rock_weight},
+    Row{"wedge.plane.area", 1, 1e6, judgement},
+    Row{"wedge.plane.water_pressure", 0, 2000, judgement},
+    Row{"wedge.force.force", 1, 1e6, judgement},
+
+    // The dam may be masonry, or a block of soft rock.
+    Row{"dam.density", 1900, 2900, "ACI 207.1R"},
+    Row{"dam.young_modulus", 10, 50, "ACI 207.1R"},
+    Row{"dam.poisson_ratio", 0.1, 0.3, "ACI 207.1R"},
+
+    Row{"contact.friction", 0.1, 1.6, joints},
+    Row{"contact.cohesion", 0, 3000, bond},
+    Row{"contact.max_slip", 0.1, 20, judgement},
+    Row{"contact.residual_friction", 0.1, 1.2, joints},
+    Row{"contact.residual_slip", 1e-4, 0.5, judgement, true},
+    Row{"contact.friction_table", 0.1, 1.6, joints},
+    Row{"contact.tangential_stiffness", 1e8, 1e13, "Bandis et al. 1983"},
+    Row{"contact.slip_tolerance", 1e-4, 0.05, "Goldgruber 2015"},
+    Row{"contact.pressure_at_zero_clearance", 1, 1e5, judgement},
+    Row{"contact.clearance_at_zero_pressure", 1e-5, 0.01, judgement},
+    Row{"lift_joint.elevation", -300, 300, "ICOLD register"},
+    Row{"lift_joint.friction", 0.1, 1.6, joints},
+    Row{"lift_joint.cohesion", 0, 4000, bond},
+    Row{"lift_joint.residual_friction", 0.1, 1.2, joints},
+    Row{"lift_joint.residual_slip", 1e-4, 0.5, judgement, true},
+    Row{"lift_joint.friction_table", 0.1, 1.6, joints},
+
+    Row{"uplift.curtain_ratio", 0.2, 1, "USBR 1976"},
+    Row{"uplift.points", 0, 1, "EM 1110-2-2200"},
+    Row{"curtain.distance", 0, 60, judgement},
+    Row{"curtain.depth", 2, 200, "USBR 1976"},
+    Row{"curtain.thickness", 0.3, 10, judgement},
+    Row{"curtain.young_modulus", 0.5, 100, "Hoek & Diederichs 2006"},
+    Row{"curtain.poisson_ratio", 0.05, 0.45, "Gercek 2007"},
+    Row{"curtain.permeability", 1e-12, 1e-5, "Freeze & Cherry 1979"},
+    Row{"drains.distance", 0.5, 60, judgement},
+    Row{"drains.efficiency", 0, 0.75, "EM 1110-2-2200"},
+    Row{"drains.depth", 2, 100, "USBR 1976"},
+    Row{"drains.gallery_level", -30, 100, judgement},
+    Row{"drains.lost_at_slip", 0.001, 0.5, judgement},
+    Row{"foundation.young_modulus", 0.5, 100, "Hoek & Diederichs 2006"},
+    Row{"foundation.poisson_ratio", 0.05, 0.45, "Gercek 2007"},
+    Row{"foundation.density", 1900, 3100, rock_weight, true},
+    Row{"foundation.width", 5, 5000, judgement},
+    Row{"foundation.depth", 2, 2000, judgement},
+    Row{"foundation.permeability", 1e-12, 1e-2, "Freeze & Cherry 1979"},
+
+    Row{"reservoir.level", 0.5, 300, "ICOLD register", true},
+    Row{"reservoir.density", 990, 1100, "CRC Handbook"}, // fresh, salt, laden with silt
+    Row{"reservoir.bulk_modulus", 1900, 2500, "CRC Handbook"},
+    Row{"reservoir.length", 1, 3000, judgement},
+    Row{"reservoir.bottom_reflection", 0, 1, "Fenves & Chopra 1984"},
+    Row{"reservoir.bottom_density", 1200, 3100, rock_weight},
+    Row{"reservoir.bottom_modulus", 0.01, 100, "Hoek & Diederichs 2006"},
+    Row{"reservoir.mesh_size", 0.01, 20, judgement},
+    Row{"added_mass.period", 0.02, 5, judgement},
+    Row{"added_mass.zangar_table", 0, 1, "Zangar 1952"},
+    Row{"tailwater.level", 0, 150, judgement},
+    Row{"silt.level", 0.1, 150, judgement},
+    Row{"silt.submerged_unit_weight", 3, 12, "USBR 1976"},
+    Row{"silt.pressure_coefficient", 0.2, 1, judgement},
+    Row{"ice.force", 0, 300, "USBR 1976"},
+    Row{"ice.level", 0, 300, "ICOLD register"},
+    Row{"force.force_x", -1e5, 1e5, judgement},
+    Row{"force.force_y", -1e5, 1e5, judgement},
+
+    Row{"motion.scale", 0.05, 20, judgement},
+    Row{"motion.scale_to_pga", 0.05, 20, judgement}, // the strongest recorded: some 2 to 3 g
+    Row{"motion.record.dt", 0.001, 0.05, judgement},
+    Row{"motion.record.magnitude", 4, 9.5, judgement}, // the largest recorded: Chile 1960
+    Row{"motion.record.scale", 0.05, 20, judgement},
+    Row{"regressions.period", 0, 2, judgement},
+    Row{"flexible_block.period", 0.02, 2, judgement},
+    Row{"flexible_block.damping", 0.01, 0.2, judgement},
+    Row{"flexible_block.mass_ratio", 0.2, 0.95, judgement},
+    Row{"flexible_block.shape_exponent", 0.5, 4, judgement},
+    Row{"flexible_block.modal_load", 1e3, 1e9, judgement},
+    Row{"flexible_block.modal_mass", 1e3, 1e9, judgement},
+    Row{"criteria.allowable_slip", 0.001, 1, judgement, true},
+
+    Row{"combination.reservoir_level", 0.5, 330, "ICOLD register", true},
+    Row{"combination.tailwater_level", 0, 150, judgement},
+    Row{"combination.friction", 0.1, 1.6, joints},
+    Row{"combination.cohesion", 0, 3000, bond},
+    Row{"combination.k_h", -1, 1, judgement},
+    Row{"combination.k_v", -0.7, 0.7, judgement},
+    Row{"combination.weight_factor", 0.5, 2, judgement},
+    Row{"combination.water_factor", 0.5, 2, judgement, true},
+    Row{"combination.uplift_factor", 0.5, 2, judgement, true},
+    Row{"combination.silt_factor", 0.5, 2, judgement, true},
+    Row{"combination.ice_factor", 0.5, 2, judgement, true},
+    Row{"combination.required_sliding_factor", 1, 4, safety},
+    Row{"combination.required_flotation_factor", 1, 2, safety},
+    Row{"combination.required_overturning_factor", 1, 3, judgement},
+
+    Row{"mesh.size", 0.02, 20, judgement},
+    Row{"mesh.contact_size", 0.01, 20, judgement},
+    Row{"mesh.rock_contact_size", 0.01, 20, judgement},
+    Row{"mesh.rock_size", 0.05, 200, judgement},
+    Row{"mesh.growth", 1, 1.6, judgement},
+    Row{"mesh.file_unit", 0.001, 1, judgement},
+    Row{"damping.ratio", 0.01, 0.15, "EM 1110-2-6051", true},
+    Row{"damping.mass_coefficient", 0, 20, judgement},
+    Row{"damping.stiffness_coefficient", 0, 0.02, judgement},
+    Row{"time.dt", 1e-5, 0.05, judgement},
+    Row{"time.slip_tolerance", 1e-4, 0.1, judgement},
+};
+
+constexpr std::array none{
+    NoUsualRange{"section.polygon", "its height and its base are looked at as section.height and section.base"},
+    NoUsualRange{"wedge.face_dip_direction", "an azimuth"},
+    NoUsualRange{"wedge.upper_dip_direction", "an azimuth"},
+    NoUsualRange{"wedge.motion_azimuth", "an azimuth"},
+    NoUsualRange{"wedge.plane.dip_direction", "an azimuth"},
+    NoUsualRange{"wedge.force.trend", "an azimuth"},
+    NoUsualRange{"wedge.force.plunge", "a direction"},
+    NoUsualRange{"force.x", "a place"},
+    NoUsualRange{"force.y", "a place"},
+    NoUsualRange{"sliding.run_out_max", "a limit of the computation"},
+    NoUsualRange{"regressions.weight.weight", "relative to other weights"},
+    NoUsualRange{"time.alpha", "a parameter of the scheme, as good anywhere in its range"},
+    NoUsualRange{"time.gamma", "a parameter of the scheme, as good anywhere in its range"},
+    NoUsualRange{"time.beta", "a parameter of the scheme, as good anywhere in its range"},
+};
+
+constexpr std::array sources{
+    UsualSource{"ACI 207.1R", "ACI Committee 207: Guide to mass concrete, ACI 207.1R-05; the values USACE EM 1110-2-2200, 3-1, refers to. Rock and masonry added by judgement"},
+    UsualSource{"Bandis et al. 1983", "S.C. Bandis, A.C. Lumsden, N.R. Barton: Fundamentals of rock joint deformation, Int. J. Rock Mech. Min. Sci. 20"},
+    UsualSource{"Barton & Choubey 1977", "N. Barton, V. Choubey: The shear strength of rock joints in theory and practice, Rock Mechanics 10"},
+    UsualSource{"CRC Handbook", "CRC Handbook of Chemistry and Physics: fresh and sea water; water with silt added by judgement"},
+    UsualSource{"EM 1110-2-2100", "USACE (2005): Stability analysis of concrete structures"},
+    UsualSource{"EM 1110-2-2200", "USACE (1995): Gravity dam design"},
+    UsualSource{"EM 1110-2-6051", "USACE (2003): Time-history dynamic analysis of concrete hydraulic structures"},
+    UsualSource{"EPRI 1992", "EPRI TR-100345: Uplift pressures, shear strengths, and tensile strengths for stability analysis of concrete gravity dams"},
+    UsualSource{"Fenves & Chopra 1984", "G. Fenves, A.K. Chopra: EAGD-84, a computer program for earthquake analysis of concrete gravity dams, UCB/EERC-84/11"},
+    UsualSource{"Freeze & Cherry 1979", "R.A. Freeze, J.A. Cherry: Groundwater, table 2.2: fractured rock to karst"},
+    UsualSource{"Gercek 2007", "H. Gercek: Poisson's ratio values for rocks, Int. J. Rock Mech. Min. Sci. 44"},
+    UsualSource{"Goldgruber 2015", "M. Goldgruber: Nonlinear seismic modelling of concrete dams, Graz University of Technology"},
+    UsualSource{"Hoek & Bray 1981", "E. Hoek, J.W. Bray: Rock slope engineering, 3rd edition"},
+    UsualSource{"Hoek & Diederichs 2006", "E. Hoek, M.S. Diederichs: Empirical estimation of rock mass modulus, Int. J. Rock Mech. Min. Sci. 43"},
+    UsualSource{"ICOLD register", "ICOLD: World register of dams"},
+    UsualSource{"Skempton 1985", "A.W. Skempton: Residual strength of clays in landslides, folded strata and the laboratory, Géotechnique 35"},
+    UsualSource{"USBR 1976", "USBR: Design of gravity dams"},
+    UsualSource{"WGS 84", "normal gravity from the equator to the poles, up to 5 km above the sea"},
+    UsualSource{"Zangar 1952", "C.N. Zangar: Hydrodynamic pressures on dams due to horizontal earthquake effects, USBR Engineering Monograph 11"},
+    UsualSource{"judgement", "engineering judgement, no source"},
+};
+// clang-format on
+
+} // namespace
+
+void add_usual_ranges(std::vector<KeyGroup>& groups)
+{
+    static const std::map<std::string_view, const Row*> by_key = [] {
+        std::map<std::string_view, const Row*> found;
+        for (const Row& row : rows) found[row.key] = &row;
+        return found;
+    }();
+    for (KeyGroup& group : groups)
+        for (Key& key : group.keys) {
+            const auto row = by_key.find(group.name + "." + key.name);
+            if (row == by_key.end()) continue;
+            const Row& r = *row->second;
+            key.usual = Usual{r.low, r.high, r.source, r.or_zero};
+        }
+}
+
+std::span<const NoUsualRange> no_usual_range()
+{
+    return none;
+}
+
+std::span<const UsualSource> usual_sources()
+{
+    return sources;
+}
+
+} // namespace damslip
