@@ -114,11 +114,11 @@ constexpr std::array rows{
     Row{"force.force_x", -1e5, 1e5, judgement},
     Row{"force.force_y", -1e5, 1e5, judgement},
 
-    Row{"motion.scale", 0.05, 20, judgement},
+    Row{"motion.scale", 0.01, 20, judgement},
     Row{"motion.scale_to_pga", 0.05, 20, judgement}, // the strongest recorded: some 2 to 3 g
     Row{"motion.record.dt", 0.001, 0.05, judgement},
     Row{"motion.record.magnitude", 4, 9.5, judgement}, // the largest recorded: Chile 1960
-    Row{"motion.record.scale", 0.05, 20, judgement},
+    Row{"motion.record.scale", 0.01, 20, judgement},
     Row{"regressions.period", 0, 2, judgement},
     Row{"flexible_block.period", 0.02, 2, judgement},
     Row{"flexible_block.damping", 0.01, 0.2, judgement},
