@@ -35,6 +35,31 @@ void record(const ReducedContact& dynamics, ReducedHistory& history)
     history.shear_force.push_back(-contact.force.tail(m).sum());
 }
 
+/// @param length  of the base [m]
+std::string message_of(const ReducedResult& r, double length)
+{
+    switch (r.status) {
+    case Status::not_resolved:
+        return fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",
+                           r.counts.unresolved, r.counts.steps, r.counts.largest_residual);
+    case Status::runs_away:
+        return fmt::format("Runs away: slides further on the base than its {:.4g} m, where the model no longer holds.",
+                           length);
+    case Status::interrupted:
+        return fmt::format("Interrupted at {:.2f} s.", r.end_time);
+    case Status::diverged:
+        return fmt::format("Stopped at {:.2f} s: the kinetic energy is no longer a number.", r.end_time);
+    case Status::tolerance_missed:
+        return fmt::format(
+            "Slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance allows. Give a "
+            "smaller time.dt_s, or a larger slip_tolerance.",
+            1e3 * r.slip, 1e3 * r.step_error, r.dt);
+    default:
+        return fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * r.slip, 1e3 * r.truncation_error,
+                           r.modes);
+    }
+}
+
 } // namespace
 
 struct ReducedRun::Motion {
@@ -94,9 +119,9 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
             const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
             dynamics.advance(dt / parts, ground.at(time), strength.law());
             strength.follow(dynamics.state().contact);
+            result.max_slip = std::max(result.max_slip, std::abs(dynamics.mean_slip()));
         }
         record(dynamics, result.history);
-        result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
         if (options_.progress &&
             options_.progress({dynamics.state().time, ground.duration(), n + 1, record_steps}) == RunAnswer::stop) {
             result.status = Status::interrupted;
@@ -167,7 +192,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
     return largest;
 }
 
-ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
+ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
+                              const std::optional<int>& halvings) const
 {
     ReducedResult result;
     result.seconds.modes = seconds_;
@@ -202,25 +228,29 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1,
                 options_.contact};
     const Strength at_start = strength;
-    const auto shake_with = [&](int halvings) {
-        loop.parts = 1 << halvings;
+    const auto shake_with = [&](int pass) {
+        loop.parts = 1 << pass;
         strength = at_start;
         shake(loop, structure.plane(), *system_, strength, memory, result);
-        result.halvings = halvings;
+        result.halvings = pass;
     };
     const auto wanted = [&] {
         return *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip);
     };
-    const int first = options_.halvings.value_or(0);
+    const std::optional<int> fixed = halvings ? halvings : options_.halvings;
+    const int first = fixed.value_or(0);
     shake_with(first);
-    result.step_error = std::numeric_limits<double>::quiet_NaN();
-    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+    for (int k = first + 1; !fixed && k <= options_.largest_halvings; ++k) {
         const double coarser = result.slip;
         shake_with(k);
         result.step_error = std::abs(result.slip - coarser);
         if (result.step_error <= wanted()) break;
     }
-    if (result.status == Status::at_rest && result.step_error > wanted()) result.status = Status::tolerance_missed;
+    const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
+    const double length = structure.plane().length();
+    if (over && result.step_error > wanted()) result.status = Status::tolerance_missed;
+    const double open = std::isfinite(result.step_error) ? result.step_error : 0.0;
+    if (over && result.max_slip - open > length) result.status = Status::runs_away;
     const std::optional<double> error = truncation_error(loop, contact.value_or(scene_.contact), memory);
     if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
@@ -236,8 +266,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.seconds.statics += clock.seconds();
 
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
-    result.message = fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * result.slip,
-                                 1e3 * result.truncation_error, result.modes);
+    result.message = message_of(result, length);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace damslip::fe2d {
@@ -32,11 +33,12 @@ struct ReducedResult {
     StageResult after;               ///< after it, by the full model
     ReducedHistory history;
     double slip = 0.0;     ///< final, area mean, since the static state [m]
-    double max_slip = 0.0; ///< largest |slip| on the way [m]
+    double max_slip = 0.0; ///< largest |slip| of all steps on the way [m]
     double truncation_error =
         0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
              ///< NaN: interrupted
-    double step_error = 0.0;        ///< estimate of what the time step leaves open [m]; NaN: not estimated
+    double step_error = std::numeric_limits<
+        double>::quiet_NaN();       ///< estimate of what the time step leaves open [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
     double highest_frequency = 0.0; ///< of them [Hz]
     int halvings = 0;
@@ -64,8 +66,10 @@ public:
     /// @param modes  elastic modes to keep, >= 1; all when there are no more
     ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes = default_modes);
 
-    /// As EarthquakeRun::run.
-    ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
+    /// As EarthquakeRun::run. @param halvings  in place of those of options and scene: uniform steps Δt/2^halvings; the slip
+    /// then has no estimate of their error
+    ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
+                      const std::optional<int>& halvings = {}) const;
 
     const ReducedSystem& system() const { return *system_; }
 

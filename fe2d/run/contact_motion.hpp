@@ -38,6 +38,20 @@ struct DynamicCounts {
     void add(const ContactReport& report, double residual);
 };
 
+/// Largest |mean slip| of each plane since the start of a motion, over all steps that were made, sub-steps and halves
+/// included.
+class LargestSlips {
+public:
+    /// @param planes  outlive this @param start  slips of all pairs before the motion [m]
+    LargestSlips(const ContactPlanes& planes, Eigen::VectorXd start);
+    void look(const Eigen::VectorXd& slip);                         ///< of all pairs after a step [m]
+    double of(Eigen::Index plane) const { return largest_[plane]; } ///< [m]
+
+private:
+    const ContactPlanes& planes_;
+    Eigen::VectorXd start_, largest_;
+};
+
 /// What a run of dam and contact shows while it goes on, however its steps are made.
 class ContactMotion {
 public:
@@ -48,6 +62,7 @@ public:
     virtual double energy_imbalance() const = 0; ///< [J/m]
     virtual double energy_scale() const = 0;     ///< largest term so far [J/m]
     virtual const DynamicCounts& counts() const = 0;
+    virtual const LargestSlips& largest_slips() const = 0;
     virtual double static_normal_force() const = 0; ///< N' before the motion [N/m]
     virtual std::size_t bytes() const = 0;
 };

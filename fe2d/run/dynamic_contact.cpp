@@ -25,6 +25,17 @@ void DynamicCounts::add(const ContactReport& report, double residual)
     largest_residual = std::max(largest_residual, residual);
 }
 
+LargestSlips::LargestSlips(const ContactPlanes& planes, VectorXd start)
+    : planes_(planes), start_(std::move(start)), largest_(VectorXd::Zero(planes.count()))
+{
+}
+
+void LargestSlips::look(const VectorXd& slip)
+{
+    const VectorXd since = slip - start_;
+    for (Index k = 0; k < planes_.count(); ++k) largest_[k] = std::max(largest_[k], std::abs(planes_.mean(k, since)));
+}
+
 DynamicContact::DynamicContact(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                                SplitLoad load, const StaticState& start, const ContactMemory& memory,
                                const ContactOptions& options)
@@ -37,7 +48,8 @@ DynamicContact::DynamicContact(std::shared_ptr<StepOperators> operators, SplitLo
                                const ContactMemory& memory, const ContactOptions& options)
     : operators_(std::move(operators)), structure_(operators_->structure()), damping_(operators_->damping()),
       slip_damping_(operators_->slip_damping()), load_(std::move(load)), options_(options),
-      trace_(structure_.trace(0.0)) // as the statics have it
+      trace_(structure_.trace(0.0)), // as the statics have it
+      largest_slips_(structure_.planes(), memory.slip)
 {
     const Index n = structure_.dam_unknowns(), m = structure_.pairs(), rock = 2 * structure_.rock_nodes();
     state_.u = start.dam;
@@ -279,11 +291,14 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
     land(states_before, law);
 
     counts_.add(report, report.residual * stuck_.cwiseAbs().maxCoeff() / normal_force_);
+    largest_slips_.look(memory.slip);
 }
 
 std::size_t DynamicContact::bytes() const
 {
-    return operators_->bytes() + 16 * static_cast<std::size_t>(state_.u.size()) * sizeof(double);
+    std::size_t sum = operators_->products().bytes() + 16 * static_cast<std::size_t>(state_.u.size()) * sizeof(double);
+    for (const auto& [op, problem] : problems_) sum += op->bytes();
+    return sum;
 }
 
 } // namespace damslip::fe2d

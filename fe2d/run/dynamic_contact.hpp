@@ -68,9 +68,10 @@ public:
     double energy_imbalance() const override { return energy_.imbalance(energy_start_); }
     double energy_scale() const override { return energy_scale_; }
     const DynamicCounts& counts() const override { return counts_; }
+    const LargestSlips& largest_slips() const override { return largest_slips_; }
     double static_normal_force() const override { return normal_force_; }
     const ContactStructure& structure() const override { return structure_; }
-    std::size_t bytes() const override; ///< shared operators included
+    std::size_t bytes() const override; ///< operators of its own step sizes included, which other runs may share
 
 private:
     /// What the equation of motion's forces at one instant need for their work, see add_energy().
@@ -170,6 +171,7 @@ private:
     WaterLedger::Instant water_, water_before_, water_before2_;
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     DynamicCounts counts_;
+    LargestSlips largest_slips_;
 
     // Of the step being made.
     const DynamicOperator* op_ = nullptr;

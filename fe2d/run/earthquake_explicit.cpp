@@ -45,7 +45,10 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
                                                        std::span<Lane* const> lanes) const
 {
     const double row = motion.dt, duration = row * static_cast<double>(motion.accel_h.size() - 1);
-    const double step = explicit_step(row, scene_.time.dt, limit_of(*explicit_)) / (1 << halvings);
+    const std::optional<ChosenSteps>& steps = lanes.front()->steps;
+    const double step = steps && steps->step
+                            ? *steps->step
+                            : explicit_step(row, scene_.time.dt, limit_of(*explicit_)) / (1 << halvings);
     const long parts = std::lround(row / step);
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     const auto record_steps = std::lround(duration / row);
@@ -59,7 +62,6 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
         RunResult result = lane->result;
         result.dt = step;
         result.halvings = halvings;
-        result.max_slip = 0.0;
         result.status = Status::sliding_at_end;
         HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
         recorder.add();
@@ -75,9 +77,8 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
                 strength.follow(dynamics.state().contact);
             }
             recorder.add();
-            result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
             if (options_.progress &&
-                options_.progress(progress_of(halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+                options_.progress(progress_of(*lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
                 result.status = Status::interrupted;
             else if (has_diverged(dynamics, result.history.energy.front().strain))
                 result.status = Status::diverged;

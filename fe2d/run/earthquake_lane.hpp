@@ -14,12 +14,10 @@ struct EarthquakeRun::Lane {
     int next = 0;                               ///< halvings of the next pass; 0: none
     std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
     double local_error = 0.0;                   ///< of the worst steps of the first pass, for adaptive steps [m]
+    std::optional<ChosenSteps> steps;           ///< in place of the options'
 
     /// Do the static stages end in equilibrium?
-    bool stands() const
-    {
-        return !result.stages.empty() && result.stages.back().status == StageStatus::ok;
-    }
+    bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }
     void note_slips()
     {
         slips.resize(1 + result.lifts.size());

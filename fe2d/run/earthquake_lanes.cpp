@@ -37,6 +37,11 @@ double largest(const std::vector<double>& values)
                            [](double sum, double value) { return std::max(sum, std::abs(value)); });
 }
 
+bool over(Status status)
+{
+    return status == Status::at_rest || status == Status::sliding_at_end;
+}
+
 double worst(std::vector<double> errors)
 {
     if (errors.empty()) return 0.0;
@@ -124,7 +129,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
     const Stopwatch clock;
     const double dt = scene_.time.dt.value_or(motion.dt),
                  duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
-    const bool adaptive = options_.stepping == Stepping::adaptive && !options_.halvings;
+    const bool adaptive =
+        options_.stepping == Stepping::adaptive && !options_.halvings && !lanes.front()->steps.has_value();
     const int parts = adaptive ? 1 : 1 << halvings;
     const double step = dt / parts;
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
@@ -137,7 +143,6 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         RunResult& result = passes.back()->result;
         result.dt = step;
         result.halvings = halvings;
-        result.max_slip = 0.0;
         result.status = Status::sliding_at_end;
     }
 
@@ -157,13 +162,12 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
             for (const auto& pass : passes)
                 if (pass->going) pass->strength.follow(pass->dynamics.state().contact);
         }
-        const bool stopped =
-            options_.progress && options_.progress(progress_of(halvings, record_steps, n + 1, dt)) == RunAnswer::stop;
+        const bool stopped = options_.progress && options_.progress(progress_of(*lanes.front(), halvings, record_steps,
+                                                                                n + 1, dt)) == RunAnswer::stop;
         for (const auto& pass : passes) {
             if (!pass->going) continue;
             RunResult& result = pass->result;
             pass->recorder.add();
-            result.max_slip = std::max(result.max_slip, std::abs(result.history.slip.back()));
             if (stopped)
                 pass->end(Status::interrupted);
             else if (!pass->dynamics.within_reach())
@@ -196,6 +200,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const Plane& plane = planes.base();
     const Index m = plane.pairs();
     result.slip = result.history.slip.back();
+    result.max_slip = dynamics.largest_slips().of(0);
     result.end_time = end.time;
     result.counts = dynamics.counts();
     // Where nothing but round-off moves, that is no share of itself but of the weight's work over a nanometre.
@@ -211,8 +216,13 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     result.lifts.clear();
     for (std::size_t k = 0; k < result.history.lifts.size(); ++k) {
         const LiftHistory& h = result.history.lifts[k];
-        result.lifts.push_back({lane.result.stages.front().lifts[k].plane, scene_.lift_joints[k].name, h.slip.back(),
-                                largest(h.slip), largest(h.largest_opening), largest(h.rocking)});
+        LiftResult& lift = result.lifts.emplace_back();
+        lift.plane = lane.result.stages.front().lifts[k].plane;
+        lift.name = scene_.lift_joints[k].name;
+        lift.slip = h.slip.back();
+        lift.largest_slip = dynamics.largest_slips().of(static_cast<Index>(k + 1));
+        lift.largest_opening = largest(h.largest_opening);
+        lift.largest_rocking = largest(h.rocking);
     }
     result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
@@ -249,6 +259,8 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
         lane.result = std::move(finer[i]);
         lane.note_slips();
         lane.result.slip_error = step_error(lane.slips.front());
+        for (std::size_t k = 0; k < lane.result.lifts.size(); ++k)
+            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1]);
         double excess = 0.0; // error over what is wanted, the largest of all planes
         for (const std::vector<SlipAtStep>& plane : lane.slips)
             excess =
@@ -260,17 +272,19 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
     }
 }
 
-std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts) const
+std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts,
+                                              const std::optional<ChosenSteps>& steps) const
 {
     std::vector<RunResult> results(contacts.size());
     std::vector<std::unique_ptr<Lane>> lanes;
     std::vector<Lane*> going;
-    const int first = options_.halvings.value_or(0);
+    const int first = steps ? steps->halvings : options_.halvings.value_or(0);
+    const bool chosen = !steps && !options_.halvings; // by the slip tolerance
     const double step = scene_.time.dt.value_or(motion.dt) / (1 << first);
     const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
     for (const Contact& contact : contacts) {
         if (!usable_ || !movable) break;
-        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}}));
+        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}, 0.0, steps}));
         stand(contact, *lanes.back());
         if (lanes.back()->stands()) going.push_back(lanes.back().get());
     }
@@ -283,7 +297,7 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
         }
     }
     for (Lane* lane : going) lane->next = first + 1;
-    for (int k = first + 1; !options_.halvings && k <= options_.largest_halvings; ++k) {
+    for (int k = first + 1; chosen && k <= options_.largest_halvings; ++k) {
         std::vector<Lane*> now;
         for (Lane* lane : going)
             if (lane->next == k && lane->result.status != Status::interrupted) now.push_back(lane);
@@ -292,7 +306,7 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (usable_ && movable) {
             const bool stands = lanes[i]->stands();
-            if (lanes[i]->next != 0 && !options_.halvings && lanes[i]->result.status == Status::at_rest)
+            if (lanes[i]->next != 0 && chosen && over(lanes[i]->result.status))
                 lanes[i]->result.status = Status::tolerance_missed;
             results[i] = std::move(lanes[i]->result);
             if (stands) judge(results[i]);

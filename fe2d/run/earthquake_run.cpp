@@ -1,4 +1,4 @@
-#include "fe2d/run/earthquake_run.hpp"
+#include "fe2d/run/earthquake_lane.hpp"
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
@@ -212,27 +212,68 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
 
 /// A pass with 2^k sub-steps costs 2^k times the first; where halvings are chosen there are two passes at least, and
 /// passes that are left out count as made.
-RunProgress EarthquakeRun::progress_of(int halvings, long record_steps, long step, double dt) const
+RunProgress EarthquakeRun::progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const
 {
-    const int first = options_.halvings.value_or(0);
+    const bool chosen = !lane.steps && !options_.halvings;
+    const int first = lane.steps ? lane.steps->halvings : options_.halvings.value_or(0);
     const long before = record_steps * ((1L << halvings) - (1L << first)), now = record_steps << halvings;
-    const long more = !options_.halvings && halvings == first ? 2 * now : 0;
+    const long more = chosen && halvings == first ? 2 * now : 0;
     return {static_cast<double>(step) * dt, static_cast<double>(record_steps) * dt,
             before + (std::min(step, record_steps) << halvings), before + now + more};
+}
+
+/// Has the dam, or the block above a lift joint, slid further than the plane below it is long, beyond what the step leaves
+/// open? There water, uplift and the plane itself are no longer those of the model. @returns one sentence; empty: no
+std::string EarthquakeRun::runs_away(const RunResult& result) const
+{
+    const ContactPlanes& planes = structure_->planes();
+    const auto sentence = [&](const std::string& plane, double slip, double error, Index index) -> std::string {
+        const double length = planes[index].length();
+        if (!(slip - (std::isfinite(error) ? error : 0.0) > length)) return {};
+        return fmt::format("Runs away: slides further on the {} than its {:.4g} m, where the model no longer holds.",
+                           plane, length);
+    };
+    std::string away = sentence("base", result.max_slip, result.slip_error, 0);
+    for (std::size_t k = 0; away.empty() && k < result.lifts.size(); ++k)
+        away = sentence(result.lifts[k].plane, result.lifts[k].largest_slip, result.lifts[k].slip_error,
+                        static_cast<Index>(k + 1));
+    return away;
+}
+
+/// What of the slip the step leaves open, of the plane where that is most against what time.slip_tolerance allows.
+std::string EarthquakeRun::missed_tolerance(const RunResult& result) const
+{
+    const auto excess = [&](double slip, double error) {
+        return error / std::max(std::abs(slip), options_.smallest_slip);
+    };
+    std::string where;
+    double slip = result.slip, error = result.slip_error;
+    for (const LiftResult& lift : result.lifts)
+        if (excess(lift.slip, lift.slip_error) > excess(slip, error)) {
+            where = lift.plane + ": ";
+            slip = lift.slip;
+            error = lift.slip_error;
+        }
+    return fmt::format("{}slip {:.4g} mm ± {:.3g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} "
+                       "allows. Give a smaller time.dt_s, or a larger slip_tolerance.",
+                       where, 1e3 * slip, 1e3 * error, result.dt, *options_.slip_tolerance);
 }
 
 void EarthquakeRun::judge(RunResult& result) const
 {
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
+    const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end ||
+                      result.status == Status::tolerance_missed;
+    if (const std::string away = over ? runs_away(result) : ""; !away.empty()) {
+        result.status = Status::runs_away;
+        result.message = away;
+    }
     switch (result.status) {
     case Status::at_rest:
         result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
         break;
     case Status::tolerance_missed:
-        result.message =
-            fmt::format("Slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} allows. "
-                        "Give a smaller time.dt_s, or a larger slip_tolerance.",
-                        1e3 * result.slip, 1e3 * result.slip_error, result.dt, *options_.slip_tolerance);
+        result.message = missed_tolerance(result);
         break;
     case Status::sliding_at_end:
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
@@ -290,6 +331,17 @@ RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Con
 {
     const Contact contacts[] = {contact.value_or(scene_.contact)};
     return std::move(run_all(motion, contacts).front());
+}
+
+RunResult EarthquakeRun::run_at(const GroundMotion& motion, const ChosenSteps& steps) const
+{
+    const Contact contacts[] = {scene_.contact};
+    return std::move(run_all(motion, contacts, steps).front());
+}
+
+ChosenSteps EarthquakeRun::steps_of(const RunResult& run) const
+{
+    return {run.halvings, explicit_ ? std::optional(run.dt) : std::nullopt};
 }
 
 } // namespace damslip::fe2d

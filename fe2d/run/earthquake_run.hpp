@@ -10,6 +10,7 @@
 #include "records/record.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -57,25 +58,26 @@ struct RunSeconds {
 
 /// What became of the block above a lift joint.
 struct LiftResult {
-    std::string plane;            ///< "lift joint at 51.5 m"
-    std::string name;             ///< the scene's
-    double slip = 0.0;            ///< final, area mean, since the static state [m]
-    double largest_slip = 0.0;    ///< largest |slip| on the way [m]
-    double largest_opening = 0.0; ///< [m]
-    double largest_rocking = 0.0; ///< largest |rotation| [rad]
+    std::string plane;                                            ///< "lift joint at 51.5 m"
+    std::string name;                                             ///< the scene's
+    double slip = 0.0;                                            ///< final, area mean, since the static state [m]
+    double largest_slip = 0.0;                                    ///< largest |slip| of all steps on the way [m]
+    double slip_error = std::numeric_limits<double>::quiet_NaN(); ///< as RunResult::slip_error
+    double largest_opening = 0.0;                                 ///< [m]
+    double largest_rocking = 0.0;                                 ///< largest |rotation| [rad]
 };
 
 struct RunResult {
     Status status = Status::not_resolved; ///< not_resolved until the record has run
-    std::string message;             ///< one sentence with the numbers
-    std::vector<StageResult> stages; ///< before the earthquake
-    StageResult after;               ///< after it, with residual strength and uplift_after
+    std::string message;                  ///< one sentence with the numbers
+    std::vector<StageResult> stages;      ///< before the earthquake
+    StageResult after;                    ///< after it, with residual strength and uplift_after
     RunHistory history;
     double slip = 0.0;       ///< final, area mean, since the static state [m]
-    double max_slip = 0.0;   ///< largest |slip| on the way [m]
+    double max_slip = 0.0;   ///< largest |slip| of all steps on the way, between the rows of the history too [m]
     double slip_error = 0.0; ///< estimate of what the time step leaves open [m]; NaN: not estimated
     int halvings = 0;        ///< the step was dt / 2^halvings
-    double dt = 0.0;         ///< [s]
+    double dt = 0.0;         ///< [s]; of adaptive steps the mean
     double end_time = 0.0;   ///< run-out included [s]
     RayleighConstants damping;
     DynamicCounts counts;                     ///< of the run that is reported
@@ -87,6 +89,12 @@ struct RunResult {
     Eigen::VectorXd zero_displacement; ///< of the gravity stage where scene.stages.geostatic is set; else empty [m]
     RunSeconds seconds;
     std::size_t bytes = 0;
+};
+
+/// The steps of a run as another run chose them.
+struct ChosenSteps {
+    int halvings = 0;           ///< uniform steps Δt/2^halvings
+    std::optional<double> step; ///< of an explicit scheme, whose limit depends on the mesh: Δt/2^halvings itself [s]
 };
 
 /// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run.
@@ -115,7 +123,12 @@ public:
 
     /// One motion with several strengths of the base, in lockstep on common passes over the factor: results in the same
     /// order, the same bits as run() of each. Their dynamic seconds are equal shares of the common ones.
-    std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts) const;
+    /// @param steps  in place of those of options and scene; the slip then has no estimate of its error
+    std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts,
+                                   const std::optional<ChosenSteps>& steps = {}) const;
+    RunResult run_at(const GroundMotion& motion, const ChosenSteps& steps) const; ///< with the scene's strength
+    /// Those of a run, for one on another mesh.
+    ChosenSteps steps_of(const RunResult& run) const;
 
     /// Displacements of a kept state on the unknowns of model() [m]; edges of the rock box that are free in motion but not
     /// there are left out.
@@ -145,8 +158,10 @@ private:
     std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const;
     void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
-    RunProgress progress_of(int halvings, long record_steps, long step, double dt) const;
+    RunProgress progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
+    std::string runs_away(const RunResult& result) const;
+    std::string missed_tolerance(const RunResult& result) const;
 
     Scene scene_;
     RunOptions options_;

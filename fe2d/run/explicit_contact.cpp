@@ -17,7 +17,8 @@ constexpr int steps_between_products = 256; ///< of K u
 
 ExplicitContact::ExplicitContact(std::shared_ptr<const ExplicitOperators> operators, SplitLoad load,
                                  const StaticState& start, const ContactMemory& memory)
-    : operators_(std::move(operators)), load_(std::move(load))
+    : operators_(std::move(operators)), load_(std::move(load)),
+      largest_slips_(operators_->structure().planes(), memory.slip)
 {
     const Index n = operators_->structure().dam_unknowns(), m = operators_->structure().pairs();
     state_.u = start.dam;
@@ -73,6 +74,7 @@ void ExplicitContact::step(double dt, const GroundAcceleration& ground, const Co
     state_.time += dt;
     state_.ground = ground;
     ++counts_.steps;
+    largest_slips_.look(state_.contact.slip);
 }
 
 /// Impulses from the rates without them, and what becomes of the gaps.

@@ -88,6 +88,7 @@ public:
     double energy_imbalance() const override { return energy_.imbalance(energy_start_); }
     double energy_scale() const override { return energy_scale_; }
     const DynamicCounts& counts() const override { return counts_; }
+    const LargestSlips& largest_slips() const override { return largest_slips_; }
     double static_normal_force() const override { return normal_force_; }
     std::size_t bytes() const override;
 
@@ -107,6 +108,7 @@ private:
     Energy energy_, energy_start_;
     double energy_scale_ = 0.0;
     DynamicCounts counts_;
+    LargestSlips largest_slips_;
 };
 
 } // namespace damslip::fe2d

@@ -24,12 +24,4 @@ int StepOperators::made() const
     return static_cast<int>(operators_.size());
 }
 
-std::size_t StepOperators::bytes() const
-{
-    const std::scoped_lock lock(mutex_);
-    std::size_t sum = products_.bytes();
-    for (const auto& [dt, op] : operators_) sum += op->bytes();
-    return sum;
-}
-
 } // namespace damslip::fe2d

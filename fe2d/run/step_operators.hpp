@@ -25,7 +25,6 @@ public:
 
     const DynamicOperator& at(double dt); ///< @param dt  > 0 [s]
     int made() const;                     ///< factorisations so far
-    std::size_t bytes() const;
 
 private:
     const ContactStructure& structure_;

@@ -192,13 +192,17 @@ void add_fe(Parser& p)
                             "damslip fe examples/reference_dam.toml --out results/fe");
     add_run_inputs(sub, p.fe.inputs);
     sub->add_option("--scale", p.fe.inputs.scale, "factor on all records")->group("Ground motion");
-    sub->add_option("--polarity", p.fe.polarity, "-1 flips the horizontal component")
+    sub->add_option(
+           "--polarity", p.fe.polarity,
+           "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
         ->check(CLI::IsMember({1, -1}))
         ->group("Ground motion");
     sub->add_option("--friction", p.fe.inputs.friction, "Coulomb mu instead of the scene's");
     sub->add_option("--base", p.fe.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
         ->check(CLI::IsMember({"contact", "tied"}))
         ->capture_default_str();
+    sub->add_flag("!--no-mesh-error", p.fe.mesh_error,
+                  "leave out the run on elements of twice the size that tells what the mesh leaves open of the slip");
     CLI::Option* reduced =
         sub->add_flag("--reduced", p.fe.reduced, "earthquake on few modes of the dam; slip with an error estimate")
             ->group("Reduced run");

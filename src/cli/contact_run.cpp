@@ -11,10 +11,12 @@
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
 #include "cli/show/fe_report.hpp"
+#include "cli/sweep/fe_meter.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
@@ -40,7 +42,7 @@ std::vector<std::string> run_messages(const Scene& scene, const std::vector<Cont
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
     for (const ContactRun& r : runs)
-        if (r.fe.status != Status::at_rest) messages.push_back(r.record + ": " + r.fe.message);
+        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + r.fe.message);
     return messages;
 }
 
@@ -49,14 +51,16 @@ void write_run(const std::filesystem::path& folder, const Scene& scene, const Co
 {
     const auto write = [&](const std::string& kind, const Table& table, const std::string& legend = {}) {
         std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
-                                          "record " + r.record};
+                                          "record " + r.label(), "status " + word(r.fe.status)};
         if (!legend.empty()) comments.push_back(legend);
-        write_file(folder / (kind + "_" + file_word(r.record) + ".csv"), report::csv(table, comments));
+        write_file(folder / (kind + "_" + file_word(r.record) + r.suffix() + ".csv"), report::csv(table, comments));
     };
-    const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled";
+    const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
+                      signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
+                              "downstream slip; slip positive downstream";
     write("history", contact_history_table(r.fe.history));
-    write("base", base_table(r.fe));
-    write("contact", pair_table(r.fe), letters);
+    write("base", base_table(r.fe), signs);
+    write("contact", pair_table(r.fe), signs + "; " + letters);
     write("states", state_map(r.fe.history), letters);
 }
 
@@ -73,64 +77,135 @@ std::vector<fe2d::VtuArray> contact_arrays(const fe2d::Mesh& mesh, const fe2d::R
             on_nodes("contact_slip_m", r.pair_slip), on_nodes("contact_opening_m", r.pair_opening)};
 }
 
+/// What is kept of one run beside its figures: tables, and fields at the end.
+void keep(const std::filesystem::path& folder, const Scene& scene, const fe2d::EarthquakeRun& model,
+          const ContactRun& r, FieldSeries& fields)
+{
+    if (!folder.empty()) write_run(folder, scene, r);
+    if (r.fe.displacement.size() == 0) return;
+    Eigen::VectorXd elastic = r.fe.displacement; // gravity's part carries stress where it does not count as motion
+    if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
+    fields.add(r.record + r.suffix() + "_end", r.fe.end_time, r.fe.displacement, elastic,
+               contact_arrays(model.model().mesh, r.fe));
+}
+
+constexpr double share_of_run = 0.8; ///< of the progress of a run; the rest is that on the coarser mesh
+
+/// The models of one call, and the runs on them.
+class ContactRuns {
+public:
+    ContactRuns(const FeArguments& arguments, const Scene& scene, const std::vector<RecordPair>& records,
+                const InterruptGuard& interrupt, const StopAsked& stop, Progress& progress)
+        : arguments_(arguments), scene_(scene), meter_(progress), interrupt_(interrupt),
+          polarities_(polarities_of(arguments, scene)), options_(contact_options(scene, records, seepage_)),
+          coarser_(scene, records, arguments.mesh_error, [this](const fe2d::RunProgress& p) {
+              meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+              return answer();
+          })
+    {
+        if (!arguments.out.empty()) options_.pair_series = fe2d::PairSeries::every_step;
+        options_.stop = stop;
+        options_.progress = [this](const fe2d::RunProgress& p) {
+            meter_.reached(share_of_run * share_of(p));
+            return answer();
+        };
+        model_.emplace(scene, options_);
+        if (const std::optional<Scene> exact_scene = with_exact_contact(scene)) {
+            fe2d::RunOptions plain = options_;
+            plain.pair_series = fe2d::PairSeries::none;
+            plain.progress = [this](const fe2d::RunProgress&) { return answer(); };
+            exact_.emplace(*exact_scene, plain);
+        }
+        rigid_ = make_rigid_model(scene, seepage_.profile_of(scene));
+    }
+
+    const fe2d::EarthquakeRun& model() const { return *model_; }
+    const RigidModel& rigid() const { return rigid_; }
+    const Polyline& uplift() const { return options_.uplift; }
+    bool gives_way() const { return exact_.has_value(); }
+    std::size_t polarities() const { return polarities_.size(); }
+
+    /// One record with its polarities beside each other, in their order whatever the threads.
+    /// @param motions  gets what they ran with
+    std::vector<ContactRun> run(const RecordPair& pair, std::vector<GroundMotion>& motions)
+    {
+        std::vector<ContactRun> runs(polarities_.size());
+        motions.resize(polarities_.size());
+        parallel_for(polarities_.size(), 0, [&](std::size_t i) {
+            motions[i] = ground_motion(scene_, pair, 1.0, polarities_[i]);
+            ContactRun& r = runs[i];
+            r.record = pair.files.name;
+            r.polarity = shown_polarity(scene_, polarities_[i]);
+            r.both = polarities_.size() > 1;
+            run(motions[i], r);
+            interrupt_.results_at_hand();
+        });
+        return runs;
+    }
+
+private:
+    static double share_of(const fe2d::RunProgress& p)
+    {
+        return static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps));
+    }
+    fe2d::RunAnswer answer() const { return interrupt_.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on; }
+    void run(const GroundMotion& motion, ContactRun& r)
+    {
+        meter_.begin(1);
+        r.fe = model_->run(motion);
+        r.mesh = coarser_.error_of(*model_, r.fe, motion);
+        if (exact_ && !interrupt_.interrupted()) r.exact = exact_->run(motion);
+        if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene_, rigid_, motion, 1);
+        meter_.end();
+    }
+
+    const FeArguments& arguments_;
+    const Scene& scene_;
+    FeMeter meter_;
+    const InterruptGuard& interrupt_;
+    std::vector<int> polarities_;
+    SeepageSource seepage_;
+    fe2d::RunOptions options_;
+    CoarserMesh coarser_;
+    std::optional<fe2d::EarthquakeRun> model_, exact_;
+    RigidModel rigid_;
+};
+
 } // namespace
 
 int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
                 const std::vector<RecordPair>& records, const Streams& streams)
 {
-    SeepageSource seepage;
     const InterruptGuard interrupt;
-    fe2d::RunOptions options = contact_options(scene, records, seepage);
-    if (!arguments.out.empty()) options.pair_series = fe2d::PairSeries::every_step;
-    Progress progress(streams, "fe", 1000 * records.size());
-    double before = 0.0; // records done
-    options.progress = [&](const fe2d::RunProgress& p) {
-        const double share = static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps));
-        progress.at(1000 * (before + share));
-        return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
-    };
-    options.stop = streams.stop;
+    const std::optional<double>& allowable = scene.criteria.allowable_slip;
+    Progress progress(streams, "fe", records.size() * polarities_of(arguments, scene).size());
     progress.phase("set-up");
-    const fe2d::EarthquakeRun model(scene, options);
-    const std::optional<Scene> exact_scene = with_exact_contact(scene);
-    std::optional<fe2d::EarthquakeRun> exact;
-    if (exact_scene) {
-        options.pair_series = fe2d::PairSeries::none;
-        options.progress = [&](const fe2d::RunProgress&) {
-            return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
-        };
-        exact.emplace(*exact_scene, options);
-    }
-    const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
+    ContactRuns all(arguments, scene, records, interrupt, streams.stop, progress);
+    const fe2d::EarthquakeRun& model = all.model();
 
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
-    if (!arguments.out.empty()) page.emplace(FeReport::Input{scene, plan, records, model, rigid, options.uplift});
+    if (!arguments.out.empty()) page.emplace(FeReport::Input{scene, plan, records, model, all.rigid(), all.uplift()});
     std::vector<ContactRun> runs;
     std::vector<std::string> of_rock;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        const GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
-        runs.push_back({pair.files.name, model.run(motion), std::nullopt, std::nullopt});
-        ContactRun& r = runs.back();
-        interrupt.results_at_hand();
-        for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
-            of_rock.push_back(r.record + ": " + warning);
-        if (exact && !interrupt.interrupted()) r.exact = exact->run(motion);
-        if (rigid.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene, rigid, motion, 1);
-        if (!arguments.out.empty()) write_run(arguments.out, scene, r);
-        if (r.fe.displacement.size()) {
-            Eigen::VectorXd elastic =
-                r.fe.displacement; // gravity's part carries stress where it does not count as motion
-            if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
-            fields.add(r.record + "_end", r.fe.end_time, r.fe.displacement, elastic,
-                       contact_arrays(model.model().mesh, r.fe));
+        std::vector<GroundMotion> motions;
+        for (ContactRun& run : all.run(pair, motions)) {
+            const GroundMotion& motion = motions[runs.size() % all.polarities()];
+            runs.push_back(std::move(run));
+            ContactRun& r = runs.back();
+            for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
+                if (std::string note = r.record + ": " + warning; of_rock.empty() || of_rock.back() != note)
+                    of_rock.push_back(std::move(note));
+            keep(arguments.out, scene, model, r, fields);
+            if (page) page->add(r, motion);
+            r.fe.history.by_pair = {};
+            r.fe.history.states = {};
         }
-        if (page) page->add(r, motion);
-        r.fe.history.by_pair = {};
-        r.fe.history.states = {};
-        progress.at(1000 * ++before);
     }
+    const Table run_table = contact_run_table(runs, allowable);
+    const report::Headline headline = fe_headline(scene, runs);
     const Table counts = count_table(model.model().counts, model.water() ? &model.water()->water : nullptr);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -140,13 +215,16 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["contact_pairs"] = model.structure().pairs();
     j["damping"] = {{"mass_coefficient_1_s", model.damping().mass},
                     {"stiffness_coefficient_s", model.damping().stiffness}};
+    j["headline"] = headline.sentence;
+    j["verdict"] = word(verdict_of(runs, allowable));
+    j["worst"] = worst_json(runs, allowable);
     j["stages"] = json_of(contact_stage_table(runs));
-    j["runs"] = json_of(contact_run_table(runs));
+    j["runs"] = json_of(run_table);
     j["slip"] = json_of(contact_slip_table(runs));
-    if (!scene.lift_joints.empty()) j["lift_joints"] = json_of(contact_lift_table(runs));
+    if (!scene.lift_joints.empty()) j["lift_joints"] = json_of(contact_lift_table(runs, allowable));
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
-    if (exact) j["contact_law"] = json_of(contact_law_table(runs));
+    if (all.gives_way()) j["contact_law"] = json_of(contact_law_table(runs));
     j["messages"] = run_messages(scene, runs, of_rock);
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
@@ -156,24 +234,25 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
                     << fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n",
                                    model.structure().pairs(), model.damping().mass, model.damping().stiffness)
                     << report::text(contact_stage_table(runs)) << "\n"
-                    << report::text(contact_run_table(runs)) << "\n"
+                    << report::text(answer_part(run_table)) << "\n"
+                    << report::text(solution_part(run_table)) << "\n"
                     << report::text(contact_slip_table(runs));
-        if (!scene.lift_joints.empty()) streams.out << "\n" << report::text(contact_lift_table(runs));
-        if (exact) streams.out << "\n" << report::text(contact_law_table(runs));
+        if (!scene.lift_joints.empty()) streams.out << "\n" << report::text(contact_lift_table(runs, allowable));
+        if (all.gives_way()) streams.out << "\n" << report::text(contact_law_table(runs));
+        streams.out << "\n" << headline_text(headline);
         for (const std::string& message : run_messages(scene, runs, of_rock))
             streams.out << "note: " << message << "\n";
     }
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
     if (page) {
         std::vector<Table> tables{contact_energy_table(runs), contact_count_table(runs)};
-        if (exact) tables.insert(tables.begin(), contact_law_table(runs));
+        if (all.gives_way()) tables.insert(tables.begin(), contact_law_table(runs));
         const std::filesystem::path file = arguments.out / "report.html";
         write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
-    const auto converged = [](const ContactRun& r) { return is_answer(r.fe.status); };
-    return runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), converged) ? exit_ok
-                                                                                             : exit_no_answer;
+    const bool whole = runs.size() == records.size() * all.polarities();
+    return whole ? exit_code_of(runs) : exit_no_answer;
 }
 
 } // namespace damslip::cli

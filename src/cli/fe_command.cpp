@@ -11,6 +11,17 @@
 
 namespace damslip::cli {
 
+std::vector<int> polarities_of(const FeArguments& arguments, const Scene& scene)
+{
+    if (arguments.polarity || scene.motion.polarity) return {arguments.polarity.value_or(1)};
+    return {1, -1};
+}
+
+int shown_polarity(const Scene& scene, int polarity)
+{
+    return scene.motion.polarity.value_or(1) * polarity;
+}
+
 int fe(const FeArguments& arguments, const Streams& streams)
 {
     Scene given = read_run_scene(arguments.inputs, streams);

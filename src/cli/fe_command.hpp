@@ -12,10 +12,17 @@ struct FeArguments {
     bool reduced = false;        ///< on few modes of the dam, with an error estimate; contact base only
     std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
-    std::optional<int> polarity; ///< -1 flips the horizontal component
+    std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
+    bool mesh_error = true;      ///< one more run on elements of twice the size tells what the mesh leaves open
 };
 
-/// Staged finite-element run of every record of the scene. @returns exit_no_answer when a run did not end properly; what was
+/// What is run of each record: +1 and -1, or the one that scene or command line ask for. On top of motion.polarity.
+std::vector<int> polarities_of(const FeArguments& arguments, const Scene& scene);
+
+/// Against the record as it is: that of the scene counted in.
+int shown_polarity(const Scene& scene, int polarity);
+
+/// Staged finite-element run of every record of the scene, both polarities beside each other. @returns exit_no_answer when a run did not end properly; what was
 /// computed is written all the same.
 int fe(const FeArguments& arguments, const Streams& streams);
 

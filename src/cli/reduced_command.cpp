@@ -5,18 +5,20 @@
 #include "cli/show/contact_tables.hpp"
 #include "cli/show/effect_table.hpp"
 #include "cli/show/fe_output.hpp"
+#include "cli/show/fe_report.hpp"
 #include "cli/show/reduced_report.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/progress.hpp"
 #include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
+#include "core/parallel.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "report/page_html.hpp"
 #include "report/table_text.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -25,29 +27,53 @@ namespace damslip::cli {
 
 namespace {
 
-Table reduced_table(const std::vector<ReducedRecord>& runs)
+/// With the part of the modes, which the step's holds in a reduced run.
+std::string error_words(const SlipError& error)
+{
+    const std::string words = error.parts();
+    return words.starts_with("step") ? "modes, " + words : words;
+}
+
+Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<double>& allowable)
 {
     Table t;
     t.title = "Earthquake runs, reduced, exact contact";
     t.columns = {{"record", "record", "", 4},
+                 {"polarity", "polarity", "", 4},
                  {"status", "status", "", 4},
-                 {"slip_mm", "slip", "mm", 5},
+                 {"slip_mm", "slip at end (mean of base)", "mm", 5},
                  {"truncation_error_mm", "± modes", "mm", 2},
                  {"slip_error_mm", "± step", "mm", 2},
-                 {"max_slip_m", "largest slip", "m", 5},
+                 {"mesh_error_mm", "± mesh", "mm", 2},
+                 {"total_error_mm", "± total", "mm", 2},
+                 {"error_parts", "error holds", "", 4},
+                 {"max_slip_m", "largest slip on the way", "m", 5},
+                 {"verdict", "verdict", "", 4},
                  {"modes", "modes", "", 4},
                  {"highest_frequency_Hz", "up to", "Hz", 4},
                  {"steps", "steps", "", 4},
                  {"dt_s", "step", "s", 4},
                  {"unresolved", "unresolved", "", 4},
                  {"seconds", "time", "s", 3}};
-    for (const auto& [record, r, motion] : runs)
-        t.rows.push_back({record, word(r.status), 1e3 * r.slip, 1e3 * r.truncation_error, 1e3 * r.step_error,
-                          r.max_slip, static_cast<std::int64_t>(r.modes), r.highest_frequency,
+    for (const ReducedRecord& run : runs) {
+        const fe2d::ReducedResult& r = run.result;
+        const ContactRun as_full = as_contact_run(run);
+        const SlipError error = slip_error(as_full);
+        const bool slides = reported(r.status, r.slip).has_value();
+        const auto in_mm = [&](double metres) { return slides && std::isfinite(metres) ? Cell(1e3 * metres) : Cell(); };
+        t.rows.push_back({run.record, static_cast<std::int64_t>(run.polarity), word(r.status), in_mm(r.slip),
+                          in_mm(r.truncation_error), in_mm(r.step_error), in_mm(error.mesh), in_mm(error.total),
+                          slides ? Cell(error_words(error)) : Cell(), slides ? Cell(r.max_slip) : Cell(),
+                          word(verdict_of(as_full, allowable)), static_cast<std::int64_t>(r.modes), r.highest_frequency,
                           static_cast<std::int64_t>(r.counts.steps), r.dt,
                           static_cast<std::int64_t>(r.counts.unresolved), r.seconds.statics + r.seconds.dynamics});
-    t.notes.push_back("slip: area mean over the base at the end, since the static state, positive downstream; ± modes: "
-                      "what the elastic modes left out change (estimate), ± step: what the time step leaves open.");
+    }
+    t.notes.push_back(
+        "slip: area mean over the base since the static state, positive downstream; ± modes: what the elastic "
+        "modes left out change (estimate), ± step: what the time step leaves open; ± mesh: change against "
+        "elements of twice the size.");
+    for (const std::string& note : error_notes(as_contact_runs(runs))) t.notes.push_back(note);
+    t.notes.push_back("polarity -1: the record's horizontal component is flipped.");
     t.notes.push_back("time without the shared set-up of model and modes.");
     return t;
 }
@@ -65,6 +91,15 @@ Table history_table(const fe2d::ReducedHistory& h)
     return t;
 }
 
+void write_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run)
+{
+    const ContactRun as_full = as_contact_run(run);
+    write_file(folder / ("history_" + file_word(run.record) + as_full.suffix() + ".csv"),
+               report::csv(history_table(run.result.history),
+                           {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                            "record " + as_full.label(), "status " + word(run.result.status)}));
+}
+
 } // namespace
 
 int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
@@ -78,28 +113,42 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
         return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     options.stop = streams.stop;
-    Progress progress(streams, "fe --reduced", records.size());
+    const std::vector<int> polarities = polarities_of(arguments, scene);
+    Progress progress(streams, "fe --reduced", records.size() * polarities.size());
     progress.phase("set-up");
     const fe2d::EarthquakeRun full(scene, options);
-    const fe2d::ReducedRun model(full, scene, options, arguments.modes.value_or(fe2d::default_modes));
+    const int modes = arguments.modes.value_or(fe2d::default_modes);
+    const fe2d::ReducedRun model(full, scene, options, modes);
+    CoarserMesh coarser(scene, records, arguments.mesh_error, options.progress, modes);
+    const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
 
     std::vector<ReducedRecord> runs;
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
-        GroundMotion motion = ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1));
-        fe2d::ReducedResult result = model.run(motion);
-        runs.push_back({pair.files.name, std::move(result), std::move(motion)});
-        interrupt.results_at_hand();
-        if (!arguments.out.empty())
-            write_file(arguments.out / ("history_" + file_word(pair.files.name) + ".csv"),
-                       report::csv(history_table(runs.back().result.history),
-                                   {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
-                                    "record " + pair.files.name}));
-        progress.advance();
+        std::vector<ReducedRecord> both(polarities.size());
+        parallel_for(polarities.size(), 0, [&](std::size_t i) {
+            ReducedRecord& run = both[i];
+            run.record = pair.files.name;
+            run.motion = ground_motion(scene, pair, 1.0, polarities[i]);
+            run.polarity = shown_polarity(scene, polarities[i]);
+            run.both = polarities.size() > 1;
+            run.result = model.run(run.motion);
+            run.mesh = coarser.error_of(run.result, run.motion);
+            if (rigid.state == sliding::StaticState::at_rest) run.rigid = slide_model(scene, rigid, run.motion, 1);
+            progress.advance();
+        });
+        for (ReducedRecord& run : both) {
+            runs.push_back(std::move(run));
+            interrupt.results_at_hand();
+            if (!arguments.out.empty()) write_history(arguments.out, scene, runs.back());
+        }
     }
+    const std::vector<ContactRun> list = as_contact_runs(runs);
+    const Table table = reduced_table(runs, scene.criteria.allowable_slip);
+    const report::Headline headline = fe_headline(scene, list, "step and modes");
     std::vector<std::string> messages = note_texts(scene.notes);
-    for (const ReducedRecord& run : runs)
-        if (run.result.status != Status::at_rest) messages.push_back(run.record + ": " + run.result.message);
+    for (const ContactRun& run : list)
+        if (run.fe.status != Status::at_rest) messages.push_back(run.label() + ": " + run.fe.message);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
     j["base"] = "contact";
@@ -107,29 +156,31 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     j["effects"] = json_of(effect_table(plan));
     j["model"] = json_of(count_table(full.model().counts));
     j["contact_pairs"] = full.structure().plane().pairs();
-    j["stages"] = json_of(reduced_stage_table(runs));
-    j["runs"] = json_of(reduced_table(runs));
+    j["headline"] = headline.sentence;
+    j["verdict"] = word(verdict_of(list, scene.criteria.allowable_slip));
+    j["worst"] = worst_json(list, scene.criteria.allowable_slip);
+    j["stages"] = json_of(contact_stage_table(list));
+    j["runs"] = json_of(table);
     j["messages"] = messages;
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n" << report::text(count_table(full.model().counts));
-        streams.out << report::text(reduced_stage_table(runs)) << "\n" << report::text(reduced_table(runs));
+        streams.out << report::text(contact_stage_table(list)) << "\n"
+                    << report::text(table) << "\n"
+                    << headline_text(headline);
         for (const std::string& message : messages) streams.out << "note: " << message << "\n";
     }
     FieldSeries fields(arguments.out, full.model()); // without instants: the reduced run keeps no shapes
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
     if (!arguments.out.empty()) {
-        const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, report::page_html(reduced_page({scene, plan, records, full, rigid, options.uplift, runs,
-                                                         reduced_table(runs), messages})));
+        write_file(file, report::page_html(
+                             reduced_page({scene, plan, records, full, rigid, options.uplift, runs, table, messages})));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
-    const bool all = runs.size() == records.size() &&
-                     std::all_of(runs.begin(), runs.end(),
-                                 [](const ReducedRecord& run) { return is_answer(run.result.status); });
-    return all ? exit_ok : exit_no_answer;
+    const bool all = runs.size() == records.size() * polarities.size();
+    return all ? exit_code_of(list) : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -67,6 +67,7 @@ Table run_table(const std::vector<TiedRun>& runs)
     Table t;
     t.title = "Earthquake runs, tied base";
     t.columns = {{"record", "record", "", 4},
+                 {"polarity", "polarity", "", 4},
                  {"status", "status", "", 4},
                  {"method", "method", "", 4},
                  {"steps", "steps", "", 4},
@@ -80,7 +81,7 @@ Table run_table(const std::vector<TiedRun>& runs)
                  {"seconds", "time", "s", 3}};
     for (const TiedRun& r : runs)
         t.rows.push_back(
-            {r.record,
+            {r.record, static_cast<std::int64_t>(r.polarity),
              r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text,
              r.history.method, static_cast<std::int64_t>(r.history.steps), r.history.time_step,
              1e3 * r.history.peak_crest_x, r.history.peak_crest_accel_x, r.history.peak_base_shear / 1e3,
@@ -88,6 +89,8 @@ Table run_table(const std::vector<TiedRun>& runs)
              static_cast<std::int64_t>(r.history.factorisations), r.seconds});
     t.notes.push_back("crest x relative to the ground, from the static state; accelerations absolute; energy imbalance "
                       "over the largest energy of the run.");
+    t.notes.push_back("one polarity: the model is linear, so the other turns the part of the horizontal motion round; "
+                      "--polarity -1 runs it.");
     return t;
 }
 
@@ -127,10 +130,11 @@ fe2d::HeldStart start_of(const TiedModels& models, const Eigen::VectorXd& load, 
 
 TiedRun run_record(const Scene& scene, const TiedModels& models, const fe2d::FluidModel* water,
                    const fe2d::HeldStart& start_state, const Eigen::Vector2d& resultant, const GroundMotion& motion,
-                   const InterruptGuard& interrupt, const Streams& streams)
+                   int polarity, const InterruptGuard& interrupt, const Streams& streams)
 {
     const fe2d::Model& damped = models.damped();
     TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
+    run.polarity = polarity;
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;
@@ -192,7 +196,8 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     for (const RecordPair& pair : records) {
         if (interrupt.interrupted()) break;
         runs.push_back(run_record(scene, models, water ? &*water : nullptr, start, resultant,
-                                  ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)), interrupt, streams));
+                                  ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)),
+                                  shown_polarity(scene, arguments.polarity.value_or(1)), interrupt, streams));
         interrupt.results_at_hand();
         const TiedRun& r = runs.back();
         if (r.history.displacement.size())

@@ -183,7 +183,7 @@ std::string file_word(std::string_view name)
     std::string word;
     for (const char c : name) {
         const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        word += plain || c == '-' || c == '.' ? c : '_';
+        word += plain || c == '-' || c == '+' || c == '.' ? c : '_';
     }
     constexpr std::size_t digits = 8;
     if (word.size() <= longest_file_word) return word;

@@ -32,7 +32,7 @@ enum class OutputPath {
 std::optional<Diagnostic> output_path_problem(const std::filesystem::path& path, OutputPath kind,
                                               const std::string& named);
 
-/// A name for files made of `name`: letters, digits, "-" and "." stay, others become "_"; what is longer than 80 characters
+/// A name for files made of `name`: letters, digits, "-", "+" and "." stay, others become "_"; what is longer than 80 characters
 /// is cut and told apart by a part of its SHA-256.
 std::string file_word(std::string_view name);
 

@@ -8,8 +8,8 @@ namespace damslip::checks {
 
 void check_motion(const Scene& s, Findings& f, FileCheck files)
 {
-    if (s.motion.polarity != 1 && s.motion.polarity != -1)
-        f.wrong("motion.polarity", fmt::format("motion.polarity = {} is not allowed.", s.motion.polarity), "1 or -1",
+    if (const int polarity = s.motion.polarity.value_or(1); polarity != 1 && polarity != -1)
+        f.wrong("motion.polarity", fmt::format("motion.polarity = {} is not allowed.", polarity), "1 or -1",
                 "write  polarity = -1  to flip the horizontal component");
     static const std::set<std::string> known{"", "g", "m/s2", "cm/s2", "gal", "mg"};
     std::set<std::string> names;

@@ -6,7 +6,9 @@ namespace damslip::keys {
 std::vector<KeyGroup> motion_groups()
 {
     std::vector<KeyGroup> groups;
-    Key polarity = word("polarity", "1", "1 or -1: -1 flips the horizontal components", "-1", at(&Motion::polarity));
+    Key polarity =
+        word("polarity", "1; of `fe` both", "1 or -1: -1 flips the horizontal components; written, `fe` runs it alone",
+             "-1", at(&Motion::polarity));
     groups.push_back(group(
         "motion", "Ground motion. a_h positive upstream drives the dam downstream, a_v positive up.", &Scene::motion,
         {number("scale", none, Range::at_least(0), "1", "factor on all components", "1.5", at(&Motion::scale)),

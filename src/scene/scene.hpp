@@ -197,7 +197,7 @@ struct Motion {
     std::vector<RecordFiles> records;
     double scale = 1.0;                 ///< both components [-]
     std::optional<double> scale_to_pga; ///< horizontal peak made equal to this [m/s^2], vertical by the same factor
-    int polarity = 1;                   ///< -1 flips the horizontal component
+    std::optional<int> polarity;        ///< -1 flips the horizontal component, 1 not; none: not said, as recorded
     bool vertical = true;               ///< false: vertical components are left out
 };
 

@@ -69,7 +69,7 @@ TEST(FeRockMassRun, TheCommandWritesAllItsFiles)
                    "25\n[foundation]\nyoung_modulus_GPa = 20\ndensity_kg_m3 = 2600\nmass = \"with-mass\"\nboundary = \""
                 << boundary
                 << "\"\n[contact]\nfriction = 0.4\n[mesh]\nsize_m = 4\ncontact_size_m = "
-                   "4\n[[motion.record]]\nhorizontal = "
+                   "4\n[time]\ndt_s = 0.01\n[[motion.record]]\nhorizontal = "
                    "\"pulse.csv\"\n";
             const std::filesystem::path out = folder / (std::string(boundary) + base);
             const ProgramAnswer a =

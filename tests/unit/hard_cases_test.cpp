@@ -36,8 +36,11 @@ TEST_P(Hard, holds)
 
 TEST(HardCases, ThirtyAtLeastAndFewMayEndInAStatus)
 {
-    const std::set<std::string> may{"hard.friction.one-percent-below", "hard.friction.zero-with-water",
-                                    "hard.record.nan", "hard.time.explicit-above-limit",
+    const std::set<std::string> may{"hard.friction.one-percent-below",
+                                    "hard.friction.zero-with-water",
+                                    "hard.record.nan",
+                                    "hard.time.ten-times-too-large",
+                                    "hard.time.explicit-above-limit",
                                     "hard.time.central-difference-above-limit"};
     const HardCases cases = all_hard_cases();
     EXPECT_GE(cases.size(), 30u);

@@ -5,6 +5,7 @@
 #include "cli/accuracy/variant.hpp"
 #include "cli/run/contact_options.hpp"
 #include "cli/run/fe_inputs.hpp"
+#include "cli/run/mesh_scale.hpp"
 #include "cli/run/reducible.hpp"
 #include "cli/run/rigid_model.hpp"
 #include "core/input_error.hpp"
@@ -12,8 +13,6 @@
 #include "core/units.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/exact_contact.hpp"
-#include "scene/mesh_sizes.hpp"
-#include "scene/section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +21,6 @@
 namespace damslip::cli {
 
 namespace {
-
-constexpr double least_elements = 8.0; ///< on the base, of the coarsest mesh
 
 std::string first_line(const std::string& text)
 {
@@ -91,7 +88,7 @@ bool linear_elements(ElementKind kind)
 
 double coarsest_mesh(const Scene& scene)
 {
-    const double elements = base_length(scene.section) / mesh_sizes(scene).contact;
+    const double elements = elements_on_base(scene);
     double factor = 1.0;
     while (factor < 4.0 && elements / (2.0 * factor) >= least_elements) factor *= 2.0;
     return factor;

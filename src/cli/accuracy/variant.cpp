@@ -1,24 +1,11 @@
 #include "cli/accuracy/variant.hpp"
 
+#include "cli/run/mesh_scale.hpp"
 #include "scene/exact_contact.hpp"
-#include "scene/mesh_sizes.hpp"
 
 namespace damslip::cli {
 
 namespace {
-
-/// Elements of `factor` times the scene's size everywhere but in the far rock; they grow as fast with the distance.
-void scale_mesh(double factor, Scene& scene)
-{
-    const MeshSizes sizes = mesh_sizes(scene);
-    scene.mesh.size = factor * sizes.dam;
-    scene.mesh.contact_size = factor * sizes.contact;
-    if (scene.mesh.rock_contact_size) *scene.mesh.rock_contact_size *= factor;
-    if (scene.mesh.rock_size) *scene.mesh.rock_size *= factor;
-    scene.mesh.growth = 1.0 + factor * (scene.mesh.growth - 1.0);
-    if (scene.reservoir && scene.reservoir->level > 0.0)
-        scene.reservoir->mesh_size = factor * water_mesh_size(*scene.reservoir);
-}
 
 void set_element(std::string_view word, Scene& scene)
 {

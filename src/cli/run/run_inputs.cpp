@@ -202,7 +202,7 @@ GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double sc
     records::MotionOptions options;
     options.scale = scene.motion.scale * pair.files.scale * scale;
     options.scale_to_pga = scene.motion.scale_to_pga;
-    options.polarity = scene.motion.polarity * polarity;
+    options.polarity = scene.motion.polarity.value_or(1) * polarity;
     if (!std::isfinite(options.scale)) refuse_scale(pair, options.scale);
     GroundMotion motion = records::make_ground_motion(pair.horizontal, pair.vertical, options);
     motion.name = pair.files.name;

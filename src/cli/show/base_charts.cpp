@@ -39,7 +39,7 @@ report::Chart chart_of(const RunView& view, const std::string& what, const std::
     const fe2d::RunHistory& h = fe.history;
     const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
     report::Chart chart;
-    chart.title = view.run.record + ": " + what + " along the base";
+    chart.title = view.run.label() + ": " + what + " along the base";
     chart.x = {"distance from the heel", "m", Scale::linear, 0.1, {}, {}, {}};
     chart.y = {what, "MPa", Scale::linear, 0.1, {}, {}, {}};
     chart.together = view.together + "base";
@@ -106,7 +106,7 @@ report::StateMap base_states(const RunView& view)
     const fe2d::RunResult& fe = view.run.fe;
     const fe2d::PairHistory& pairs = fe.history.by_pair;
     report::StateMap map;
-    map.title = view.run.record + ": where the base sticks, slips and opens";
+    map.title = view.run.label() + ": where the base sticks, slips and opens";
     map.time = fe.history.time;
     map.distance.assign(fe.pair_distance.begin(), fe.pair_distance.end());
     map.place = "from the heel";

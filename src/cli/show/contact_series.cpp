@@ -22,71 +22,68 @@ char letter(fe2d::ContactState state)
     return '?';
 }
 
+/// A column of the history of one run, and of one of its lift joints.
+struct HistoryColumn {
+    Column column;
+    std::vector<double> fe2d::RunHistory::*values;
+};
+struct LiftColumn {
+    Column column;
+    std::vector<double> fe2d::LiftHistory::*values;
+};
+
+const std::vector<HistoryColumn>& motion_columns()
+{
+    using H = fe2d::RunHistory;
+    static const std::vector<HistoryColumn> all{{{"time_s", "time", "s", 6}, &H::time},
+                                                {{"ground_accel_h_m_s2", "a_h", "m/s²", 5}, &H::ground_h},
+                                                {{"ground_accel_v_m_s2", "a_v", "m/s²", 5}, &H::ground_v},
+                                                {{"slip_m", "slip", "m", 6}, &H::slip},
+                                                {{"slip_heel_m", "slip, heel", "m", 6}, &H::slip_heel},
+                                                {{"slip_middle_m", "slip, middle", "m", 6}, &H::slip_middle},
+                                                {{"slip_toe_m", "slip, toe", "m", 6}, &H::slip_toe},
+                                                {{"rocking_rad", "rocking", "rad", 6}, &H::rocking},
+                                                {{"crest_x_m", "crest x", "m", 6}, &H::crest_x},
+                                                {{"normal_force_N_m", "N'", "N/m", 6}, &H::normal_force},
+                                                {{"shear_force_N_m", "T", "N/m", 6}, &H::shear_force},
+                                                {{"normal_position_m", "N' from heel", "m", 6}, &H::normal_position},
+                                                {{"moment_N_m_m", "moment", "N m/m", 6}, &H::moment},
+                                                {{"open_length_m", "open", "m", 4}, &H::open_length},
+                                                {{"slipping_length_m", "slipping", "m", 4}, &H::slipping_length},
+                                                {{"largest_opening_m", "opening", "m", 4}, &H::largest_opening}};
+    return all;
+}
+
+const std::vector<LiftColumn>& lift_columns()
+{
+    using L = fe2d::LiftHistory;
+    static const std::vector<LiftColumn> all{{{"slip_m", "slip", "m", 6}, &L::slip},
+                                             {{"rocking_rad", "rocking", "rad", 6}, &L::rocking},
+                                             {{"normal_force_N_m", "N'", "N/m", 6}, &L::normal_force},
+                                             {{"largest_opening_m", "opening", "m", 4}, &L::largest_opening}};
+    return all;
+}
+
 } // namespace
 
 Table contact_history_table(const fe2d::RunHistory& h)
 {
     Table t;
-    t.columns = {{"time_s", "time", "s", 6},
-                 {"ground_accel_h_m_s2", "a_h", "m/s²", 5},
-                 {"ground_accel_v_m_s2", "a_v", "m/s²", 5},
-                 {"slip_m", "slip", "m", 6},
-                 {"slip_heel_m", "slip, heel", "m", 6},
-                 {"slip_middle_m", "slip, middle", "m", 6},
-                 {"slip_toe_m", "slip, toe", "m", 6},
-                 {"rocking_rad", "rocking", "rad", 6},
-                 {"crest_x_m", "crest x", "m", 6},
-                 {"normal_force_N_m", "N'", "N/m", 6},
-                 {"shear_force_N_m", "T", "N/m", 6},
-                 {"normal_position_m", "N' from heel", "m", 6},
-                 {"moment_N_m_m", "moment", "N m/m", 6},
-                 {"open_length_m", "open", "m", 4},
-                 {"slipping_length_m", "slipping", "m", 4},
-                 {"largest_opening_m", "opening", "m", 4},
-                 {"kinetic_J_m", "kinetic", "J/m", 6},
-                 {"strain_J_m", "strain", "J/m", 6},
-                 {"damping_J_m", "damping", "J/m", 6},
-                 {"numerical_J_m", "numerical", "J/m", 6},
-                 {"friction_J_m", "friction", "J/m", 6},
-                 {"external_J_m", "external", "J/m", 6},
-                 {"contact_normal_J_m", "contact normal", "J/m", 6},
-                 {"imbalance_J_m", "imbalance", "J/m", 4}};
-    for (std::size_t k = 1; k <= h.lifts.size(); ++k) {
-        const std::string key = "lift" + std::to_string(k) + "_", name = "lift joint " + std::to_string(k) + ", ";
-        t.columns.push_back({key + "slip_m", name + "slip", "m", 6});
-        t.columns.push_back({key + "rocking_rad", name + "rocking", "rad", 6});
-        t.columns.push_back({key + "normal_force_N_m", name + "N'", "N/m", 6});
-        t.columns.push_back({key + "largest_opening_m", name + "opening", "m", 4});
-    }
+    for (const HistoryColumn& c : motion_columns()) t.columns.push_back(c.column);
+    for (const EnergyTerm& term : energy_terms()) t.columns.push_back(term.column);
+    t.columns.push_back({"imbalance_J_m", "imbalance", "J/m", 4});
+    for (std::size_t k = 1; k <= h.lifts.size(); ++k)
+        for (const LiftColumn& c : lift_columns())
+            t.columns.push_back({"lift" + std::to_string(k) + "_" + c.column.key,
+                                 "lift joint " + std::to_string(k) + ", " + c.column.heading, c.column.unit,
+                                 c.column.digits});
     for (std::size_t i = 0; i < h.time.size(); ++i) {
-        const fe2d::Energy& e = h.energy[i];
-        t.rows.push_back({h.time[i],
-                          h.ground_h[i],
-                          h.ground_v[i],
-                          h.slip[i],
-                          h.slip_heel[i],
-                          h.slip_middle[i],
-                          h.slip_toe[i],
-                          h.rocking[i],
-                          h.crest_x[i],
-                          h.normal_force[i],
-                          h.shear_force[i],
-                          h.normal_position[i],
-                          h.moment[i],
-                          h.open_length[i],
-                          h.slipping_length[i],
-                          h.largest_opening[i],
-                          e.kinetic,
-                          e.strain,
-                          e.damping,
-                          e.numerical,
-                          e.friction,
-                          e.external,
-                          e.contact_normal,
-                          h.imbalance[i]});
+        std::vector<Cell>& row = t.rows.emplace_back();
+        for (const HistoryColumn& c : motion_columns()) row.emplace_back((h.*c.values)[i]);
+        for (const EnergyTerm& term : energy_terms()) row.emplace_back(h.energy[i].*term.value);
+        row.emplace_back(h.imbalance[i]);
         for (const fe2d::LiftHistory& lift : h.lifts)
-            t.rows.back().insert(t.rows.back().end(),
-                                 {lift.slip[i], lift.rocking[i], lift.normal_force[i], lift.largest_opening[i]});
+            for (const LiftColumn& c : lift_columns()) row.emplace_back((lift.*c.values)[i]);
     }
     return t;
 }

@@ -136,12 +136,12 @@ public:
         term("damping, dissipated", &fe2d::Energy::damping, 4);
         term("scheme, dissipated", &fe2d::Energy::numerical, 3);
         if (!h_.energy.empty() && h_.energy.back().radiated != 0.0)
-            term("radiated into the water", &fe2d::Energy::radiated, 6);
+            term("radiated by water and rock", &fe2d::Energy::radiated, 6);
         term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
         add(chart, "imbalance", h_.imbalance, 1e3, 7);
         chart.note =
-            fmt::format("kinetic + strain + damping + scheme + friction = external + contact normal work; what "
-                        "is left is the imbalance, at the end {:.1e} of the largest term.",
+            fmt::format("kinetic + strain + damping + scheme + friction + radiated = external + contact normal work; "
+                        "what is left is the imbalance, at the end {:.1e} of the largest term.",
                         view_.run.fe.energy_error);
         return chart;
     }
@@ -156,7 +156,7 @@ private:
     report::Chart empty(const std::string& title, const std::string& label, const std::string& unit, int height) const
     {
         report::Chart chart;
-        chart.title = view_.run.record + ": " + title;
+        chart.title = view_.run.label() + ": " + title;
         chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
         chart.y = {label, unit, Scale::linear, 0.1, {}, {}, {}};
         chart.height = height;

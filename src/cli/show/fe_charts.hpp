@@ -6,13 +6,13 @@
 /// Histories of an FE contact run as charts over time.
 namespace damslip::cli {
 
-/// What the charts of one record are made from.
+/// What the charts of one run are made from.
 struct RunView {
     const ContactRun& run;
     const sliding::SlideResult* rigid = nullptr; ///< with its history; null: the block slides statically
     std::optional<double> allowable;             ///< slip [m]
     std::string together;                        ///< charts over time share cursor and zoom
-    std::size_t records = 1;                     ///< in the report: the more, the fewer samples each chart keeps
+    std::size_t records = 1;                     ///< runs in the report: the more, the fewer samples each chart keeps
 };
 
 /// Ground acceleration, slip beside the rigid block's, crest, forces on the base, rocking and opening, energy ledger. All

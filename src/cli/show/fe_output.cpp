@@ -1,12 +1,14 @@
 #include "cli/show/fe_output.hpp"
 
 #include "core/file.hpp"
+#include "core/units.hpp"
 #include "fe2d/statics/stress.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace damslip::cli {
@@ -59,6 +61,27 @@ Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& un
 Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::VectorXd& displacement)
 {
     return node_vectors(model.dofs, displacement).col(model.mesh.crest.back());
+}
+
+nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
+{
+    if (runs.empty()) return nullptr;
+    const ContactRun& worst = worst_of(runs);
+    const auto number = [&](double metres, double unit) {
+        const std::optional<double> known = reported(worst.fe.status, metres);
+        return known ? nlohmann::ordered_json(*known / unit) : nlohmann::ordered_json();
+    };
+    return {{"record", worst.record},
+            {"polarity", worst.polarity},
+            {"status", word(worst.fe.status)},
+            {"max_slip_m", number(worst.fe.max_slip, 1.0)},
+            {"total_error_mm", number(slip_error(worst).total, units::mm)},
+            {"verdict", word(verdict_of(worst, allowable))}};
+}
+
+std::string headline_text(const report::Headline& headline)
+{
+    return headline.sentence + "\n" + headline.verdict + "\n";
 }
 
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "cli/show/contact_tables.hpp"
 #include "cli/terminal/streams.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/output/vtu.hpp"
+#include "report/page.hpp"
 #include "scene/scene.hpp"
 
 #include <vector>
@@ -19,6 +21,12 @@ Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::Vector
 
 /// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
+
+/// The worst run by record and polarity, with its status, slip, error and verdict; null without runs.
+nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+
+/// Sentence and verdict for a terminal.
+std::string headline_text(const report::Headline& headline);
 
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {

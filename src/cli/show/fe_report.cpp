@@ -24,22 +24,10 @@ using report::TablePart;
 using units::mm;
 constexpr std::size_t stress_records = 4; ///< whose stresses are shown
 
-const ContactRun& worst_of(const std::vector<ContactRun>& runs)
-{
-    return *std::max_element(runs.begin(), runs.end(), [](const ContactRun& a, const ContactRun& b) {
-        return std::abs(a.fe.max_slip) < std::abs(b.fe.max_slip);
-    });
-}
-
 const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
 {
     const auto at = std::find_if(runs.begin(), runs.end(), condition);
     return at == runs.end() ? nullptr : &*at;
-}
-
-bool falls_after(const ContactRun& r)
-{
-    return !r.fe.after.name.empty() && r.fe.after.status != fe2d::StageStatus::ok;
 }
 
 TablePart rows(Table table)
@@ -48,7 +36,8 @@ TablePart rows(Table table)
 }
 
 struct LiftSlip {
-    double slip = 0.0; ///< largest |slip| of the lift joints in all runs [m]
+    double slip = 0.0;  ///< largest |slip| of the lift joints in all runs [m]
+    double error = 0.0; ///< what is open of it [m]; NaN: not known
     std::string name;
 };
 
@@ -56,31 +45,82 @@ LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
 {
     LiftSlip largest;
     for (const ContactRun& r : runs)
-        for (const fe2d::LiftResult& lift : r.fe.lifts)
-            if (lift.largest_slip > largest.slip)
-                largest = {lift.largest_slip, lift.name.empty() ? lift.plane : lift.name};
+        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) {
+            const fe2d::LiftResult& lift = r.fe.lifts[k];
+            if (reported(r.fe.status, lift.largest_slip).value_or(0.0) > largest.slip)
+                largest = {lift.largest_slip, lift_error(r, k).total, lift.name.empty() ? lift.plane : lift.name};
+        }
     return largest;
 }
 
-std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& error_source)
+/// "record El Centro NS, polarity -1", and whether it was run alone.
+std::string record_of(const ContactRun& run)
+{
+    return fmt::format("record {}, polarity {:+d}{}", run.record, run.polarity, run.both ? "" : " alone");
+}
+
+/// "3 records, both polarities"
+std::string number_of(const std::vector<ContactRun>& runs)
+{
+    std::size_t records = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) records += i == 0 || runs[i].record != runs[i - 1].record;
+    const std::string each = records > 1 ? fmt::format("{} records", records) : "";
+    if (!runs.front().both) return each;
+    return each.empty() ? "both polarities" : each + " and both polarities";
+}
+
+/// Two digits, and no exponent where there are more.
+std::string in_mm(double metres)
+{
+    const double value = metres / mm;
+    return value < 100.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+/// ", ± 6.1 mm (step 0.18, mesh 5.9)"
+std::string error_text(const SlipError& e, const std::string& step)
+{
+    if (std::isnan(e.step)) return ", no error estimate (the step is fixed)";
+    if (std::isnan(e.total))
+        return fmt::format(", ± {} mm by the {}, that of the mesh is not known", in_mm(e.step), step);
+    if (std::isnan(e.mesh)) return fmt::format(", ± {} mm ({} only)", in_mm(e.total), step);
+    return fmt::format(", ± {} mm ({} {}, mesh {})", in_mm(e.total), step, in_mm(e.step), in_mm(e.mesh));
+}
+
+std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     const ContactRun& worst = worst_of(runs);
-    const double slip = std::abs(worst.fe.max_slip);
+    const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
+    if (!most) return worst.label() + ": " + worst.fe.message;
+    const double slip = std::abs(*most);
+    const std::string over = number_of(runs);
     std::string out =
-        slip < 1e-7
-            ? fmt::format("The {} does not slide in {}", sliding_body(scene),
-                          runs.size() > 1 ? fmt::format("any of the {} records", runs.size())
-                                          : "the record " + worst.record)
-            : fmt::format("The {} slides {:.4g} mm at most by finite elements{} (record {})", sliding_body(scene),
-                          slip / mm, runs.size() > 1 ? fmt::format(" over {} records", runs.size()) : "", worst.record);
-    if (std::isfinite(worst.fe.slip_error) && worst.fe.slip_error > 0.0)
-        out += fmt::format(", ± {:.2g} mm {}", worst.fe.slip_error / mm, error_source);
+        slip < 1e-7 ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                  over.empty() ? record_of(worst) : "any of " + over)
+                    : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
+                                  slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
+    out += error_text(slip_error(worst), step);
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
-        out += fmt::format("; lift joint {} {:.4g} mm", lift.name, lift.slip / mm);
-    if (worst.rigid) out += fmt::format("; the rigid block {:.4g} mm", worst.rigid->max_slip / mm);
+        out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
+                           std::isfinite(lift.error) ? fmt::format(" ± {} mm", in_mm(lift.error)) : "");
+    if (worst.rigid)
+        if (const auto rigid = reported(worst.rigid->status, worst.rigid->max_slip))
+            out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
     return out + ".";
+}
+
+/// What a reader has to know beside the slip: runs that fail otherwise, and those without an answer.
+std::string remarks(const std::vector<ContactRun>& runs)
+{
+    std::string out;
+    for (const ContactRun& r : runs) {
+        if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
+        if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
+        const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
+        if (r.fe.status != Status::at_rest && !worst) out += " " + r.label() + ": " + r.fe.message;
+    }
+    return out;
 }
 
 Section statics_section(const std::vector<ContactRun>& runs)
@@ -88,11 +128,11 @@ Section statics_section(const std::vector<ContactRun>& runs)
     return {"Static stages", {rows(contact_stage_table(runs))}, Fold::open};
 }
 
-std::vector<std::string> falls_after_earthquake(const std::vector<ContactRun>& runs)
+std::vector<std::string> after_earthquake(const std::vector<ContactRun>& runs)
 {
     std::vector<std::string> list;
     for (const ContactRun& r : runs)
-        if (falls_after(r)) list.push_back(r.record + ": " + r.fe.after.text());
+        if (falls_after(r) || open_after(r)) list.push_back(r.label() + ": " + r.fe.after.text());
     return list;
 }
 
@@ -103,11 +143,14 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     std::vector<std::pair<std::string, std::string>> list;
     if (runs.empty()) return list;
     const ContactRun& worst = worst_of(runs);
-    const bool failure = fails_statically(worst.fe.status);
-    list.emplace_back("Largest slip, FE",
-                      failure ? "slides statically" : fmt::format("{:.4g} mm", std::abs(worst.fe.max_slip) / mm));
-    list.emplace_back("Rigid block, same record",
-                      worst.rigid ? fmt::format("{:.4g} mm", worst.rigid->max_slip / mm) : "slides statically");
+    const auto millimetres = [](Status status, double slip) {
+        const std::optional<double> known = reported(status, std::abs(slip));
+        return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
+    };
+    list.emplace_back("Largest slip on the way, FE", millimetres(worst.fe.status, worst.fe.max_slip));
+    list.emplace_back("Worst run", worst.label());
+    list.emplace_back("Rigid block, same motion",
+                      worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
     if (scene.criteria.allowable_slip)
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
     list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
@@ -121,36 +164,31 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     return list;
 }
 
-report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& error_source)
+report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
-    if (const ContactRun* r =
-            find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
+    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
         return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
+    const std::optional<double>& allowable = scene.criteria.allowable_slip;
+    const std::string sentence = slip_sentence(scene, runs, step) + remarks(runs);
+    const Verdict verdict = verdict_of(runs, allowable);
+    if (verdict == Verdict::fail) return {sentence, Outcome::fail, "FAIL"};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !is_answer(run.fe.status); }))
-        return {r->record + ": " + r->fe.message, Outcome::unresolved, "UNRESOLVED"};
-
-    const std::string sentence = slip_sentence(scene, runs, error_source);
-    if (const ContactRun* r = find(runs, falls_after))
-        return {sentence + " After the earthquake it does not stand: " + r->fe.after.text(), Outcome::fail, "FAIL"};
-    if (const ContactRun* r =
-            find(runs, [](const ContactRun& run) { return run.fe.status == Status::sliding_at_end; }))
-        return {sentence + " " + r->record + ": " + r->fe.message, Outcome::fail, "FAIL"};
-    if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
-    const double allowable = *scene.criteria.allowable_slip, slip = std::abs(worst_of(runs).fe.max_slip),
-                 error = worst_of(runs).fe.slip_error;
-    if (slip > allowable || largest_lift_slip(runs).slip > allowable) return {sentence, Outcome::fail, "FAIL"};
-    if (std::isfinite(error) && slip + error > allowable)
-        return {sentence, Outcome::unresolved, "Within what the time step leaves open."};
-    return {sentence, Outcome::pass, "PASS"};
+        return {sentence, Outcome::unresolved, word(r->fe.status)};
+    if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
+    if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS"};
+    const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
+    return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
 }
 
 FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
 
 void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {
-    motions_.push_back(motion);
-    Section section{"Record " + run.record, {}, motions_.size() <= open_records ? Fold::open : Fold::folded};
+    if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
+    const std::size_t number = sections_.size() + 1;
+    Section section{"Record " + run.label(), {}, number <= open_records ? Fold::open : Fold::folded};
     if (!run.fe.message.empty()) section.parts.push_back(report::Paragraph{run.fe.message});
     if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
         sections_.push_back(std::move(section));
@@ -160,14 +198,14 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     if (in_.rigid.state == sliding::StaticState::at_rest)
         rigid = slide_model(in_.scene, in_.rigid, motion, 1, sliding::HistoryOutput::samples);
     const RunView view{run, rigid ? &*rigid : nullptr, in_.scene.criteria.allowable_slip,
-                       fmt::format("record{}", motions_.size()), in_.records.size()};
+                       fmt::format("record{}", number), in_.records.size() * (run.both ? 2 : 1)};
     for (report::Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
     section.parts.emplace_back(base_states(view));
     for (report::Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
     sections_.push_back(std::move(section));
     if (stress_records_ < stress_records) {
         ++stress_records_;
-        stresses_.add(run.record, run.fe);
+        stresses_.add(run.label(), run.fe);
     }
 }
 
@@ -188,21 +226,25 @@ report::Page FeReport::page(const std::vector<ContactRun>& runs, const std::vect
     page.headline = fe_headline(in_.scene, runs);
     page.key_figures = fe_key_figures(in_.scene, runs);
     std::vector<std::string> warnings = messages;
-    for (std::string& w : falls_after_earthquake(runs)) warnings.push_back(std::move(w));
+    for (std::string& w : after_earthquake(runs)) warnings.push_back(std::move(w));
     page.warnings.insert(page.warnings.begin(), warnings.begin(), warnings.end());
 
-    Section slip{"Slip", {rows(without_seconds(contact_run_table(runs))), rows(contact_slip_table(runs))}, Fold::open};
-    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows(contact_lift_table(runs)));
+    const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
+    const Table table = contact_run_table(runs, allowable);
+    Section slip{"Slip", {rows(answer_part(table)), rows(contact_slip_table(runs))}, Fold::open};
+    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows(contact_lift_table(runs, allowable)));
     page.sections.push_back(std::move(slip));
     page.sections.push_back(statics_section(runs));
     if (!stresses_.empty()) {
         report::MeshView view = stresses_.view();
-        if (motions_.size() > stress_records_)
-            view.note += fmt::format(" The first {} of {} records.", stress_records_, motions_.size());
+        if (sections_.size() > stress_records_)
+            view.note += fmt::format(" The first {} of {} runs.", stress_records_, sections_.size());
         page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
     }
     for (const Section& section : sections_) page.sections.push_back(section);
-    end_fe_page(frame, motions_, tables, page);
+    std::vector<Table> how{without_seconds(solution_part(table))};
+    how.insert(how.end(), tables.begin(), tables.end());
+    end_fe_page(frame, motions_, how, page);
     return page;
 }
 

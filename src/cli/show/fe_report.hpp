@@ -9,12 +9,11 @@
 /// An FE contact run as the report that is handed in.
 namespace damslip::cli {
 
-/// The whole answer in one sentence with its verdict. FAIL: no equilibrium before or after the earthquake, a slip of
-/// base or lift joint above the allowable or without end. Unresolved: a run that did not end properly, or an allowable slip within what the time
-/// step leaves open.
-/// @param error_source  what the slip's error comes from
-report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
-                             const std::string& error_source = "from the time step");
+/// The whole answer in one sentence with its verdict (verdict_of), the worst run named. FAIL: no equilibrium before or after
+/// the earthquake, a slip of base or lift joint surely above the allowable or without end, in any of the runs. Unresolved:
+/// a run, or the state after it, without an answer, or an allowable slip within the error.
+/// @param step  what the step's part of the error holds
+report::Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step = "step");
 
 /// Slips, friction, opening of the worst run: for the top of the page.
 std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,

@@ -10,25 +10,26 @@
 
 namespace damslip::cli {
 
-namespace {
-
 using report::Fold;
 using report::Layout;
 using report::Section;
 using report::TablePart;
 
-/// What a reduced run knows, in the form of a full one; the error holds both parts.
 ContactRun as_contact_run(const ReducedRecord& r)
 {
     ContactRun run;
     run.record = r.record;
+    run.polarity = r.polarity;
+    run.both = r.both;
+    run.mesh = r.mesh;
+    run.rigid = r.rigid;
     run.fe.status = r.result.status;
     run.fe.message = r.result.message;
     run.fe.stages = r.result.stages;
     run.fe.after = r.result.after;
     run.fe.slip = r.result.slip;
     run.fe.max_slip = r.result.max_slip;
-    run.fe.slip_error = r.result.truncation_error + (std::isfinite(r.result.step_error) ? r.result.step_error : 0.0);
+    run.fe.slip_error = r.result.truncation_error + r.result.step_error;
     run.fe.end_time = r.result.end_time;
     fe2d::RunHistory& h = run.fe.history;
     h.time = r.result.history.time;
@@ -49,13 +50,11 @@ ContactRun as_contact_run(const ReducedRecord& r)
     return run;
 }
 
-} // namespace
-
-Table reduced_stage_table(const std::vector<ReducedRecord>& runs)
+std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs)
 {
     std::vector<ContactRun> list;
     for (const ReducedRecord& r : runs) list.push_back(as_contact_run(r));
-    return contact_stage_table(list);
+    return list;
 }
 
 report::Page reduced_page(const ReducedReportInput& in)
@@ -80,20 +79,20 @@ report::Page reduced_page(const ReducedReportInput& in)
     std::vector<Section> sections;
     for (const ReducedRecord& r : in.runs) {
         runs.push_back(as_contact_run(r));
-        motions.push_back(r.motion);
+        if (motions.empty() || motions.back().name != r.motion.name)
+            motions.push_back(r.motion); // once for both polarities
         std::optional<sliding::SlideResult> rigid;
         if (in.rigid.state == sliding::StaticState::at_rest)
             rigid = slide_model(in.scene, in.rigid, r.motion, 1, sliding::HistoryOutput::samples);
-        runs.back().rigid = rigid;
-        Section section{"Record " + r.record, {}, motions.size() <= open_records ? Fold::open : Fold::folded};
+        Section section{"Record " + runs.back().label(), {}, runs.size() <= open_records ? Fold::open : Fold::folded};
         if (!r.result.message.empty()) section.parts.push_back(report::Paragraph{r.result.message});
         const RunView view{runs.back(), rigid ? &*rigid : nullptr, in.scene.criteria.allowable_slip,
-                           fmt::format("record{}", motions.size()), in.records.size()};
+                           fmt::format("record{}", runs.size()), in.runs.size()};
         if (runs.back().fe.history.time.size() > 1)
             for (report::Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
         sections.push_back(std::move(section));
     }
-    page.headline = fe_headline(in.scene, runs, "from time step and modes left out");
+    page.headline = fe_headline(in.scene, runs, "step and modes");
     page.key_figures = fe_key_figures(in.scene, runs);
     std::erase_if(page.key_figures,
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept

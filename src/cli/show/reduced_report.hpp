@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/run/rigid_model.hpp"
+#include "cli/show/contact_tables.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "report/page.hpp"
 #include "scene/effect_plan.hpp"
@@ -12,10 +13,15 @@ struct ReducedRecord {
     std::string record;
     fe2d::ReducedResult result;
     GroundMotion motion;
+    int polarity = 1;  ///< -1: the record's horizontal component is flipped
+    bool both = false; ///< the other polarity was run, too
+    MeshError mesh;
+    std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
 };
 
-/// Static stages of reduced runs, which the full model made.
-Table reduced_stage_table(const std::vector<ReducedRecord>& runs);
+/// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.
+ContactRun as_contact_run(const ReducedRecord& run);
+std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs);
 
 /// What the page of reduced runs is made from.
 struct ReducedReportInput {

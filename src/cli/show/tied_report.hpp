@@ -12,6 +12,7 @@ struct TiedRun {
     std::vector<std::string> notes;
     double seconds = 0.0;
     GroundMotion motion;
+    int polarity = 1; ///< -1: the record's horizontal component is flipped
 };
 
 /// Histories of crest, base forces and energies of runs that cannot slide.
