@@ -1,7 +1,7 @@
 // What `damslip fe` may say of a slip: with which motion, how sure, and when nothing.
 #include "cli/show/contact_tables.hpp"
 #include "cli/show/fe_report.hpp"
-#include "unit/program_answer.hpp"
+#include "program_answer.hpp"
 #include "verification/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>

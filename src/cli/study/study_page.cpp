@@ -7,6 +7,7 @@
 #include "cli/study/study_charts.hpp"
 #include "cli/sweep/sweep_rows_view.hpp"
 #include "cli/terminal/streams.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>

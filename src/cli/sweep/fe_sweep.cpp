@@ -103,8 +103,11 @@ public:
             try {
                 if (prepare(model, at, counts))
                     run_prepared(model, at, group, counts);
-                else
-                    take_(group.rows, std::vector<FeSlip>(group.rows.size(), FeSlip{.status = Status::not_resolved}));
+                else {
+                    FeSlip none;
+                    none.status = Status::not_resolved;
+                    take_(group.rows, std::vector<FeSlip>(group.rows.size(), none));
+                }
             } catch (const Interrupted&) { // in the set-up: these rows are not finished
             }
         }
