@@ -54,7 +54,7 @@ std::string content_of(const std::filesystem::path& file)
 }
 
 /// A folder with a dam whose Young's modulus is in MPa by mistake, and a short pulse.
-class Audit : public testing::Test {
+class AuditPlausibility : public testing::Test {
 protected:
     void SetUp() override
     {
@@ -74,12 +74,12 @@ protected:
     std::filesystem::path folder;
 };
 
-TEST(AuditNotes, A18_a_dam_as_it_should_be_has_no_note)
+TEST(AuditPlausibilityNotes, A18_a_dam_as_it_should_be_has_no_note)
 {
     EXPECT_TRUE(notes_of(dam_text).empty());
 }
 
-TEST(AuditNotes, A18_a_value_one_unit_step_away_is_named_with_its_place_range_and_source)
+TEST(AuditPlausibilityNotes, A18_a_value_one_unit_step_away_is_named_with_its_place_range_and_source)
 {
     EXPECT_EQ(
         only_note_of(dam_with("young_modulus_GPa = 25", "young_modulus_GPa = 28000")),
@@ -102,7 +102,7 @@ TEST(AuditNotes, A18_a_value_one_unit_step_away_is_named_with_its_place_range_an
               "1979). 0.001 m/s if the minus of the exponent is missing.");
 }
 
-TEST(AuditNotes, A18_angles_per_cent_and_the_unit_g_are_steps_too)
+TEST(AuditPlausibilityNotes, A18_angles_per_cent_and_the_unit_g_are_steps_too)
 {
     const auto has = [](const std::string& note, const std::string& part) {
         EXPECT_NE(note.find(part), std::string::npos) << note;
@@ -117,7 +117,7 @@ TEST(AuditNotes, A18_angles_per_cent_and_the_unit_g_are_steps_too)
         "uplift.points_m with the second entry 1.5");
 }
 
-TEST(AuditNotes, A18_levels_are_looked_at_beside_the_crest_and_each_other)
+TEST(AuditPlausibilityNotes, A18_levels_are_looked_at_beside_the_crest_and_each_other)
 {
     const std::string water = std::string(dam_text) + "[reservoir]\nlevel_m = 75\n";
     EXPECT_EQ(only_note_of(water),
@@ -133,7 +133,7 @@ TEST(AuditNotes, A18_levels_are_looked_at_beside_the_crest_and_each_other)
     EXPECT_EQ(notes_of(std::string(dam_text) + "[drains]\ndistance_m = 30\n").size(), 1u);
 }
 
-TEST(AuditNotes, A18_every_number_has_a_usual_range_with_a_source_or_a_reason_for_none)
+TEST(AuditPlausibilityNotes, A18_every_number_has_a_usual_range_with_a_source_or_a_reason_for_none)
 {
     std::set<std::string, std::less<>> without, used, known;
     for (const NoUsualRange& key : no_usual_range()) without.insert(std::string(key.key));
@@ -160,7 +160,7 @@ TEST(AuditNotes, A18_every_number_has_a_usual_range_with_a_source_or_a_reason_fo
     EXPECT_EQ(used, known);
 }
 
-TEST(AuditNotes, A18_shipped_scenes_raise_no_note)
+TEST(AuditPlausibilityNotes, A18_shipped_scenes_raise_no_note)
 {
     int scenes = 0;
     for (const char* below : {"/examples", "/tests/report"})
@@ -173,7 +173,7 @@ TEST(AuditNotes, A18_shipped_scenes_raise_no_note)
     EXPECT_GE(scenes, 16);
 }
 
-TEST(AuditNotes, A18_schema_and_key_page_carry_the_range_and_its_source)
+TEST(AuditPlausibilityNotes, A18_schema_and_key_page_carry_the_range_and_its_source)
 {
     const auto schema = nlohmann::json::parse(answer_of({"schema"}).out);
     const auto& modulus = schema["properties"]["dam"]["properties"];
@@ -187,7 +187,7 @@ TEST(AuditNotes, A18_schema_and_key_page_carry_the_range_and_its_source)
     EXPECT_NE(page.find("| ACI 207.1R | ACI Committee 207"), std::string::npos);
 }
 
-TEST_F(Audit, A18_notes_reach_standard_error_text_json_and_report)
+TEST_F(AuditPlausibility, A18_notes_reach_standard_error_text_json_and_report)
 {
     const std::string part = "dam.young_modulus_GPa = 28000 is unusual.";
     const ProgramAnswer text = answer_of({"screen", path("stiff.toml"), "--out", path("out")});
@@ -208,7 +208,7 @@ TEST_F(Audit, A18_notes_reach_standard_error_text_json_and_report)
     EXPECT_EQ(answer_of({"screen", path("dam.toml")}).talk, "");
 }
 
-TEST_F(Audit, A18_strict_refuses_before_anything_is_computed)
+TEST_F(AuditPlausibility, A18_strict_refuses_before_anything_is_computed)
 {
     for (const char* command : {"screen", "fe", "sweep", "modes", "mesh", "explain", "accuracy", "study"}) {
         std::vector<std::string> arguments{command, path("stiff.toml"), "--strict"};
@@ -227,7 +227,7 @@ TEST_F(Audit, A18_strict_refuses_before_anything_is_computed)
     EXPECT_EQ(answer_of({"sweep", path("dam.toml"), "--strict", "--scale", "0,5"}).code, 3);
 }
 
-TEST_F(Audit, A18_values_of_the_command_line_are_looked_at_like_their_keys)
+TEST_F(AuditPlausibility, A18_values_of_the_command_line_are_looked_at_like_their_keys)
 {
     const auto talk = [&](std::vector<std::string> arguments) {
         const ProgramAnswer a = answer_of(arguments);
@@ -247,7 +247,7 @@ TEST_F(Audit, A18_values_of_the_command_line_are_looked_at_like_their_keys)
               std::string::npos);
 }
 
-TEST_F(Audit, A18_a_decimal_comma_is_not_read_as_two_frictions)
+TEST_F(AuditPlausibility, A18_a_decimal_comma_is_not_read_as_two_frictions)
 {
     const ProgramAnswer a = answer_of({"sweep", path("dam.toml"), "--friction", "0,7"});
     EXPECT_EQ(a.code, 2);
@@ -281,7 +281,7 @@ private:
     std::streambuf* before_;
 };
 
-TEST_F(Audit, C_screen_reads_the_scene_from_standard_input)
+TEST_F(AuditPlausibility, C_screen_reads_the_scene_from_standard_input)
 {
     const std::vector<std::string> record{"--record", path("pulse.csv"), "--json"};
     const auto with_scene = [&](const std::string& scene) {
@@ -308,7 +308,7 @@ TEST_F(Audit, C_screen_reads_the_scene_from_standard_input)
         << refused.talk;
 }
 
-TEST_F(Audit, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
+TEST_F(AuditPlausibility, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
 {
     const StandardInput input(content_of(folder / "dam.toml"));
     const ProgramAnswer a = answer_of({"sweep", "-", "--record", path("pulse.csv"), "--out", path("r.csv"), "--plan"});
@@ -316,7 +316,7 @@ TEST_F(Audit, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
     EXPECT_NE(a.talk.find("--plan with a scene from standard input."), std::string::npos) << a.talk;
 }
 
-TEST_F(Audit, C_a_record_without_vertical_component_stands_beside_one_that_has_it)
+TEST_F(AuditPlausibility, C_a_record_without_vertical_component_stands_beside_one_that_has_it)
 {
     std::filesystem::copy(folder / "pulse.csv", folder / "other.csv");
     const auto slips = [&](const std::vector<std::string>& more) {
@@ -338,7 +338,7 @@ TEST_F(Audit, C_a_record_without_vertical_component_stands_beside_one_that_has_i
     EXPECT_NE(short_of_one.talk.find("none for a record without one"), std::string::npos) << short_of_one.talk;
 }
 
-TEST_F(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bits)
+TEST_F(AuditPlausibility, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bits)
 {
     write("block.toml", "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
                         "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\n[contact]\nfriction = 0.1\n"
