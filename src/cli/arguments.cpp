@@ -79,7 +79,7 @@ void add_screen(Parser& p)
     add_run_inputs(sub, p.screen.inputs);
     sub->add_option("--scale", p.screen.inputs.scale, "factor on all records")->group("Ground motion");
     sub->add_option("--friction", p.screen.inputs.friction, "Coulomb mu instead of the scene's");
-    sub->add_option("--scheme", p.screen.inputs.scheme, "exact (default) or slammer");
+    sub->add_option("--scheme", p.screen.inputs.scheme, "of the rigid block: exact (default) or slammer");
     sub->add_option("--out", p.screen.out, "folder for summary.json, displacements.csv and the resolved scene")
         ->check(output_to(OutputPath::folder, "--out"));
     sub->add_option("-j,--jobs", p.screen.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
