@@ -17,9 +17,9 @@
 #include <sstream>
 #include <unistd.h>
 
-namespace {
+namespace damslip::plausibility_tests {
 
-using namespace damslip;
+namespace {
 
 constexpr const char* dam_text = "[section]\nheight_m = 60\nbase_m = 45\ncrest_m = 6\n"
                                  "[dam]\ndensity_kg_m3 = 2400\nyoung_modulus_GPa = 25\n"
@@ -53,33 +53,35 @@ std::string content_of(const std::filesystem::path& file)
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// A folder with a dam whose Young's modulus is in MPa by mistake, and a short pulse.
-class AuditPlausibility : public testing::Test {
-protected:
-    void SetUp() override
+/// A folder with a dam, the same with its Young's modulus in MPa by mistake, and short pulses.
+class Folder {
+public:
+    Folder()
     {
-        folder = std::filesystem::temp_directory_path() / ("damslip_plausible_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder);
+        std::filesystem::create_directories(at);
         write("pulse.csv", "time_s,accel_m_s2\n0,0\n0.5,2\n1,0\n1.5,0\n");
         write("up.csv", "time_s,accel_m_s2\n0,0\n0.5,0.5\n1,0\n1.5,0\n");
         const std::string motion = "[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
         write("dam.toml", dam_text + motion);
         write("stiff.toml", dam_with("young_modulus_GPa = 25", "young_modulus_GPa = 28000") + motion);
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
+    ~Folder() { std::filesystem::remove_all(at); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
 
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-    std::string path(const std::string& name) const { return (folder / name).string(); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(at / name) << text; }
+    std::string path(const std::string& name) const { return (at / name).string(); }
 
-    std::filesystem::path folder;
+    const std::filesystem::path at =
+        std::filesystem::temp_directory_path() / ("damslip_plausible_" + std::to_string(::getpid()));
 };
 
-TEST(AuditPlausibilityNotes, A18_a_dam_as_it_should_be_has_no_note)
+TEST(Audit, A18_a_dam_as_it_should_be_has_no_note)
 {
     EXPECT_TRUE(notes_of(dam_text).empty());
 }
 
-TEST(AuditPlausibilityNotes, A18_a_value_one_unit_step_away_is_named_with_its_place_range_and_source)
+TEST(Audit, A18_a_value_one_unit_step_away_is_named_with_its_place_range_and_source)
 {
     EXPECT_EQ(
         only_note_of(dam_with("young_modulus_GPa = 25", "young_modulus_GPa = 28000")),
@@ -102,7 +104,7 @@ TEST(AuditPlausibilityNotes, A18_a_value_one_unit_step_away_is_named_with_its_pl
               "1979). 0.001 m/s if the minus of the exponent is missing.");
 }
 
-TEST(AuditPlausibilityNotes, A18_angles_per_cent_and_the_unit_g_are_steps_too)
+TEST(Audit, A18_angles_per_cent_and_the_unit_g_are_steps_too)
 {
     const auto has = [](const std::string& note, const std::string& part) {
         EXPECT_NE(note.find(part), std::string::npos) << note;
@@ -117,7 +119,7 @@ TEST(AuditPlausibilityNotes, A18_angles_per_cent_and_the_unit_g_are_steps_too)
         "uplift.points_m with the second entry 1.5");
 }
 
-TEST(AuditPlausibilityNotes, A18_levels_are_looked_at_beside_the_crest_and_each_other)
+TEST(Audit, A18_levels_are_looked_at_beside_the_crest_and_each_other)
 {
     const std::string water = std::string(dam_text) + "[reservoir]\nlevel_m = 75\n";
     EXPECT_EQ(only_note_of(water),
@@ -133,7 +135,7 @@ TEST(AuditPlausibilityNotes, A18_levels_are_looked_at_beside_the_crest_and_each_
     EXPECT_EQ(notes_of(std::string(dam_text) + "[drains]\ndistance_m = 30\n").size(), 1u);
 }
 
-TEST(AuditPlausibilityNotes, A18_every_number_has_a_usual_range_with_a_source_or_a_reason_for_none)
+TEST(Audit, A18_every_number_has_a_usual_range_with_a_source_or_a_reason_for_none)
 {
     std::set<std::string, std::less<>> without, used, known;
     for (const NoUsualRange& key : no_usual_range()) without.insert(std::string(key.key));
@@ -160,7 +162,7 @@ TEST(AuditPlausibilityNotes, A18_every_number_has_a_usual_range_with_a_source_or
     EXPECT_EQ(used, known);
 }
 
-TEST(AuditPlausibilityNotes, A18_shipped_scenes_raise_no_note)
+TEST(Audit, A18_shipped_scenes_raise_no_note)
 {
     int scenes = 0;
     for (const char* below : {"/examples", "/tests/report"})
@@ -173,7 +175,7 @@ TEST(AuditPlausibilityNotes, A18_shipped_scenes_raise_no_note)
     EXPECT_GE(scenes, 16);
 }
 
-TEST(AuditPlausibilityNotes, A18_schema_and_key_page_carry_the_range_and_its_source)
+TEST(Audit, A18_schema_and_key_page_carry_the_range_and_its_source)
 {
     const auto schema = nlohmann::json::parse(answer_of({"schema"}).out);
     const auto& modulus = schema["properties"]["dam"]["properties"];
@@ -187,80 +189,87 @@ TEST(AuditPlausibilityNotes, A18_schema_and_key_page_carry_the_range_and_its_sou
     EXPECT_NE(page.find("| ACI 207.1R | ACI Committee 207"), std::string::npos);
 }
 
-TEST_F(AuditPlausibility, A18_notes_reach_standard_error_text_json_and_report)
+TEST(Audit, A18_notes_reach_standard_error_text_json_and_report)
 {
+    const Folder folder;
     const std::string part = "dam.young_modulus_GPa = 28000 is unusual.";
-    const ProgramAnswer text = answer_of({"screen", path("stiff.toml"), "--out", path("out")});
+    const ProgramAnswer text = answer_of({"screen", folder.path("stiff.toml"), "--out", folder.path("out")});
     ASSERT_EQ(text.code, 0) << text.talk;
-    EXPECT_NE(text.talk.find("note: " + path("stiff.toml") + ":7: " + part), std::string::npos) << text.talk;
+    EXPECT_NE(text.talk.find("note: " + folder.path("stiff.toml") + ":7: " + part), std::string::npos) << text.talk;
     EXPECT_NE(text.out.find(part), std::string::npos);
-    EXPECT_NE(content_of(folder / "out" / "report.html").find(part), std::string::npos);
+    EXPECT_NE(content_of(folder.at / "out" / "report.html").find(part), std::string::npos);
     const auto has_note = [&](const std::vector<std::string>& arguments, const char* key) {
         const ProgramAnswer a = answer_of(arguments);
         EXPECT_NE(a.talk.find(part), std::string::npos) << arguments[0];
         EXPECT_NE(nlohmann::json::parse(a.out)[key].dump().find(part), std::string::npos) << arguments[0] << a.out;
     };
-    has_note({"screen", path("stiff.toml"), "--json"}, "warnings");
-    has_note({"sweep", path("stiff.toml"), "--json"}, "notes");
-    has_note({"explain", path("stiff.toml"), "--json"}, "notes");
-    has_note({"mesh", path("stiff.toml"), "--json"}, "notes");
-    EXPECT_TRUE(answer_of({"screen", path("stiff.toml"), "--quiet"}).talk.empty());
-    EXPECT_EQ(answer_of({"screen", path("dam.toml")}).talk, "");
+    has_note({"screen", folder.path("stiff.toml"), "--json"}, "warnings");
+    has_note({"sweep", folder.path("stiff.toml"), "--json"}, "notes");
+    has_note({"explain", folder.path("stiff.toml"), "--json"}, "notes");
+    has_note({"mesh", folder.path("stiff.toml"), "--json"}, "notes");
+    EXPECT_TRUE(answer_of({"screen", folder.path("stiff.toml"), "--quiet"}).talk.empty());
+    EXPECT_EQ(answer_of({"screen", folder.path("dam.toml")}).talk, "");
 }
 
-TEST_F(AuditPlausibility, A18_strict_refuses_before_anything_is_computed)
+TEST(Audit, A18_strict_refuses_before_anything_is_computed)
 {
+    const Folder folder;
     for (const char* command : {"screen", "fe", "sweep", "modes", "mesh", "explain", "accuracy", "study"}) {
-        std::vector<std::string> arguments{command, path("stiff.toml"), "--strict"};
-        if (std::string(command) == "study") arguments.insert(arguments.end(), {"--out", path("study")});
+        std::vector<std::string> arguments{command, folder.path("stiff.toml"), "--strict"};
+        if (std::string(command) == "study") arguments.insert(arguments.end(), {"--out", folder.path("study")});
         const ProgramAnswer a = answer_of(arguments);
         EXPECT_EQ(a.code, 3) << command << a.talk;
         EXPECT_EQ(a.out, "") << command;
-        EXPECT_NE(a.talk.find(path("stiff.toml") + ":7:21: error: dam.young_modulus_GPa = 28000 is unusual.\n"
-                                                   "  expected: 10 ... 50 GPa (ACI 207.1R)\n"
-                                                   "  fix:      28 GPa if MPa was meant:  young_modulus_MPa = 28000"),
+        EXPECT_NE(a.talk.find(folder.path("stiff.toml") +
+                              ":7:21: error: dam.young_modulus_GPa = 28000 is unusual.\n"
+                              "  expected: 10 ... 50 GPa (ACI 207.1R)\n"
+                              "  fix:      28 GPa if MPa was meant:  young_modulus_MPa = 28000"),
                   std::string::npos)
             << command << a.talk;
     }
-    EXPECT_EQ(answer_of({"screen", path("dam.toml"), "--strict"}).code, 0);
-    EXPECT_EQ(answer_of({"screen", path("dam.toml"), "--strict", "--friction", "7"}).code, 3);
-    EXPECT_EQ(answer_of({"sweep", path("dam.toml"), "--strict", "--scale", "0,5"}).code, 3);
+    EXPECT_EQ(answer_of({"screen", folder.path("dam.toml"), "--strict"}).code, 0);
+    EXPECT_EQ(answer_of({"screen", folder.path("dam.toml"), "--strict", "--friction", "7"}).code, 3);
+    EXPECT_EQ(answer_of({"sweep", folder.path("dam.toml"), "--strict", "--scale", "0,5"}).code, 3);
 }
 
-TEST_F(AuditPlausibility, A18_values_of_the_command_line_are_looked_at_like_their_keys)
+TEST(Audit, A18_values_of_the_command_line_are_looked_at_like_their_keys)
 {
+    const Folder folder;
     const auto talk = [&](std::vector<std::string> arguments) {
         const ProgramAnswer a = answer_of(arguments);
         EXPECT_EQ(a.code, 0) << a.talk;
         return a.talk;
     };
     EXPECT_NE(
-        talk({"screen", path("dam.toml"), "--friction", "7"})
+        talk({"screen", folder.path("dam.toml"), "--friction", "7"})
             .find("note: --friction 7 is unusual. Usual: 0.1 ... 1.6 (Skempton 1985; Barton & Choubey 1977). 0.7 if "
                   "the decimal point is one place off."),
         std::string::npos);
-    EXPECT_NE(talk({"screen", path("dam.toml"), "--scale", "100"}).find("--scale 100 is unusual."), std::string::npos);
-    EXPECT_NE(talk({"sweep", path("dam.toml"), "--friction-deg", "2,35"})
+    EXPECT_NE(talk({"screen", folder.path("dam.toml"), "--scale", "100"}).find("--scale 100 is unusual."),
+              std::string::npos);
+    EXPECT_NE(talk({"sweep", folder.path("dam.toml"), "--friction-deg", "2,35"})
                   .find("--friction-deg 2, 0.0349208, is unusual. Usual: 0.1 ... 1.6 ("),
               std::string::npos);
-    EXPECT_NE(talk({"sweep", path("dam.toml"), "--size", "1,10"}).find("--size 10: a height of 600 m is unusual."),
-              std::string::npos);
+    EXPECT_NE(
+        talk({"sweep", folder.path("dam.toml"), "--size", "1,10"}).find("--size 10: a height of 600 m is unusual."),
+        std::string::npos);
 }
 
-TEST_F(AuditPlausibility, A18_a_decimal_comma_is_not_read_as_two_frictions)
+TEST(Audit, A18_a_decimal_comma_is_not_read_as_two_frictions)
 {
-    const ProgramAnswer a = answer_of({"sweep", path("dam.toml"), "--friction", "0,7"});
+    const Folder folder;
+    const ProgramAnswer a = answer_of({"sweep", folder.path("dam.toml"), "--friction", "0,7"});
     EXPECT_EQ(a.code, 2);
     EXPECT_EQ(a.out, "");
     EXPECT_EQ(a.talk, "error: --friction 0,7 is read as two values, 0 and 7, and neither is usual.\n"
                       "  expected: 0.1 ... 1.6 (Skempton 1985; Barton & Choubey 1977)\n"
                       "  fix:      a decimal comma? write  --friction 0.7 ; for the two values  --friction 0.0,7\n");
-    EXPECT_EQ(answer_of({"sweep", path("dam.toml"), "--friction", "0.0,7"}).code, 0);
-    const ProgramAnswer scale = answer_of({"sweep", path("dam.toml"), "--scale", "0,5"});
+    EXPECT_EQ(answer_of({"sweep", folder.path("dam.toml"), "--friction", "0.0,7"}).code, 0);
+    const ProgramAnswer scale = answer_of({"sweep", folder.path("dam.toml"), "--scale", "0,5"});
     EXPECT_EQ(scale.code, 0);
     EXPECT_NE(scale.talk.find("A decimal comma? write  --scale 0.5."), std::string::npos) << scale.talk;
     for (const char* list : {"0,84,0,77", "0,65:1,0:0,05"}) {
-        const ProgramAnswer b = answer_of({"sweep", path("dam.toml"), "--friction", list});
+        const ProgramAnswer b = answer_of({"sweep", folder.path("dam.toml"), "--friction", list});
         EXPECT_EQ(b.code, 2) << list;
         EXPECT_NE(b.talk.find("decimal point"), std::string::npos) << b.talk;
     }
@@ -281,16 +290,17 @@ private:
     std::streambuf* before_;
 };
 
-TEST_F(AuditPlausibility, C_screen_reads_the_scene_from_standard_input)
+TEST(Audit, C_screen_reads_the_scene_from_standard_input)
 {
-    const std::vector<std::string> record{"--record", path("pulse.csv"), "--json"};
+    const Folder folder;
+    const std::vector<std::string> record{"--record", folder.path("pulse.csv"), "--json"};
     const auto with_scene = [&](const std::string& scene) {
         std::vector<std::string> arguments{"screen", scene};
         arguments.insert(arguments.end(), record.begin(), record.end());
         return answer_of(arguments);
     };
-    write("plain.toml", dam_text);
-    const ProgramAnswer of_file = with_scene(path("plain.toml"));
+    folder.write("plain.toml", dam_text);
+    const ProgramAnswer of_file = with_scene(folder.path("plain.toml"));
     ProgramAnswer of_input;
     {
         const StandardInput input(dam_text);
@@ -308,58 +318,68 @@ TEST_F(AuditPlausibility, C_screen_reads_the_scene_from_standard_input)
         << refused.talk;
 }
 
-TEST_F(AuditPlausibility, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
+TEST(Audit, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
 {
-    const StandardInput input(content_of(folder / "dam.toml"));
-    const ProgramAnswer a = answer_of({"sweep", "-", "--record", path("pulse.csv"), "--out", path("r.csv"), "--plan"});
+    const Folder folder;
+    const StandardInput input(content_of(folder.at / "dam.toml"));
+    const ProgramAnswer a =
+        answer_of({"sweep", "-", "--record", folder.path("pulse.csv"), "--out", folder.path("r.csv"), "--plan"});
     EXPECT_EQ(a.code, 2) << a.talk;
     EXPECT_NE(a.talk.find("--plan with a scene from standard input."), std::string::npos) << a.talk;
 }
 
-TEST_F(AuditPlausibility, C_a_record_without_vertical_component_stands_beside_one_that_has_it)
+TEST(Audit, C_a_record_without_vertical_component_stands_beside_one_that_has_it)
 {
-    std::filesystem::copy(folder / "pulse.csv", folder / "other.csv");
+    const Folder folder;
+    std::filesystem::copy(folder.at / "pulse.csv", folder.at / "other.csv");
     const auto slips = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"screen", path("dam.toml"), "--friction", "0.2", "--json"};
+        std::vector<std::string> arguments{"screen", folder.path("dam.toml"), "--friction", "0.2", "--json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const ProgramAnswer a = answer_of(arguments);
         EXPECT_EQ(a.code, 0) << a.talk;
         return nlohmann::json::parse(a.out);
     };
-    const auto both = slips({"--record", path("pulse.csv"), path("other.csv"), "--vertical", "none", path("up.csv")});
+    const auto both = slips(
+        {"--record", folder.path("pulse.csv"), folder.path("other.csv"), "--vertical", "none", folder.path("up.csv")});
     EXPECT_FALSE(both["records"][0].contains("vertical"));
     EXPECT_TRUE(both["records"][1].contains("vertical"));
-    const auto alone = slips({"--record", path("other.csv"), "--vertical", path("up.csv")});
+    const auto alone = slips({"--record", folder.path("other.csv"), "--vertical", folder.path("up.csv")});
     EXPECT_EQ(both["displacements"][2], alone["displacements"][0]);
 
-    const ProgramAnswer short_of_one = answer_of(
-        {"screen", path("dam.toml"), "--record", path("pulse.csv"), path("other.csv"), "--vertical", path("up.csv")});
+    const ProgramAnswer short_of_one =
+        answer_of({"screen", folder.path("dam.toml"), "--record", folder.path("pulse.csv"), folder.path("other.csv"),
+                   "--vertical", folder.path("up.csv")});
     EXPECT_EQ(short_of_one.code, 2);
     EXPECT_NE(short_of_one.talk.find("none for a record without one"), std::string::npos) << short_of_one.talk;
 }
 
-TEST_F(AuditPlausibility, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bits)
+TEST(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bits)
 {
-    write("block.toml", "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
-                        "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\n[contact]\nfriction = 0.1\n"
-                        "[reservoir]\nlevel_m = 1\nmodel = \"acoustic\"\n[mesh]\nsize_m = 1\n"
-                        "[time]\ndt_s = 0.02\nsubsteps = 0\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
-    const ProgramAnswer first = answer_of({"fe", path("block.toml"), "--out", path("first")});
+    const Folder folder;
+    folder.write("block.toml",
+                 "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
+                 "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\n[contact]\nfriction = 0.1\n"
+                 "[reservoir]\nlevel_m = 1\nmodel = \"acoustic\"\n[mesh]\nsize_m = 1\n"
+                 "[time]\ndt_s = 0.02\nsubsteps = 0\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
+    const ProgramAnswer first = answer_of({"fe", folder.path("block.toml"), "--out", folder.path("first")});
     ASSERT_EQ(first.code, 0) << first.talk;
-    const std::string resolved = content_of(folder / "first" / "scene.resolved.toml");
+    const std::string resolved = content_of(folder.at / "first" / "scene.resolved.toml");
     for (const char* size :
          {"\nsize_m = 1.0\n", "\ncontact_size_m = 0.13333333333333333\n", "\nrock_size_m = ", "\nmesh_size_m = 0.05\n"})
         EXPECT_NE(resolved.find(size), std::string::npos) << size << resolved;
-    const ProgramAnswer second = answer_of({"fe", path("first/scene.resolved.toml"), "--out", path("second")});
+    const ProgramAnswer second =
+        answer_of({"fe", folder.path("first/scene.resolved.toml"), "--out", folder.path("second")});
     ASSERT_EQ(second.code, 0) << second.talk;
     int compared = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "first")) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.at / "first")) {
         if (entry.path().extension() != ".csv") continue;
         ++compared;
-        EXPECT_EQ(content_of(entry.path()), content_of(folder / "second" / entry.path().filename())) << entry.path();
+        EXPECT_EQ(content_of(entry.path()), content_of(folder.at / "second" / entry.path().filename())) << entry.path();
     }
     EXPECT_GE(compared, 4);
-    EXPECT_EQ(resolved, content_of(folder / "second" / "scene.resolved.toml"));
+    EXPECT_EQ(resolved, content_of(folder.at / "second" / "scene.resolved.toml"));
 }
 
 } // namespace
+
+} // namespace damslip::plausibility_tests
