@@ -64,8 +64,8 @@ TEST(AblationInput, WrongWordsAndNumbers)
     const AblationAnswer misspelt = explained({"--ablat"});
     EXPECT_EQ(misspelt.code, 2);
     EXPECT_NE(misspelt.talk.find("Did you mean --ablate?"), std::string::npos) << misspelt.talk;
-    const AblationAnswer folder = explained({"--ablate", "--report", "/"});
-    EXPECT_EQ(folder.code, 3) << folder.talk;
+    const AblationAnswer folder = explained({"--ablate", "--report", "/"}); // found before anything is computed
+    EXPECT_EQ(folder.code, 2) << folder.talk;
 }
 
 } // namespace

