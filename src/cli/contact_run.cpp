@@ -98,10 +98,13 @@ public:
                 const InterruptGuard& interrupt, const StopAsked& stop, Progress& progress)
         : arguments_(arguments), scene_(scene), meter_(progress), interrupt_(interrupt),
           polarities_(polarities_of(arguments, scene)), options_(contact_options(scene, records, seepage_)),
-          coarser_(scene, records, arguments.mesh_error, [this](const fe2d::RunProgress& p) {
-              meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
-              return answer();
-          })
+          coarser_(
+              scene, records, arguments.mesh_error,
+              [this](const fe2d::RunProgress& p) {
+                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+                  return answer();
+              },
+              stop)
     {
         if (!arguments.out.empty()) options_.pair_series = fe2d::PairSeries::every_step;
         options_.stop = stop;
@@ -138,7 +141,6 @@ public:
             r.polarity = shown_polarity(scene_, polarities_[i]);
             r.both = polarities_.size() > 1;
             run(motions[i], r);
-            interrupt_.results_at_hand();
         });
         return runs;
     }
@@ -153,6 +155,7 @@ private:
     {
         meter_.begin(1);
         r.fe = model_->run(motion);
+        interrupt_.results_at_hand();
         r.mesh = coarser_.error_of(*model_, r.fe, motion);
         if (exact_ && !interrupt_.interrupted()) r.exact = exact_->run(motion);
         if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene_, rigid_, motion, 1);

@@ -119,7 +119,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     const fe2d::EarthquakeRun full(scene, options);
     const int modes = arguments.modes.value_or(fe2d::default_modes);
     const fe2d::ReducedRun model(full, scene, options, modes);
-    CoarserMesh coarser(scene, records, arguments.mesh_error, options.progress, modes);
+    CoarserMesh coarser(scene, records, arguments.mesh_error, options.progress, options.stop, modes);
     const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
 
     std::vector<ReducedRecord> runs;
@@ -133,13 +133,13 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
             run.polarity = shown_polarity(scene, polarities[i]);
             run.both = polarities.size() > 1;
             run.result = model.run(run.motion);
+            interrupt.results_at_hand();
             run.mesh = coarser.error_of(run.result, run.motion);
             if (rigid.state == sliding::StaticState::at_rest) run.rigid = slide_model(scene, rigid, run.motion, 1);
             progress.advance();
         });
         for (ReducedRecord& run : both) {
             runs.push_back(std::move(run));
-            interrupt.results_at_hand();
             if (!arguments.out.empty()) write_history(arguments.out, scene, runs.back());
         }
     }

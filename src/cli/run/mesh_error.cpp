@@ -24,8 +24,9 @@ void no_answer(Status status, const std::string& message, MeshError& result)
 } // namespace
 
 CoarserMesh::CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
-                         int modes)
-    : scene_(scene), records_(records), wanted_(wanted), progress_(std::move(progress)), modes_(modes)
+                         StopAsked stop, int modes)
+    : scene_(scene), records_(records), wanted_(wanted), progress_(std::move(progress)), stop_(std::move(stop)),
+      modes_(modes)
 {
 }
 
@@ -64,8 +65,13 @@ bool CoarserMesh::make(MeshError& result, bool reduced)
         try {
             fe2d::RunOptions options = contact_options(coarse_, records_, seepage);
             options.progress = progress_;
+            options.stop = stop_;
             full_ = std::make_unique<const fe2d::EarthquakeRun>(coarse_, options);
             if (reduced) reduced_ = std::make_unique<const fe2d::ReducedRun>(*full_, coarse_, options, modes_);
+        } catch (const Interrupted& stopped) { // the run it was for is finished: its slip is kept
+            full_.reset();
+            no_answer(Status::interrupted, stopped.what(), result);
+            return false;
         } catch (const InputError& error) {
             const std::string& problem = error.diagnostics().front().problem;
             why_not_ = "step only: no mesh of elements of twice the size: " + problem;

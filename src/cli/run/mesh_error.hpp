@@ -40,8 +40,9 @@ public:
     /// @param scene, records  outlive this @param wanted  false: every run has MeshCheck::left_out
     /// @param modes  of reduced runs
     /// @param progress  of the runs on it
+    /// @param stop  asked between the parts of its set-up; stopped there, the error is not known
     CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
-                int modes = fe2d::default_modes);
+                StopAsked stop, int modes = fe2d::default_modes);
 
     /// @param run  of `model` with this motion
     MeshError error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run, const GroundMotion& motion);
@@ -55,6 +56,7 @@ private:
     const std::vector<RecordPair>& records_;
     bool wanted_;
     Answer progress_;
+    StopAsked stop_;
     int modes_;
     std::mutex mutex_;
     Scene coarse_;
