@@ -252,12 +252,14 @@ TEST(Audit, A17_energies_with_what_is_radiated_add_up)
     EXPECT_LT(std::abs(left), 1e-9 * largest);
 }
 
-// A stiff block thrown to and fro: the same steps once as sub-steps of a coarse record, once as the record's own. The largest
+// A dam that slides to and fro: the same steps once as sub-steps of a coarse record, once as the record's own. The largest
 // slip is that of the steps, not that of the coarse record's rows.
 TEST(Audit, A17_the_largest_slip_is_that_of_all_steps)
 {
-    const Scene scene = fe2d::test::sliding_dam(0.7);
-    const GroundMotion coarse = fe2d::test::sines(3.0, 3.0);
+    Scene scene = fe2d::test::sliding_dam(0.05); // dry: it turns within a step of the record, hardly ever sticking
+    scene.reservoir.reset();
+    scene.uplift.reset();
+    const GroundMotion coarse = fe2d::test::sines(3.0, 3.0, 5, 0.02);
     GroundMotion fine = coarse;
     constexpr int parts = 8;
     fine.dt = coarse.dt / parts;

@@ -109,8 +109,8 @@ TEST_F(CliScene, FeSlidesAStiffBlockLikeTheRigidBlock)
         << "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
            "2500\n[contact]\nfriction = 0.1\n"
            "[mesh]\nsize_m = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
-    const ProgramAnswer a =
-        answer_of({"fe", (folder / "stiff.toml").string(), "--json", "--out", (folder / "fe").string()});
+    const ProgramAnswer a = answer_of(
+        {"fe", (folder / "stiff.toml").string(), "--polarity", "1", "--json", "--out", (folder / "fe").string()});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto j = nlohmann::json::parse(a.out);
     EXPECT_EQ(j["base"], "contact");
@@ -267,8 +267,8 @@ TEST_F(CliScene, ReducedFeRunPrintsSlipWithItsError)
         << "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = "
            "2500\n[contact]\nfriction = 0.1\n"
            "[mesh]\nsize_m = 1\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
-    const ProgramAnswer a = answer_of({"fe", (folder / "stiff.toml").string(), "--reduced", "--modes", "4", "--json",
-                                       "--out", (folder / "reduced").string()});
+    const ProgramAnswer a = answer_of({"fe", (folder / "stiff.toml").string(), "--reduced", "--modes", "4",
+                                       "--polarity", "1", "--json", "--out", (folder / "reduced").string()});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto run = nlohmann::json::parse(a.out)["runs"][0];
     EXPECT_EQ(run["modes"], 4);

@@ -70,7 +70,7 @@ std::string number_of(const std::vector<ContactRun>& runs)
 }
 
 /// Two digits, and no exponent where there are more.
-std::string in_mm(double metres)
+std::string two_digits(double metres)
 {
     const double value = metres / mm;
     return value < 100.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
@@ -81,9 +81,9 @@ std::string error_text(const SlipError& e, const std::string& step)
 {
     if (std::isnan(e.step)) return ", no error estimate (the step is fixed)";
     if (std::isnan(e.total))
-        return fmt::format(", ± {} mm by the {}, that of the mesh is not known", in_mm(e.step), step);
-    if (std::isnan(e.mesh)) return fmt::format(", ± {} mm ({} only)", in_mm(e.total), step);
-    return fmt::format(", ± {} mm ({} {}, mesh {})", in_mm(e.total), step, in_mm(e.step), in_mm(e.mesh));
+        return fmt::format(", ± {} mm by the {}, that of the mesh is not known", two_digits(e.step), step);
+    if (std::isnan(e.mesh)) return fmt::format(", ± {} mm ({} only)", two_digits(e.total), step);
+    return fmt::format(", ± {} mm ({} {}, mesh {})", two_digits(e.total), step, two_digits(e.step), two_digits(e.mesh));
 }
 
 std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
@@ -101,7 +101,7 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
     out += error_text(slip_error(worst), step);
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
         out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
-                           std::isfinite(lift.error) ? fmt::format(" ± {} mm", in_mm(lift.error)) : "");
+                           std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
     if (worst.rigid)
         if (const auto rigid = reported(worst.rigid->status, worst.rigid->max_slip))
             out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
