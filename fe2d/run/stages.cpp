@@ -198,8 +198,10 @@ std::string StageResult::text() const
         return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", name, body,
                            forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
     case StageStatus::not_resolved:
-        return fmt::format("{}: no contact state in equilibrium found, {}, mu needed {:.5f}, {} iterations.", name,
-                           forces, friction_needed, contact.iterations);
+        return fmt::format(
+            "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "
+            "{}, mu needed by these resultants {:.5f}.",
+            name, contact.iterations, forces, friction_needed);
     }
     return {};
 }

@@ -115,10 +115,12 @@ std::string remarks(const std::vector<ContactRun>& runs)
 {
     std::string out;
     for (const ContactRun& r : runs) {
+        const ContactRun* before = &r == runs.data() ? nullptr : &r - 1; // the stages are common to both polarities
         if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
         if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
-        if (r.fe.status != Status::at_rest && !worst) out += " " + r.label() + ": " + r.fe.message;
+        const bool said = before && before->fe.message == r.fe.message;
+        if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + r.fe.message;
     }
     return out;
 }
