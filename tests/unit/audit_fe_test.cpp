@@ -297,7 +297,7 @@ TEST(Audit, B2_a_missed_step_tolerance_is_a_status_without_a_verdict)
     EXPECT_GT(a.run()["slip_error_mm"].get<double>(), 0.01 * std::abs(a.run()["slip_mm"].get<double>()));
     EXPECT_EQ(a.run()["verdict"], "–");
     EXPECT_EQ(a.j["verdict"], "–");
-    EXPECT_NE(a.j["messages"][0].get<std::string>().find("time.slip_tolerance"), std::string::npos);
+    EXPECT_NE(a.j["messages"].dump().find("time.slip_tolerance"), std::string::npos);
 }
 
 TEST(Audit, B1_fe_static_failure_is_proven_and_has_no_slip)

@@ -61,8 +61,8 @@ public:
     Folder()
     {
         std::filesystem::create_directories(at);
-        write("pulse.csv", "time_s,accel_m_s2\n0,0\n0.5,2\n1,0\n1.5,0\n");
-        write("up.csv", "time_s,accel_m_s2\n0,0\n0.5,0.5\n1,0\n1.5,0\n");
+        write("pulse.csv", "time_s,accel_m_s2\n0,0\n0.5,2\n1,0\n1.5,-2\n2,0\n");
+        write("up.csv", "time_s,accel_m_s2\n0,0\n0.5,0.5\n1,0\n1.5,-0.5\n2,0\n");
         const std::string motion = "[[motion.record]]\nhorizontal = \"pulse.csv\"\n";
         write("dam.toml", dam_text + motion);
         write("stiff.toml", dam_with("young_modulus_GPa = 25", "young_modulus_GPa = 28000") + motion);
@@ -323,7 +323,7 @@ TEST(Audit, C_screen_reads_the_scene_from_standard_input)
 TEST(Audit, C_standard_input_cannot_be_read_by_the_commands_of_a_plan)
 {
     const Folder folder;
-    const StandardInput input(content_of(folder.at / "dam.toml"));
+    const StandardInput input(dam_text);
     const ProgramAnswer a =
         answer_of({"sweep", "-", "--record", folder.path("pulse.csv"), "--out", folder.path("r.csv"), "--plan"});
     EXPECT_EQ(a.code, 2) << a.talk;
@@ -361,7 +361,7 @@ TEST(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bi
     folder.write("block.toml",
                  "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
                  "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\n[contact]\nfriction = 0.1\n"
-                 "[reservoir]\nlevel_m = 1\nmodel = \"acoustic\"\n[mesh]\nsize_m = 1\n"
+                 "[reservoir]\nlevel_m = 1\nmodel = \"acoustic\"\n[uplift]\nmodel = \"none\"\n[mesh]\nsize_m = 1\n"
                  "[time]\ndt_s = 0.02\nsubsteps = 0\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
     const ProgramAnswer first = answer_of({"fe", folder.path("block.toml"), "--out", folder.path("first")});
     ASSERT_EQ(first.code, 0) << first.talk;

@@ -119,7 +119,7 @@ std::string remarks(const std::vector<ContactRun>& runs)
         if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
         if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
-        const bool said = before && before->fe.message == r.fe.message;
+        const bool said = before && before->fe.status == r.fe.status && before->fe.message == r.fe.message;
         if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + r.fe.message;
     }
     return out;
