@@ -1,0 +1,147 @@
+#include "random/check_promise.hpp"
+
+#include "cli/program.hpp"
+#include "core/status.hpp"
+#include "scene/read.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace damslip::random {
+
+namespace {
+
+using nlohmann::json;
+
+struct Parsed {
+    int code = 0;
+    json data;
+};
+
+Parsed parsed(const std::vector<std::string>& arguments)
+{
+    std::ostringstream out, talk;
+    const int code = cli::run_program(arguments, out, talk, false);
+    return {code, json::parse(out.str(), nullptr, false)};
+}
+
+std::optional<double> number(const json& row, const char* key)
+{
+    if (!row.contains(key) || !row[key].is_number()) return std::nullopt;
+    return row[key].get<double>();
+}
+
+/// Findings of one command.
+class Findings {
+public:
+    Findings(std::string command, CheckedRuns& runs) : command_(std::move(command)), runs_(runs) {}
+
+    void demand(bool holds, const std::string& sentence)
+    {
+        if (!holds) runs_.findings.push_back(command_ + ": " + sentence);
+    }
+
+private:
+    std::string command_;
+    CheckedRuns& runs_;
+};
+
+/// The status of a row, and that no number stands beside it that it does not allow.
+std::optional<Status> check_status(const json& row, std::initializer_list<const char*> slips, Findings& findings)
+{
+    const std::string word = row.value("status", "");
+    const std::optional<Status> status = status_of_word(word);
+    findings.demand(status.has_value(), fmt::format("unknown status \"{}\"", word));
+    if (!status) return status;
+    if (status_row(*status).slip == SlipMeaning::none)
+        for (const char* key : slips) findings.demand(!number(row, key), fmt::format("{} beside \"{}\"", key, word));
+    const std::string verdict = row.value("verdict", "");
+    if (status_row(*status).judging == Judging::none)
+        findings.demand(verdict != "PASS" && verdict != "FAIL", fmt::format("{} beside \"{}\"", verdict, word));
+    return status;
+}
+
+/// PASS and FAIL against slip and error. @param slip_mm, error_mm  none: not known
+void check_verdict(const json& row, Status status, const std::optional<double>& slip_mm,
+                   const std::optional<double>& error_mm, double allowable_mm, Findings& findings)
+{
+    const std::string verdict = row.value("verdict", "");
+    if (status_row(status).judging != Judging::by_slip || (verdict != "PASS" && verdict != "FAIL")) return;
+    findings.demand(slip_mm && error_mm, verdict + " without a slip and its error");
+    if (!slip_mm || !error_mm) return;
+    const double slip = std::abs(*slip_mm), rounding = 1e-9 * slip;
+    findings.demand(verdict == "PASS" ? slip + *error_mm <= allowable_mm + rounding
+                                      : slip - *error_mm > allowable_mm - rounding,
+                    fmt::format("{}: {} ± {} mm, allowable {} mm", verdict, slip, *error_mm, allowable_mm));
+}
+
+void check_fe(const Parsed& fe, const Scene& scene, CheckedRuns& runs)
+{
+    Findings findings("fe", runs);
+    findings.demand(fe.code == 0 || fe.code == 3 || fe.code == 4, fmt::format("exit code {}", fe.code));
+    if (fe.code == 3 || !fe.data.contains("runs")) return;
+    findings.demand(!fe.data["runs"].empty() || fe.code != 0, "exit code 0 without a run");
+    const bool unresolved_stage =
+        std::any_of(fe.data["stages"].begin(), fe.data["stages"].end(),
+                    [](const json& stage) { return stage["record"] == "all" && stage["status"] == "NOT RESOLVED"; });
+    bool all_answered = true;
+    for (const json& row : fe.data["runs"]) {
+        const std::optional<Status> status = check_status(row, {"slip_mm", "max_slip_m"}, findings);
+        if (!status) continue;
+        runs.status = row["status"];
+        all_answered = all_answered && is_answer(*status);
+        const std::optional<double> slip = number(row, "slip_mm"), step_error = number(row, "slip_error_mm");
+        findings.demand(!slip || !unresolved_stage, "a slip after a stage that was not resolved");
+        findings.demand(!slip || number(row, "unresolved").value_or(0) == 0, "a slip with unresolved steps");
+        if (fe.code == 0 && slip && step_error && !scene.time.substeps) {
+            const double allowed =
+                scene.time.slip_tolerance * std::max(std::abs(*slip), 1e-3); // RunOptions::smallest_slip
+            findings.demand(
+                *step_error <= allowed * (1 + 1e-9),
+                fmt::format("{} ± {} mm although slip_tolerance is {}", *slip, *step_error, scene.time.slip_tolerance));
+        }
+        const std::optional<double> largest = number(row, "max_slip_m"), total = number(row, "total_error_mm");
+        if (scene.criteria.allowable_slip)
+            check_verdict(row, *status, largest ? std::optional(1e3 * *largest) : std::nullopt, total,
+                          1e3 * *scene.criteria.allowable_slip, findings);
+    }
+    findings.demand(fe.code == (all_answered ? 0 : 4),
+                    fmt::format("exit code {} with status {}", fe.code, runs.status));
+}
+
+void check_screen(const Parsed& screen, CheckedRuns& runs)
+{
+    Findings findings("screen", runs);
+    findings.demand(screen.code == 0 || screen.code == 3 || screen.code == 4, fmt::format("exit code {}", screen.code));
+    if (screen.code == 3 || !screen.data.contains("displacements")) return;
+    bool all_answered = true;
+    for (const json& row : screen.data["displacements"]) {
+        const std::optional<Status> status =
+            check_status(row, {"slip_h_mm", "slip_hv_mm", "max_slip_m", "upstream_slip_mm"}, findings);
+        if (status) all_answered = all_answered && is_answer(*status);
+    }
+    findings.demand(all_answered || screen.code == 4, "exit code 0 although an answer is missing");
+}
+
+} // namespace
+
+CheckedRuns check_promise(const std::filesystem::path& scene)
+{
+    CheckedRuns runs;
+    const Parsed screen = parsed({"screen", scene.string(), "--json"});
+    const Parsed fe = parsed({"fe", scene.string(), "--json"});
+    runs.screen_code = screen.code;
+    runs.fe_code = fe.code;
+    check_screen(screen, runs);
+    if (fe.code == 3)
+        runs.refusal = fe.data["error"]["diagnostics"][0]["message"];
+    else if (fe.code != 1 && fe.code != 2)
+        check_fe(fe, read_scene(scene), runs);
+    return runs;
+}
+
+} // namespace damslip::random
