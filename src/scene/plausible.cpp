@@ -75,6 +75,7 @@ std::optional<Meant> meant(const Key& key, const WrittenNumber& number)
 {
     const UnitSuffix& first = key.units.front();
     const double value = in_first_unit(number.value, number.unit, first);
+    if (number.unit.tangent) return other_unit(key, number); // ten times the angle is not ten times its tangent
     if (first.suffix.empty()) {
         if (auto step = stepped(key, value, {{0.1, "the decimal point is one place off"}})) return step;
         if (auto unit = other_unit(key, number)) return unit;
