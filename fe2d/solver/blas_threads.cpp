@@ -2,9 +2,10 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <initializer_list>
+#include <mutex>
 #include <new>
-#include <sys/mman.h>
 #include <sys/resource.h>
 
 namespace damslip::fe2d {
@@ -18,12 +19,22 @@ void use_one_blas_thread()
 
 void demand_blas_memory()
 {
+    static std::mutex mutex;
+    static bool taken = false; // OpenBLAS keeps what it has once taken
+    const std::lock_guard lock(mutex);
     rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-    constexpr std::size_t buffer = 129u << 20; // with what it is aligned by
-    void* const trial = ::mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (trial == MAP_FAILED) throw std::bad_alloc();
-    ::munmap(trial, buffer);
+    if (taken || ::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    constexpr std::size_t buffer = 130u << 20; // with what it is aligned by
+    void* const trial = std::malloc(buffer);
+    if (!trial) throw std::bad_alloc();
+    std::free(trial);
+    using Factorise = void (*)(const char* triangle, const int* n, double* a, const int* rows, int* info);
+    if (const auto factorise = reinterpret_cast<Factorise>(dlsym(RTLD_DEFAULT, "dpotrf_"))) {
+        double one = 1.0;
+        int n = 1, info = 0;
+        factorise("L", &n, &one, &n, &info);
+    }
+    taken = true;
 }
 
 } // namespace damslip::fe2d

@@ -7,8 +7,9 @@ namespace damslip::fe2d {
 /// too late for a running program.
 void use_one_blas_thread();
 
-/// OpenBLAS takes 128 MB at its first product and asks for them again and again, for ever, where they cannot be had. To be
-/// called before, where the address space is limited (ulimit -v) it asks once. @throws std::bad_alloc
+/// OpenBLAS takes 128 MB at its first product, keeps them, and asks for them again and again, for ever, where they cannot be
+/// had. To be called before: where the address space is limited (ulimit -v) it asks once, and has OpenBLAS take them.
+/// @throws std::bad_alloc
 void demand_blas_memory();
 
 } // namespace damslip::fe2d

@@ -207,6 +207,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
             r.fe.history.states = {};
         }
     }
+    progress.end();
     const Table run_table = contact_run_table(runs, allowable);
     const report::Headline headline = fe_headline(scene, runs);
     const Table counts = count_table(model.model().counts, model.water() ? &model.water()->water : nullptr);

@@ -143,6 +143,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
             if (!arguments.out.empty()) write_history(arguments.out, scene, runs.back());
         }
     }
+    progress.end();
     const std::vector<ContactRun> list = as_contact_runs(runs);
     const Table table = reduced_table(runs, scene.criteria.allowable_slip);
     const report::Headline headline = fe_headline(scene, list, "step and modes");

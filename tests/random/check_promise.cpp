@@ -35,6 +35,12 @@ std::optional<double> number(const json& row, const char* key)
     return row[key].get<double>();
 }
 
+/// Empty where the key is missing or null.
+std::string text(const json& row, const char* key)
+{
+    return row.contains(key) && row[key].is_string() ? row[key].get<std::string>() : "";
+}
+
 /// Findings of one command.
 class Findings {
 public:
@@ -53,13 +59,13 @@ private:
 /// The status of a row, and that no number stands beside it that it does not allow.
 std::optional<Status> check_status(const json& row, std::initializer_list<const char*> slips, Findings& findings)
 {
-    const std::string word = row.value("status", "");
+    const std::string word = text(row, "status");
     const std::optional<Status> status = status_of_word(word);
     findings.demand(status.has_value(), fmt::format("unknown status \"{}\"", word));
     if (!status) return status;
     if (status_row(*status).slip == SlipMeaning::none)
         for (const char* key : slips) findings.demand(!number(row, key), fmt::format("{} beside \"{}\"", key, word));
-    const std::string verdict = row.value("verdict", "");
+    const std::string verdict = text(row, "verdict");
     if (status_row(*status).judging == Judging::none)
         findings.demand(verdict != "PASS" && verdict != "FAIL", fmt::format("{} beside \"{}\"", verdict, word));
     return status;
@@ -69,7 +75,7 @@ std::optional<Status> check_status(const json& row, std::initializer_list<const 
 void check_verdict(const json& row, Status status, const std::optional<double>& slip_mm,
                    const std::optional<double>& error_mm, double allowable_mm, Findings& findings)
 {
-    const std::string verdict = row.value("verdict", "");
+    const std::string verdict = text(row, "verdict");
     if (status_row(status).judging != Judging::by_slip || (verdict != "PASS" && verdict != "FAIL")) return;
     findings.demand(slip_mm && error_mm, verdict + " without a slip and its error");
     if (!slip_mm || !error_mm) return;
@@ -92,7 +98,7 @@ void check_fe(const Parsed& fe, const Scene& scene, CheckedRuns& runs)
     for (const json& row : fe.data["runs"]) {
         const std::optional<Status> status = check_status(row, {"slip_mm", "max_slip_m"}, findings);
         if (!status) continue;
-        runs.status = row["status"];
+        runs.status = text(row, "status");
         all_answered = all_answered && is_answer(*status);
         const std::optional<double> slip = number(row, "slip_mm"), step_error = number(row, "slip_error_mm");
         findings.demand(!slip || !unresolved_stage, "a slip after a stage that was not resolved");

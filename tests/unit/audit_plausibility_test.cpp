@@ -365,14 +365,15 @@ TEST(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bi
                  "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\n[contact]\nfriction = 0.1\n"
                  "[reservoir]\nlevel_m = 1\nmodel = \"acoustic\"\n[uplift]\nmodel = \"none\"\n[mesh]\nsize_m = 1\n"
                  "[time]\ndt_s = 0.02\nsubsteps = 0\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
-    const ProgramAnswer first = answer_of({"fe", folder.path("block.toml"), "--out", folder.path("first")});
+    const ProgramAnswer first = answer_of(
+        {"fe", folder.path("block.toml"), "--polarity", "1", "--no-mesh-error", "--out", folder.path("first")});
     ASSERT_EQ(first.code, 0) << first.talk;
     const std::string resolved = content_of(folder.at / "first" / "scene.resolved.toml");
     for (const char* size :
          {"\nsize_m = 1.0\n", "\ncontact_size_m = 0.13333333333333333\n", "\nrock_size_m = ", "\nmesh_size_m = 0.05\n"})
         EXPECT_NE(resolved.find(size), std::string::npos) << size << resolved;
-    const ProgramAnswer second =
-        answer_of({"fe", folder.path("first/scene.resolved.toml"), "--out", folder.path("second")});
+    const ProgramAnswer second = answer_of({"fe", folder.path("first/scene.resolved.toml"), "--polarity", "1",
+                                            "--no-mesh-error", "--out", folder.path("second")});
     ASSERT_EQ(second.code, 0) << second.talk;
     int compared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder.at / "first")) {

@@ -23,7 +23,14 @@ Progress::Progress(const Streams& streams, std::string label, std::size_t total,
 
 Progress::~Progress()
 {
-    if (streams_.quiet) return;
+    end();
+}
+
+void Progress::end()
+{
+    const std::lock_guard lock(mutex_);
+    if (streams_.quiet || ended_) return;
+    ended_ = true;
     if (streams_.terminal) {
         if (shown_ && streams_.bar) *streams_.bar << "\r\033[K" << std::flush;
         return;

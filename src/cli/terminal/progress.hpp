@@ -15,10 +15,12 @@ public:
     /// @param line_every  of the lines, where there is no terminal
     Progress(const Streams& streams, std::string label, std::size_t total,
              std::chrono::milliseconds line_every = std::chrono::seconds(10));
-    ~Progress(); ///< the last line: done, or how far it came
+    ~Progress(); ///< end(), where it was not called
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// The last line, now; before what is printed of the results.
+    void end();
     /// Names what goes on before the first step, "set-up": the bar and the lines say it at once.
     void phase(const std::string& what);
     void advance(std::size_t by = 1); ///< from any thread
@@ -37,7 +39,7 @@ private:
     std::chrono::milliseconds line_every_;
     std::chrono::steady_clock::time_point start_, drawn_;
     std::mutex mutex_;
-    bool shown_ = false;
+    bool shown_ = false, ended_ = false;
 };
 
 } // namespace damslip::cli
