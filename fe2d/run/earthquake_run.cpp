@@ -278,6 +278,12 @@ void EarthquakeRun::judge(RunResult& result) const
     case Status::sliding_at_end:
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
                                      1e3 * result.slip, scene_.sliding.run_out_max);
+        if (!result.stages.empty() && result.stages.back().sliding_factor > 1.0 && !scene_.contact.residual_friction &&
+            scene_.contact.friction_table.empty() && scene_.contact.cohesion == 0.0)
+            result.message +=
+                fmt::format(" Without the earthquake it stands, FS {:.3g}: what walks on may be the model, "
+                            "not the dam (docs/fe-contact.md, A dam that goes on sliding).",
+                            result.stages.back().sliding_factor);
         break;
     case Status::not_resolved:
         result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",

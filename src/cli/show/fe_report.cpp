@@ -93,6 +93,12 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
     if (!most) return worst.label() + ": " + worst.fe.message;
     const double slip = std::abs(*most);
     const std::string over = number_of(runs);
+    if (status_row(worst.fe.status).slip == SlipMeaning::lower_bound) // no error holds for what has not ended
+        return fmt::format("The {} slides at least {:.4g} mm by finite elements and had not come to rest ({}){}.",
+                           sliding_body(scene), slip / mm, record_of(worst),
+                           scene.criteria.allowable_slip
+                               ? fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm)
+                               : "");
     std::string out =
         slip < 1e-7 ? fmt::format("The {} does not slide in {}", sliding_body(scene),
                                   over.empty() ? record_of(worst) : "any of " + over)
