@@ -9,8 +9,8 @@ namespace damslip::fe2d {
 
 /// M a₁ + (1+α)(C v + K u - R)₁ - α (C v + K u - R)₀ = 0 with Newmark's assumptions
 ///
-///     u₁ = u₀ + Δt v₀ + Δt² [(½ - β) a₀ + β a₁],   v₁ = v₀ + Δt [(1 - γ) a₀ + γ a₁]        Newmark (1959); (2-9),
-///     (2-10)
+///     u₁ = u₀ + Δt v₀ + Δt² [(½ - β) a₀ + β a₁]        Newmark (1959); (2-9)
+///     v₁ = v₀ + Δt [(1 - γ) a₀ + γ a₁]                 (2-10)
 ///
 /// α = 0: Newmark. α < 0: Hilber, Hughes & Taylor (1977), (2-25)...(2-27), damps what the step does not resolve.
 struct Scheme {

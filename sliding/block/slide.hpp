@@ -22,9 +22,6 @@ struct SlideOptions {
     HistoryOutput history = HistoryOutput::none; ///< samples: values at every sample, run-out included
 };
 
-/// What becomes of a rigid block: at_rest, sliding_at_end; static_failure or floats (a_y < 0, a_y^- < 0, or N' <= 0 before
-/// the earthquake: it slides by itself; slip up to the record's end, no run-out); not_resolved (more events in one interval
-/// than any motion has, a freak combination of cohesion, incline and lift-off; see notes).
 /// How the slip was found between events.
 enum class SlideAccuracy {
     closed_form, ///< polynomials, sines and hyperbolic sines: exact up to round-off
@@ -44,6 +41,9 @@ struct SlideHistory {
 };
 
 struct SlideResult {
+    /// at_rest, sliding_at_end; static_failure or floats (a_y < 0, a_y^- < 0, or N' <= 0 before the earthquake: it slides
+    /// by itself; slip up to the record's end, no run-out); not_resolved (more events in one interval than any motion
+    /// has, a freak combination of cohesion, incline and lift-off; see notes).
     Status status = Status::at_rest;
     SlideAccuracy accuracy = SlideAccuracy::closed_form;
     double slip = 0.0;            ///< at the end, positive downstream [m]

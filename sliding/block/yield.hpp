@@ -29,23 +29,24 @@ struct Yield {
 ///
 /// With M^w = (M_w, 0, 0), M = m + M_w, V = m (g + a_v) + vertical force and k = cos(theta) + mu sin(theta) that is
 ///
-///     a_y    = [c A' + mu (V cos(theta) - U - W_s sin(theta)) - W_s cos(theta) - V sin(theta)] / (M k),  factor = M
-///     k/(m + M_w k cos(theta)),
+///     a_y    = [c A' + mu (V cos(theta) - U - W_s sin(theta)) - W_s cos(theta) - V sin(theta)] / (M k),
+///     factor = M k/(m + M_w k cos(theta)).
 ///
-/// with theta = 0 also a_y = [mu (G - U) - W_s]/(m + M_w) of Goldgruber (2015), eq. (4-3), factor 1 (4-1); with M_w = U
-/// = W_s = c = 0 it is a_y = g tan(phi - theta), and the acceleration along the base s'' = (a_h - a_y) cos(phi -
-/// theta)/cos(phi) of Newmark (1965).
+/// With theta = 0 that is a_y = [mu (G - U) - W_s]/(m + M_w) of Goldgruber (2015), eq. (4-3), and factor 1 (4-1). With
+/// M_w = U = W_s = c = 0 it is Newmark (1965):
+///
+///     a_y = g tan(phi - theta),   s'' = (a_h - a_y) cos(phi - theta)/cos(phi).
 ///
 /// Negative: the block slides without any earthquake; returned as it is, never clamped. Infinite where the ground
 /// cannot make the block slide this way however strong it is (q.A x <= 0: a base so steep that a push along it only
 /// presses); then per_a_v = 0, factor = 0. Lift-off (N' = 0) is not part of the law: see slide().
 Yield yield_downstream(const RigidBlock& block);
 
-/// Upstream: the block slides while -a_h > a_y^-, s'' = factor (a_h + a_y^-) < 0. With q = t - mu n, k^- = cos(theta) -
-/// mu sin(theta):
+/// Upstream: the block slides while -a_h > a_y^-, s'' = factor (a_h + a_y^-) < 0. With q = t - mu n and
+/// k^- = cos(theta) - mu sin(theta):
 ///
-///     a_y^-  = [c A' + mu (V cos(theta) - U - W_s sin(theta)) + W_s cos(theta) + V sin(theta)] / (M k^-),  factor = M
-///     k^-/(m + M_w k^- cos(theta)).
+///     a_y^-  = [c A' + mu (V cos(theta) - U - W_s sin(theta)) + W_s cos(theta) + V sin(theta)] / (M k^-),
+///     factor = M k^-/(m + M_w k^- cos(theta)).
 ///
 /// k^- <= 0 (mu tan(theta) >= 1): infinite, see yield_downstream.
 Yield yield_upstream(const RigidBlock& block);

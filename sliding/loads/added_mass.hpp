@@ -18,16 +18,13 @@ double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water 
 /// normal to the face moves water, Goldgruber (2015) eq. (3-24), (3-29).
 ///
 /// - Westergaard (1933), simplified (3-4): 7/8 rho sqrt(h z); any face, m_n = m.
-/// - Westergaard (1933), series (3-1): (8 rho h/pi^2) sum over odd n of sin(n pi z/2h)/(n^2 c_n), c_n = sqrt(1 - 16 rho
-/// h^2/(n^2 K T^2)),
-///   T the period of the excitation, none: infinite (incompressible water); m_n = m. Summed to round-off (1e-14
-///   relative).
-/// - Zangar (1952), (3-8, 3-9): C rho h, C = (C_m/2)[zeta(2 - zeta) + sqrt(zeta(2 - zeta))], C_m = 0.73 (1 - phi/90
-/// deg) or a table
-///   (linear between its rows, constant beyond them).
-/// - Goldgruber & Feldbacher (2013), (3-10...3-14): 0.707 rho h (1 - 0.011 phi) cos((pi/2)(y - h_m)/(h - h_m))^(0.6 +
-/// 0.005 phi),
-///   y = h - z above the reservoir bottom, h_m = h sqrt(phi/1000), phi in degrees, 0...30.
+/// - Westergaard (1933), series (3-1): (8 rho h/pi^2) sum over odd n of sin(n pi z/2h)/(n^2 c_n),
+///   c_n = sqrt(1 - 16 rho h^2/(n^2 K T^2)), T the period of the excitation, none: infinite (incompressible water);
+///   m_n = m. Summed to round-off (1e-14 relative).
+/// - Zangar (1952), (3-8, 3-9): C rho h, C = (C_m/2)[zeta(2 - zeta) + sqrt(zeta(2 - zeta))], C_m = 0.73 (1 - phi/90 deg)
+///   or a table (linear between its rows, constant beyond them).
+/// - Goldgruber & Feldbacher (2013), (3-10...3-14): 0.707 rho h (1 - 0.011 phi) cos(A)^(0.6 + 0.005 phi),
+///   A = (pi/2)(y - h_m)/(h - h_m), y = h - z above the reservoir bottom, h_m = h sqrt(phi/1000), phi in degrees, 0...30.
 /// The last two are pressures per *horizontal* acceleration: m_n = m/cos(phi) reproduces them
 /// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m.
 ///

@@ -45,13 +45,11 @@ inline SeepageProfile fixed_profile(PressureProfile profile)
 ///
 /// - none, or no [uplift]: no pressure at all, in a crack neither.
 /// - linear: heel to toe; also curtain or drains that do not work.
-/// - curtain: linear from the heel to p_low + r (p_high - p_low) at the curtain's distance, then linear to the toe;
-/// Goldgruber
-///   (2015) sec. 4.2 with r = 2/3 ("printed rule"); p_low, p_high: the lower and higher of the end pressures.
-/// - drains: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L at the drains, USACE EM 1110-2-2200; a gallery above H2 puts its level
-/// H4 in the
-///   place of H2; linear to both ends. H are heads above the heel, so p3 = gamma_w (H3 - y(X)), at least 0 and at most
-///   the pressure without drains. A dry end has the head of its own elevation.
+/// - curtain: linear from the heel to p_low + r (p_high - p_low) at the curtain's distance, then linear to the toe; p_low,
+///   p_high: the lower and higher of the end pressures. Goldgruber (2015) sec. 4.2 with r = 2/3 ("printed rule").
+/// - drains: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L at the drains, linear to both ends, USACE EM 1110-2-2200. A gallery above
+///   H2 puts its level H4 in the place of H2. H are heads above the heel, so p3 = gamma_w (H3 - y(X)), at least 0 and at
+///   most the pressure without drains. A dry end has the head of its own elevation.
 /// - points: p/p_heel over the distance [m], p_heel = gamma_w h.
 /// - seepage: as the solver says.
 /// With water flowing upstream (tailwater higher) curtain and drains are read from the other end: the mirrored dam

@@ -28,22 +28,18 @@ namespace damslip::cli {
 
 namespace {
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
-{
-    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 void check(const AccuracyArguments& a)
 {
     if (!(a.tolerance > 0.0 && std::isfinite(a.tolerance)))
-        usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
-              "for 2 % write  --tolerance 0.02");
-    if (a.repeats < 1) usage(fmt::format("--repeats {} is not allowed.", a.repeats), "1 or more", "write  --repeats 3");
+        refuse_usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
+                     "for 2 % write  --tolerance 0.02");
+    if (a.repeats < 1)
+        refuse_usage(fmt::format("--repeats {} is not allowed.", a.repeats), "1 or more", "write  --repeats 3");
     if (!(a.budget > 0.0))
-        usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
+        refuse_usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
     if (!a.rung.empty() && !parse_rung(a.rung))
-        usage("--rung " + a.rung + " is not known.", "a rung as the table names it",
-              "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
+        refuse_usage("--rung " + a.rung + " is not known.", "a rung as the table names it",
+                     "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
 }
 
 std::string quoted(const std::string& word)
@@ -219,9 +215,10 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
         const RungResult& r = results.back();
         interrupt.results_at_hand();
         const std::string said =
-            r.done() ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.slip.front() / units::mm, r.seconds)
-                     : fmt::format("{:<32} {}: {}", rung_id(r.rung),
-                                   r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
+            r.done()
+                ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.slip.front() / units::mm, r.seconds)
+                : fmt::format("{:<32} {}: {}", rung_id(r.rung),
+                              r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark);
         if (streams.bar)
             *streams.bar << "\r  " << said << "\n";
         else if (line_is_due())

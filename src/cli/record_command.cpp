@@ -19,11 +19,6 @@ namespace damslip::cli {
 
 namespace {
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
-{
-    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 /// The value that belongs to a word. @throws UsageError listing the words.
 template <class T>
 T choice(const std::string& flag, const std::string& word, const std::vector<std::pair<std::string, T>>& values)
@@ -33,7 +28,8 @@ T choice(const std::string& flag, const std::string& word, const std::vector<std
         if (name == word) return value;
         all += (all.empty() ? "" : ", ") + name;
     }
-    usage(fmt::format("{} {} is not known.", flag, word), all, fmt::format("write  {} {}", flag, values.front().first));
+    refuse_usage(fmt::format("{} {} is not known.", flag, word), all,
+                 fmt::format("write  {} {}", flag, values.front().first));
 }
 
 void remark(const Record& record, const Streams& streams)
@@ -143,7 +139,8 @@ int record_convert(const RecordConvertArguments& arguments, const Streams& strea
     Record record = read(arguments.input);
     if (arguments.new_dt) {
         if (!(*arguments.new_dt >= 1e-6 && *arguments.new_dt <= 1.0))
-            usage(fmt::format("--new-dt {} is not allowed.", *arguments.new_dt), "1e-06 to 1 s", "write seconds");
+            refuse_usage(fmt::format("--new-dt {} is not allowed.", *arguments.new_dt), "1e-06 to 1 s",
+                         "write seconds");
         record = records::resampled(record, *arguments.new_dt);
     }
     put(record, arguments.target, "record-convert", streams);
@@ -181,14 +178,14 @@ int record_baseline(const RecordBaselineArguments& arguments, const Streams& str
 int record_scale(const RecordScaleArguments& arguments, const Streams& streams)
 {
     if (arguments.factor.has_value() == arguments.pga_m_s2.has_value())
-        usage("record scale needs one of --factor and --pga-m-s2.", "one of them",
-              "write  --factor 1.5  or  --pga-m-s2 2.0");
+        refuse_usage("record scale needs one of --factor and --pga-m-s2.", "one of them",
+                     "write  --factor 1.5  or  --pga-m-s2 2.0");
     if (arguments.factor && (!std::isfinite(*arguments.factor) || *arguments.factor == 0.0))
-        usage(fmt::format("--factor {} is not allowed.", *arguments.factor),
-              "a number other than 0; negative flips the polarity", "write  --factor 1.5");
+        refuse_usage(fmt::format("--factor {} is not allowed.", *arguments.factor),
+                     "a number other than 0; negative flips the polarity", "write  --factor 1.5");
     if (arguments.pga_m_s2 && !(*arguments.pga_m_s2 > 0.0 && *arguments.pga_m_s2 <= 1e4))
-        usage(fmt::format("--pga-m-s2 {} is not allowed.", *arguments.pga_m_s2), "a number > 0, at most 1e4 m/s2",
-              "write  --pga-m-s2 2.0");
+        refuse_usage(fmt::format("--pga-m-s2 {} is not allowed.", *arguments.pga_m_s2),
+                     "a number > 0, at most 1e4 m/s2", "write  --pga-m-s2 2.0");
     Record record = read(arguments.input);
     const double factor = arguments.factor ? *arguments.factor : records::factor_to_pga(record, *arguments.pga_m_s2);
     record = records::scaled(std::move(record), factor);
@@ -200,12 +197,12 @@ int record_scale(const RecordScaleArguments& arguments, const Streams& streams)
 Table record_spectrum_table(const Record& record, const RecordSpectrumArguments& a)
 {
     if (!(a.ratio >= 0.0 && a.ratio <= 1.0))
-        usage(fmt::format("--damping {} is not allowed.", a.ratio), "0 to 1", "5 % is 0.05");
+        refuse_usage(fmt::format("--damping {} is not allowed.", a.ratio), "0 to 1", "5 % is 0.05");
     if (!(a.from > 0.0 && a.to > a.from && a.to <= 100.0))
-        usage(fmt::format("--from {} --to {} is not allowed.", a.from, a.to), "0 < from < to <= 100 s",
-              "write seconds");
+        refuse_usage(fmt::format("--from {} --to {} is not allowed.", a.from, a.to), "0 < from < to <= 100 s",
+                     "write seconds");
     if (a.count < 2 || a.count > 10000)
-        usage(fmt::format("--count {} is not allowed.", a.count), "2 to 10000", "leave it out");
+        refuse_usage(fmt::format("--count {} is not allowed.", a.count), "2 to 10000", "leave it out");
     Table table;
     table.title = fmt::format("Response spectrum of {}, {} % damping", record.name, 100.0 * a.ratio);
     table.columns = {{"period_s", "T", "s", 4},
@@ -250,8 +247,9 @@ records::TargetSpectrum generate_target(const RecordGenerateArguments& arguments
     if (arguments.target == "ec8-1") return eurocode8_spectrum(Eurocode8Type::type_1, ground, component);
     if (arguments.target == "ec8-2") return eurocode8_spectrum(Eurocode8Type::type_2, ground, component);
     if (!std::filesystem::exists(arguments.target))
-        usage(fmt::format("--target {} is not known.", arguments.target),
-              "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration", "write  --target rock");
+        refuse_usage(fmt::format("--target {} is not known.", arguments.target),
+                     "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration",
+                     "write  --target rock");
     return read_target_spectrum(arguments.target);
 }
 
@@ -260,11 +258,11 @@ records::GeneratedRecord generate(const RecordGenerateArguments& arguments)
     using namespace records;
     const TargetSpectrum target = generate_target(arguments);
     if (arguments.seed < 0)
-        usage(fmt::format("--seed {} is not allowed.", arguments.seed), "a whole number from 0 to 9223372036854775807",
-              "write  --seed 1");
+        refuse_usage(fmt::format("--seed {} is not allowed.", arguments.seed),
+                     "a whole number from 0 to 9223372036854775807", "write  --seed 1");
     if (!(arguments.options.pga >= 1e-3 && arguments.options.pga <= 50.0))
-        usage(fmt::format("--pga-m-s2 {} is not allowed.", arguments.options.pga), "0.001 to 50 m/s2",
-              "write  --pga-m-s2 1.0");
+        refuse_usage(fmt::format("--pga-m-s2 {} is not allowed.", arguments.options.pga), "0.001 to 50 m/s2",
+                     "write  --pga-m-s2 1.0");
     GenerateOptions options = arguments.options;
     options.seed = static_cast<std::uint64_t>(arguments.seed);
     options.component = arguments.component == "v" ? MotionComponent::vertical : MotionComponent::horizontal;

@@ -20,34 +20,31 @@ namespace damslip::cli {
 
 namespace {
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
-{
-    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 /// Flags that do not go together.
 void check_flags(const SweepArguments& a, Form form)
 {
     if (a.inputs.scene.empty() && a.merge.empty())
-        usage("SCENE is missing.", "a scene file to sweep over, or --merge with parts to put together",
-              "damslip sweep SCENE ... or  damslip sweep --merge FOLDER --out results.csv");
+        refuse_usage("SCENE is missing.", "a scene file to sweep over, or --merge with parts to put together",
+                     "damslip sweep SCENE ... or  damslip sweep --merge FOLDER --out results.csv");
     const bool parts = a.plan || !a.slurm_array.empty();
     if (a.out.empty())
         for (const auto& [flag, given] : {std::pair{"--resume", a.resume},
                                           {"--shard", !a.shard.empty()},
                                           {"--plan", a.plan},
                                           {"--slurm-array", !a.slurm_array.empty()}})
-            if (given) usage(fmt::format("{} without --out.", flag), "both", "add  --out results.csv");
-    if (a.parts && !parts) usage("--parts without --plan or --slurm-array.", "with one of them", "delete --parts");
+            if (given) refuse_usage(fmt::format("{} without --out.", flag), "both", "add  --out results.csv");
+    if (a.parts && !parts)
+        refuse_usage("--parts without --plan or --slurm-array.", "with one of them", "delete --parts");
     if (parts && !a.shard.empty())
-        usage("--shard together with --plan or --slurm-array.", "a part, or the commands of all parts",
-              "delete --shard");
+        refuse_usage("--shard together with --plan or --slurm-array.", "a part, or the commands of all parts",
+                     "delete --shard");
     if (a.out.extension() == ".html")
-        usage("--out " + a.out.string() + " is the name of the report.", "a name for the rows; the report is beside it",
-              "write  --out " + std::filesystem::path(a.out).replace_extension(".csv").string());
+        refuse_usage("--out " + a.out.string() + " is the name of the report.",
+                     "a name for the rows; the report is beside it",
+                     "write  --out " + std::filesystem::path(a.out).replace_extension(".csv").string());
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
-        usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
-              "delete --json");
+        refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
+                     "delete --json");
 }
 
 void put(const std::filesystem::path& file, const std::string& text, const Streams& streams)
@@ -69,8 +66,9 @@ void put_merged_report(const SweepArguments& arguments, const MergedSweep& merge
     if (!arguments.inputs.scene.empty()) {
         scene = read_run_scene(arguments.inputs, streams);
         if (merged.text.find("\n# scene " + scene_hash(*scene) + "\n") == std::string::npos)
-            usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
-                  "the scene the parts were made from, with the same changes on the command line", "leave SCENE out");
+            refuse_usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
+                         "the scene the parts were made from, with the same changes on the command line",
+                         "leave SCENE out");
         const EffectPlan plan = make_effect_plan(*scene, Method::rigid_block);
         records = read_records(called_for(plan, *scene), plan);
     }
@@ -98,8 +96,8 @@ int merge(const SweepArguments& arguments, const Streams& streams)
 void check_for_scripts(const std::string& command)
 {
     if (std::any_of(command.begin(), command.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
-        usage("a name on the command line has a line break or another control character.",
-              "printable characters: the commands are lines of a file", "rename the file");
+        refuse_usage("a name on the command line has a line break or another control character.",
+                     "printable characters: the commands are lines of a file", "rename the file");
 }
 
 /// The commands of all parts, or a job script that runs them.
@@ -270,11 +268,11 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     say(axes.notes, arguments.inputs.strict, streams);
     scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
     if (scene.motion.records.empty())
-        usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
-              "add  --record FILE");
+        refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
+                     "add  --record FILE");
     const TaskList tasks = make_tasks(axes, scene.motion.records.size());
     if (tasks.rows() > 20'000'000)
-        usage(fmt::format("the grid has {} rows.", tasks.rows()), "at most 20 million", "split it");
+        refuse_usage(fmt::format("the grid has {} rows.", tasks.rows()), "at most 20 million", "split it");
     for (const auto& [flag, given] :
          {std::pair{"--plan", arguments.plan}, {"--slurm-array", !arguments.slurm_array.empty()}})
         if (given) need_scene_file(arguments.inputs, flag);

@@ -16,11 +16,6 @@ namespace damslip::cli {
 
 namespace {
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
-{
-    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 constexpr const char* standard_input = "-";
 constexpr const char* no_vertical = "none"; ///< stands for the vertical component that a record does not have
 constexpr double largest_accel = 1e4;       ///< [m/s2], a thousand times gravity
@@ -38,9 +33,10 @@ constexpr double largest_accel = 1e4;       ///< [m/s2], a thousand times gravit
 std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
 {
     if (!inputs.verticals.empty() && inputs.verticals.size() != inputs.records.size())
-        usage(fmt::format("{} --record and {} --vertical are given.", inputs.records.size(), inputs.verticals.size()),
-              "no --vertical, or one for each --record in the same order; none for a record without one",
-              "for example  --record a_h.at2 b_h.at2 --vertical a_v.at2 none");
+        refuse_usage(
+            fmt::format("{} --record and {} --vertical are given.", inputs.records.size(), inputs.verticals.size()),
+            "no --vertical, or one for each --record in the same order; none for a record without one",
+            "for example  --record a_h.at2 b_h.at2 --vertical a_v.at2 none");
     std::vector<RecordFiles> files;
     for (std::size_t i = 0; i < inputs.records.size(); ++i) {
         RecordFiles f;
@@ -77,7 +73,7 @@ Scene scene_as_written(const RunInputs& inputs)
 void put_records(const RunInputs& inputs, Scene& scene)
 {
     if (!inputs.verticals.empty() && inputs.records.empty())
-        usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
+        refuse_usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
     if (!inputs.records.empty()) scene.motion.records = command_line_records(inputs);
     for (RecordFiles& record : scene.motion.records) {
         if (record.unit.empty()) record.unit = inputs.unit;
@@ -107,20 +103,20 @@ Scene read_run_scene(const RunInputs& inputs, const Streams& streams)
     put_records(inputs, scene);
     if (inputs.friction) {
         if (!(*inputs.friction >= 0 && *inputs.friction <= 10))
-            usage(fmt::format("--friction {} is not allowed.", *inputs.friction), "Coulomb mu, 0 ... 10",
-                  "for example  --friction 0.77");
+            refuse_usage(fmt::format("--friction {} is not allowed.", *inputs.friction), "Coulomb mu, 0 ... 10",
+                         "for example  --friction 0.77");
         scene = with_friction(scene, *inputs.friction);
     }
     if (inputs.scale) {
         if (!(*inputs.scale >= 0 && std::isfinite(*inputs.scale)))
-            usage(fmt::format("--scale {} is not allowed.", *inputs.scale), "a factor >= 0",
-                  "for example  --scale 1.5");
+            refuse_usage(fmt::format("--scale {} is not allowed.", *inputs.scale), "a factor >= 0",
+                         "for example  --scale 1.5");
         scene.motion.scale *= *inputs.scale;
     }
     if (!inputs.scheme.empty()) {
         if (inputs.scheme != "exact" && inputs.scheme != "slammer")
-            usage(fmt::format("--scheme {} is not known.", inputs.scheme), "exact or slammer",
-                  "for example  --scheme slammer");
+            refuse_usage(fmt::format("--scheme {} is not known.", inputs.scheme), "exact or slammer",
+                         "for example  --scheme slammer");
         scene.sliding.scheme = inputs.scheme == "slammer" ? SlidingScheme::slammer : SlidingScheme::exact;
     }
     note_arguments(inputs, scene.notes);
@@ -144,8 +140,8 @@ void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& strea
 void need_scene_file(const RunInputs& inputs, const std::string& flag)
 {
     if (inputs.scene != standard_input) return;
-    usage(fmt::format("{} with a scene from standard input.", flag), "a scene file: each of the commands reads it anew",
-          "write the scene to a file");
+    refuse_usage(fmt::format("{} with a scene from standard input.", flag),
+                 "a scene file: each of the commands reads it anew", "write the scene to a file");
 }
 
 void need_section(const Scene& scene, const std::string& command, const std::string& instead)
@@ -160,8 +156,8 @@ void need_section(const Scene& scene, const std::string& command, const std::str
 Scene with_friction(Scene scene, double friction)
 {
     if (!scene.contact.friction_table.empty())
-        usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
-              "one of them", "take friction_table_m out of the scene to vary the friction");
+        refuse_usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
+                     "one of them", "take friction_table_m out of the scene to vary the friction");
     if (scene.wedge) {
         std::vector<RockPlane>& planes = scene.wedge->planes;
         const double old = planes.front().friction;

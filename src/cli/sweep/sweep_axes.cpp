@@ -45,11 +45,6 @@ std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>
     return keys;
 }
 
-[[noreturn]] void usage(std::string problem, std::string expected, std::string fix)
-{
-    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
-}
-
 std::vector<double> checked_numbers(const std::string& text, const std::string& flag, double own, double low,
                                     double high, const std::string& meaning)
 {
@@ -57,8 +52,9 @@ std::vector<double> checked_numbers(const std::string& text, const std::string& 
     std::vector<double> values = number_list(text, flag);
     for (const double v : values)
         if (!(v >= low && v <= high))
-            usage(fmt::format("{}: {} is not allowed.", flag, v), meaning,
-                  fmt::format("give values from {} to {}, with a decimal point: a comma parts two values", low, high));
+            refuse_usage(
+                fmt::format("{}: {} is not allowed.", flag, v), meaning,
+                fmt::format("give values from {} to {}, with a decimal point: a comma parts two values", low, high));
     return values;
 }
 
@@ -80,11 +76,11 @@ void look_at(const std::string& text, const std::string& flag, const std::string
     const bool comma_meant = comma && !is_unusual(*comma);
     Diagnostic note = *note_of(*std::find_if(values.begin(), values.end(), is_unusual));
     if (comma_meant && count == 2)
-        usage(fmt::format("{} {} is read as two values, {} and {}, and neither is usual.", flag, text,
-                          shortest(values[0]), shortest(values[1])),
-              note.expected,
-              fmt::format("a decimal comma? write  {0} {1} ; for the two values  {0} {2}.0,{3}", flag, shortest(*comma),
-                          shortest(values[0]), shortest(values[1])));
+        refuse_usage(fmt::format("{} {} is read as two values, {} and {}, and neither is usual.", flag, text,
+                                 shortest(values[0]), shortest(values[1])),
+                     note.expected,
+                     fmt::format("a decimal comma? write  {0} {1} ; for the two values  {0} {2}.0,{3}", flag,
+                                 shortest(*comma), shortest(values[0]), shortest(values[1])));
     if (comma_meant) note.fix = fmt::format("a decimal comma? write  {} {}", flag, shortest(*comma));
     if (count > 1) note.problem += fmt::format(" So are {} more of the {} values.", count - 1, values.size());
     notes.push_back(std::move(note));
@@ -149,7 +145,7 @@ std::string reservoir_word(const Scene& scene)
 std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
 {
     if (!a.friction.empty() && !a.friction_deg.empty())
-        usage("--friction and --friction-deg are both given.", "one of them", "delete one");
+        refuse_usage("--friction and --friction-deg are both given.", "one of them", "delete one");
     if (a.friction_deg.empty())
         return checked_numbers(a.friction, "--friction", scene.contact.friction, 0, 10, "Coulomb mu, 0 ... 10");
     std::vector<double> values =
@@ -173,8 +169,8 @@ std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene
     std::vector<std::string> words = word_list(a.uplift, "--uplift", known);
     for (const std::string& u : words)
         if (const UpliftRow& row = uplift_row(uplift_model(u)); !has_what_it_needs(scene, row))
-            usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), row.needs,
-                  "add it to the scene or leave the profile out");
+            refuse_usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), row.needs,
+                         "add it to the scene or leave the profile out");
     return words;
 }
 
@@ -192,15 +188,15 @@ std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene
     const auto given = [&](auto&& matches) { return std::any_of(methods.begin(), methods.end(), matches); };
     const bool penalty = given([](const SweepMethod& m) { return m.law == FeLaw::penalty; });
     if (penalty && !a.penalty_stiffness && !scene.contact.tangential_stiffness)
-        usage("--method fe-penalty: neither scene nor command line give the stiffness of sticking.",
-              "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\", or --penalty-stiffness",
-              "add  --penalty-stiffness 1e11");
+        refuse_usage("--method fe-penalty: neither scene nor command line give the stiffness of sticking.",
+                     "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\", or --penalty-stiffness",
+                     "add  --penalty-stiffness 1e11");
     if (!penalty && a.penalty_stiffness)
-        usage("--penalty-stiffness is given, but fe-penalty is not among the methods.", "both or neither",
-              "add fe-penalty to --method, or delete --penalty-stiffness");
+        refuse_usage("--penalty-stiffness is given, but fe-penalty is not among the methods.", "both or neither",
+                     "add fe-penalty to --method, or delete --penalty-stiffness");
     if (a.modes && !given([](const SweepMethod& m) { return m.reduced; }))
-        usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
-              "add fe-reduced to --method, or delete --modes");
+        refuse_usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
+                     "add fe-reduced to --method, or delete --modes");
     return methods;
 }
 
@@ -210,7 +206,8 @@ void refuse_repeats(const char* flag, const std::vector<Value>& values)
     for (std::size_t i = 1; i < values.size(); ++i)
         if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
             values.begin() + static_cast<std::ptrdiff_t>(i))
-            usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once", "delete the second one");
+            refuse_usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once",
+                         "delete the second one");
 }
 
 void check_repeats(const Axes& axes)
@@ -241,13 +238,13 @@ void check_wedge_axes(const SweepArguments& a, const std::vector<SweepMethod>& m
     for (const auto& [flag, text] :
          {std::pair{"--level", a.level}, {"--uplift", a.uplift}, {"--reservoir", a.reservoir}, {"--size", a.size}})
         if (!text.empty())
-            usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
-                  "--friction (of the first plane; the other keeps its share), --scale, --polarity, --record",
-                  fmt::format("delete {}", flag));
+            refuse_usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
+                         "--friction (of the first plane; the other keeps its share), --scale, --polarity, --record",
+                         fmt::format("delete {}", flag));
     for (const SweepMethod& m : methods)
         if (m.kind == SweepKind::finite_elements)
-            usage(fmt::format("--method {} cannot take a [wedge]: it has no section for finite elements.", m.id),
-                  "rigid, rigid-v and the regressions", "delete it");
+            refuse_usage(fmt::format("--method {} cannot take a [wedge]: it has no section for finite elements.", m.id),
+                         "rigid, rigid-v and the regressions", "delete it");
 }
 
 } // namespace
@@ -265,8 +262,8 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     if (!scene.reservoir)
         for (const auto& [flag, text] : {std::pair{"--level", a.level}, {"--reservoir", a.reservoir}})
             if (!text.empty())
-                usage(fmt::format("{} is given, but the scene has no [reservoir].", flag), "a scene with [reservoir]",
-                      "add [reservoir] to the scene");
+                refuse_usage(fmt::format("{} is given, but the scene has no [reservoir].", flag),
+                             "a scene with [reservoir]", "add [reservoir] to the scene");
     axes.level =
         checked_numbers(a.level, "--level", scene.reservoir ? scene.reservoir->level : 0.0, 0,
                         scene.wedge ? 0.0 : 3 * crest_level(scene.section), "water level above the heel at size 1 [m]");
@@ -274,7 +271,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
     for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
         if (p != 1 && p != -1)
-            usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
+            refuse_usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
         axes.polarity.push_back(static_cast<int>(p));
     }
     axes.uplift = uplift_axis(a, scene);

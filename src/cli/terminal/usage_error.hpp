@@ -11,4 +11,10 @@ public:
     using InputError::InputError;
 };
 
+/// @throws UsageError  @param problem, expected, fix  as Diagnostic has them
+[[noreturn]] inline void refuse_usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
+
 } // namespace damslip::cli
