@@ -1,9 +1,9 @@
 #include "fe2d/damping/damping_choice.hpp"
 
+#include "core/input_error.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -32,7 +32,11 @@ void note(const Damping& damping, DampingChoice& choice, double first, double se
 void choose_constants(const Damping& damping, const std::vector<ModalMass>& modes, double total_mass,
                       const SpectralAcceleration& spectral_acceleration, DampingChoice& choice)
 {
-    assert(!modes.empty());
+    if (modes.empty())
+        throw NotConverged(Diagnostic{"", 0, 0, "no natural mode was found that damping could be taken from.",
+                                      "masses and stiffnesses of real dams",
+                                      "check density and moduli, or give damping.mass_coefficient_1_s and "
+                                      "damping.stiffness_coefficient_s"});
     const std::size_t first = mode_index(damping.first_mode, modes, choice);
     const std::size_t second = mode_index(damping.second_mode, modes, choice);
     double second_frequency = modes[second].frequency;

@@ -25,6 +25,7 @@ int modes_needed(const Damping& damping);
 /// @param total_mass  that horizontal motion can move [kg/m]
 /// @param spectral_acceleration  used by modified Rayleigh only
 /// a_M or b_K given directly take the place of the ones from ratio and modes.
+/// @throws NotConverged where modes are needed and none was found
 DampingChoice choose_damping(const Damping& damping, const std::vector<ModalMass>& modes, double total_mass,
                              const SpectralAcceleration& spectral_acceleration);
 

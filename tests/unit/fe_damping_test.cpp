@@ -37,6 +37,11 @@ TEST(FeDamping, rayleigh_constants_of_table_6_6)
     EXPECT_NEAR(fe2d::rayleigh_constants(0.05, 1.54 * hz, 6.25 * hz).stiffness, 0.002, 5e-4);
 }
 
+TEST(FeDamping, without_a_mode_there_is_no_damping_by_modes)
+{
+    EXPECT_THROW(fe2d::choose_damping(Damping{}, {}, 1.0, {}), NotConverged);
+}
+
 TEST(FeDamping, ratio_is_met_at_both_frequencies_and_lowest_at_their_geometric_mean)
 {
     const double a = 3.6 * hz, b = 18.0 * hz, middle = std::sqrt(a * b);
