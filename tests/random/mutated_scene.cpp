@@ -169,8 +169,7 @@ SceneFiles mutated_scene(Draw& draw)
     Lines lines = without_tables(lines_of(example(draw)), [](const std::string& table) {
         return table == "[expect]" || table == "[[motion.record]]" || table == "[mesh]";
     });
-    put(lines, "[mesh]", fmt::format("contact_size_m = {:.4g}", draw.between(3, 8)));
-    put(lines, "[mesh]", fmt::format("size_m = {:.4g}", draw.between(8, 20)));
+    const double contact_size = draw.between(3, 8), size = draw.between(8, 20);
     put(lines, "[sliding]", "run_out_max_s = 2");
     put(lines, "[dam]", "young_modulus_GPa = 25"); // not all examples need one
     for (int k = draw.whole(0, 3); k > 0; --k) add_what_makes_it_hard(lines, draw);
@@ -185,6 +184,8 @@ SceneFiles mutated_scene(Draw& draw)
         else
             lose_a_table(lines, draw);
     }
+    put(lines, "[mesh]", fmt::format("contact_size_m = {:.4g}", contact_size)); // never so fine that it takes minutes
+    put(lines, "[mesh]", fmt::format("size_m = {:.4g}", size));
     SceneFiles files;
     random_motion(draw, files);
     for (const std::string& line : lines) files.scene += line + "\n";
