@@ -8,12 +8,12 @@ namespace damslip {
 
 /// Where an accelerogram came from; printed in provenance, never used in a computation.
 struct RecordSource {
-    std::string file;      ///< as the user named it
-    std::string format;    ///< "PEER AT2", "one column", "two columns", "CSV", "generated"
-    std::string unit;      ///< unit of the samples in the file: "g", "m/s2", "cm/s2"
-    std::string component; ///< as the file says: "NS", "up", "090"; empty if it does not say
-    std::string title;     ///< event and station line of the file
-    std::string sha256;    ///< of the file's bytes
+    std::string file;                          ///< as the user named it
+    std::string format;                        ///< "PEER AT2", "one column", "two columns", "CSV", "generated"
+    std::string unit;                          ///< unit of the samples in the file: "g", "m/s2", "cm/s2"
+    std::string component;                     ///< as the file says: "NS", "up", "090"; empty if it does not say
+    std::string title;                         ///< event and station line of the file
+    std::string sha256;                        ///< of the file's bytes
     std::size_t first_line = 0, last_line = 0; ///< lines of the file that hold the samples, from 1
 };
 
@@ -26,15 +26,18 @@ struct Record {
     RecordSource source;
     std::vector<std::string> warnings; ///< what the reader noticed and the user should know
 
-    double duration() const { return acceleration.empty() ? 0.0 : dt * static_cast<double>(acceleration.size() - 1); } ///< [s]
+    double duration() const
+    {
+        return acceleration.empty() ? 0.0 : dt * static_cast<double>(acceleration.size() - 1);
+    } ///< [s]
 };
 
 /// Ground acceleration of one run: a_h positive upstream (drives the dam downstream), a_v positive up, on one time grid.
 struct GroundMotion {
     std::string name;
-    double dt = 0.0;              ///< [s]
-    std::vector<double> accel_h;  ///< [m/s^2], positive upstream
-    std::vector<double> accel_v;  ///< [m/s^2], positive up; empty: no vertical motion. Else as long as accel_h
+    double dt = 0.0;                ///< [s]
+    std::vector<double> accel_h;    ///< [m/s^2], positive upstream
+    std::vector<double> accel_v;    ///< [m/s^2], positive up; empty: no vertical motion. Else as long as accel_h
     std::vector<std::string> notes; ///< what was changed to make it: zero sample prepended, padding, resampling
 };
 

@@ -22,7 +22,8 @@ enum class Landing {
 };
 
 struct ContactOptions {
-    Landing landing = Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
+    Landing landing =
+        Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
     double tangential_stiffness =
         0.0; ///< k of a penalty in front of Coulomb's law (ElasticStick) [N/m³]; 0: sticking is rigid, exact
     double slip_tolerance = 0.0; ///< F_f of elastic slip that follows the pressure (SlipTolerance) [-]; 0: none; > 0:

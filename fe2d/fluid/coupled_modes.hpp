@@ -31,7 +31,7 @@ struct CoupledModes {
     Eigen::Matrix2Xd effective_share; ///< over total_mass [-]
     Eigen::VectorXd
         dam_share; ///< of the effective mass in x the part the dam's own mass carries, φ_uᵀM r Γ, over total_mass [-]; they sum
-        ///< to the dam's mass; negative where the water pushes the dam against its motion
+    ///< to the dam's mass; negative where the water pushes the dam against its motion
     Eigen::Vector2d total_mass{
         0.0, 0.0}; ///< of the structure and the added mass of incompressible water, fluxᵀ L⁻¹ flux [kg/m]
 

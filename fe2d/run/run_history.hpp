@@ -38,15 +38,16 @@ struct PairHistory {
 /// Values at the record's steps (and in the run-out at the same interval), the start included. Slips are counted from
 /// the static state.
 struct RunHistory {
-    std::vector<double> time;            ///< [s]
-    std::vector<double> ground_h;        ///< positive upstream [m/s²]
-    std::vector<double> ground_v;        ///< positive up [m/s²]
-    std::vector<double> slip;            ///< area mean, positive downstream [m]
-    std::vector<double> slip_heel;       ///< of the first pair [m]
-    std::vector<double> slip_middle;     ///< half-way between heel and toe [m]
-    std::vector<double> slip_toe;        ///< of the last pair [m]
-    std::vector<double> rocking;         ///< rotation of the base over the rock, positive where the heel opens [rad]
-    std::vector<double> crest_x;         ///< upstream end of the crest relative to the ground, since the static state, downstream [m]
+    std::vector<double> time;        ///< [s]
+    std::vector<double> ground_h;    ///< positive upstream [m/s²]
+    std::vector<double> ground_v;    ///< positive up [m/s²]
+    std::vector<double> slip;        ///< area mean, positive downstream [m]
+    std::vector<double> slip_heel;   ///< of the first pair [m]
+    std::vector<double> slip_middle; ///< half-way between heel and toe [m]
+    std::vector<double> slip_toe;    ///< of the last pair [m]
+    std::vector<double> rocking;     ///< rotation of the base over the rock, positive where the heel opens [rad]
+    std::vector<double>
+        crest_x; ///< upstream end of the crest relative to the ground, since the static state, downstream [m]
     std::vector<double> normal_force;    ///< N' = Σλ_n [N/m]
     std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
     std::vector<double> normal_position; ///< of N' from the heel [m]; NaN while the whole base is open

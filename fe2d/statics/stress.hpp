@@ -8,9 +8,9 @@ namespace damslip::fe2d {
 
 /// Stresses of a displacement state, tension positive [Pa].
 struct StressField {
-    Eigen::Matrix3Xd nodal; ///< (xx, yy, xy) of every node: mean over its elements of the same region; a node on the
-                            ///< curtain's edge takes the mean of rock and curtain. The two sides of the contact plane
-                            ///< are separate nodes and stay separate
+    Eigen::Matrix3Xd nodal;  ///< (xx, yy, xy) of every node: mean over its elements of the same region; a node on the
+                             ///< curtain's edge takes the mean of rock and curtain. The two sides of the contact plane
+                             ///< are separate nodes and stay separate
     Eigen::Matrix3Xd centre; ///< (xx, yy, xy) of every element at its centre, the most accurate place
 };
 

@@ -48,10 +48,9 @@ Record read_record(const std::filesystem::path& path, const ReadOptions& options
     if (records.size() > 1) {
         std::string names;
         for (const Record& record : records) names += (names.empty() ? "" : ", ") + record.source.component;
-        throw InputError(Diagnostic{path.string(), 0, 0,
-                                    fmt::format("the file holds {} accelerograms: {}.", records.size(), names),
-                                    "one, or a choice among them",
-                                    "choose by --column (in a scene: motion.record.column, vertical_column)"});
+        throw InputError(Diagnostic{
+            path.string(), 0, 0, fmt::format("the file holds {} accelerograms: {}.", records.size(), names),
+            "one, or a choice among them", "choose by --column (in a scene: motion.record.column, vertical_column)"});
     }
     return std::move(records.front());
 }

@@ -1,19 +1,23 @@
 #include "cli/ablate_command.hpp"
 
-#include "cli/ablation/ablation_report.hpp"
-#include "cli/ablation/ablation_tables.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/show/effect_table.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
+#include "core/usage_error.hpp"
+#include "pages/ablation/ablation_report.hpp"
+#include "pages/ablation/ablation_tables.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
 #include "scene/write.hpp"
 
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -60,10 +64,10 @@ nlohmann::ordered_json json_of_ablations(const Ablations& in)
 
 void print_text(const Scene& scene, const EffectPlan& plan, const Ablations& in, std::ostream& out)
 {
-    out << scene.title << "\n\n" << report::text(effect_table(plan)) << "\n" << report::text(removal_table(in)) << "\n";
-    if (in.plan.method == Method::rigid_block) out << report::text(yield_change_table(in)) << "\n";
-    for (std::size_t r = 0; r < in.records.size(); ++r) out << report::text(change_table(in, r)) << "\n";
-    out << report::text(seconds_table(in));
+    out << scene.title << "\n\n" << pages::text(effect_table(plan)) << "\n" << pages::text(removal_table(in)) << "\n";
+    if (in.plan.method == Method::rigid_block) out << pages::text(yield_change_table(in)) << "\n";
+    for (std::size_t r = 0; r < in.records.size(); ++r) out << pages::text(change_table(in, r)) << "\n";
+    out << pages::text(seconds_table(in));
     for (const std::string& note : ablation_notes(in)) out << "note: " << note << "\n";
 }
 
@@ -80,12 +84,8 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     const std::vector<RecordPair> records = read_records(scene, effects);
     const AblationPlan plan = make_ablations(scene, method, seepage_points(scene));
 
-    const InterruptGuard interrupt;
-    AblationRuns runs;
-    {
-        Progress progress(streams, "ablate", progress_steps(plan));
-        runs = run_ablations(plan, records, arguments.jobs, progress, interrupt);
-    }
+    TerminalWatch watch(streams);
+    const AblationRuns runs = run_ablations(plan, records, arguments.jobs, watch);
     const Ablations ablations{plan, records, runs, choice ? choice->reason : std::string()};
     if (streams.form == Form::json) {
         auto j = json_header("explain");
@@ -98,7 +98,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
         print_text(scene, effects, ablations, streams.out);
     }
     if (!arguments.report.empty()) {
-        write_file(arguments.report, report::page_html(ablation_page(ablations, given, effects)));
+        write_file(arguments.report, pages::page_html(ablation_page(ablations, given, effects)));
         if (!streams.quiet) streams.talk << "report: " << arguments.report.string() << "\n";
     }
     return unanswered_runs(runs).exit_code();

@@ -1,21 +1,23 @@
 #include "cli/accuracy_command.hpp"
 
-#include "cli/accuracy/accuracy_report.hpp"
-#include "cli/accuracy/accuracy_tables.hpp"
-#include "cli/accuracy/climb.hpp"
-#include "cli/accuracy/cost_figure.hpp"
-#include "cli/accuracy/rung_runner.hpp"
-#include "cli/accuracy/variant.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/accuracy/climb.hpp"
+#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/accuracy/variant.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
 #include "core/processor_clock.hpp"
 #include "core/stopwatch.hpp"
 #include "core/units.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
+#include "pages/accuracy/accuracy_report.hpp"
+#include "pages/accuracy/accuracy_tables.hpp"
+#include "pages/accuracy/cost_figure.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -25,6 +27,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -152,8 +156,8 @@ void write_csv(const std::filesystem::path& out, const Loaded& loaded, const std
                double tolerance)
 {
     write_file(out / "accuracy.csv",
-               report::csv(rung_table(results, judge(results, tolerance)),
-                           {"damslip " + program_version() + " accuracy", "scene " + scene_hash(loaded.scene)}));
+               pages::csv(rung_table(results, judge(results, tolerance)),
+                          {"damslip " + program_version() + " accuracy", "scene " + scene_hash(loaded.scene)}));
 }
 
 /// One rung alone: its slip, by record.
@@ -176,7 +180,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
         j["remark"] = result.remark;
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << report::text(t) << "status: " << word(result.status) << "\n";
+        streams.out << pages::text(t) << "status: " << word(result.status) << "\n";
         if (!result.remark.empty()) streams.out << "note: " << result.remark << "\n";
     }
     if (!a.out.empty()) {
@@ -190,7 +194,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
 }
 
 std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& runner,
-                                    const LadderFacts& facts, const InterruptGuard& interrupt, const Streams& streams)
+                                    const LadderFacts& facts, Watch& watch, const Streams& streams)
 {
     ClimbOptions options;
     options.ladder = {a.quick ? Effort::quick : Effort::full, a.tolerance};
@@ -204,7 +208,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     };
     ClimbCalls calls;
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
-    calls.interrupted = [&] { return interrupt.interrupted(); };
+    calls.interrupted = [&] { return watch.stop_asked(); };
     calls.begins = [&](const Rung& rung) {
         if (streams.bar)
             *streams.bar << "  " << rung_id(rung) << " ..." << std::flush;
@@ -213,7 +217,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     };
     calls.ends = [&](const std::vector<RungResult>& results) {
         const RungResult& r = results.back();
-        interrupt.results_at_hand();
+        watch.results_at_hand();
         const std::string said =
             r.done()
                 ? fmt::format("{:<32} {:>10.5g} mm {:>9.3g} s", rung_id(r.rung), r.slip.front() / units::mm, r.seconds)
@@ -239,28 +243,28 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
     const Loaded loaded = load(a, streams);
-    const InterruptGuard interrupt;
-    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, [&] { return interrupt.interrupted(); });
+    TerminalWatch watch(streams);
+    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, [&] { return watch.stop_asked(); });
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
 
     const LadderFacts facts = runner.facts();
-    const std::vector<RungResult> results = climb_aloud(a, loaded, runner, facts, interrupt, streams);
+    const std::vector<RungResult> results = climb_aloud(a, loaded, runner, facts, watch, streams);
     const Judgement judgement = judge(results, a.tolerance);
-    const std::vector<std::string> messages = messages_of(facts, loaded, results, interrupt.interrupted());
+    const std::vector<std::string> messages = messages_of(facts, loaded, results, watch.stop_asked());
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
     const auto j = ladder_json(a, loaded, results, judgement, messages);
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << loaded.scene.title << "\n\n"
-                    << report::text(rung_table(results, judgement)) << "\n"
-                    << report::text(model_table(results, judgement)) << "\n"
+                    << pages::text(rung_table(results, judgement)) << "\n"
+                    << pages::text(model_table(results, judgement)) << "\n"
                     << choice_sentence(results, judgement, a.tolerance) << "\n";
         if (!command.empty()) streams.out << "  " << command << "\n";
         for (const std::string& message : messages) streams.out << "note: " << message << "\n";
     }
     const auto page = [&] {
-        return report::page_html(
+        return pages::page_html(
             accuracy_page({loaded.scene, loaded.records, results, judgement, a.tolerance, command, messages}));
     };
     const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, loaded.records),
@@ -280,7 +284,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
         if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
     }
     const bool answered = judgement.choice || all_fail_statically(results);
-    return answered && !interrupt.interrupted() ? exit_ok : exit_no_answer;
+    return answered && !watch.stop_asked() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

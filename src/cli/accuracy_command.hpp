@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run/run_inputs.hpp"
+#include "cli/input/run_inputs.hpp"
 #include "cli/terminal/streams.hpp"
 
 namespace damslip::cli {

@@ -12,8 +12,9 @@
 #include "cli/screen_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/sweep_command.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "cli/verify_command.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 #include "scene/uplift_row.hpp"
 
 #include <fmt/format.h>
@@ -61,7 +62,8 @@ void add_run_inputs(CLI::App* sub, RunInputs& in)
     add_scene(sub, in);
     sub->add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's")
         ->group("Ground motion");
-    sub->add_option("--vertical", in.verticals, "vertical accelerogram(s), one for each --record, in the same order; none for a record without one")
+    sub->add_option("--vertical", in.verticals,
+                    "vertical accelerogram(s), one for each --record, in the same order; none for a record without one")
         ->group("Ground motion");
     sub->add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
         ->group("Ground motion");

@@ -1,7 +1,7 @@
 #include "cli/completion_command.hpp"
 
 #include "cli/arguments.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "core/usage_error.hpp"
 
 #include <fmt/format.h>
 #include <ostream>

@@ -1,25 +1,26 @@
 #include "cli/contact_run.hpp"
 
-#include "cli/run/contact_law.hpp"
-#include "cli/run/contact_options.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/run/rigid_model.hpp"
-#include "cli/run/rock_warnings.hpp"
-#include "cli/run/seepage_source.hpp"
-#include "cli/show/acoustic_modes.hpp"
-#include "cli/show/contact_tables.hpp"
-#include "cli/show/effect_table.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/show/fe_report.hpp"
-#include "cli/sweep/fe_meter.hpp"
-#include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/progress.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/rock_warnings.hpp"
+#include "analysis/prepare/seepage_source.hpp"
+#include "analysis/sweep/fe_meter.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
+#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/fe_report.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
 #include "scene/exact_contact.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
@@ -30,6 +31,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -53,7 +56,7 @@ void write_run(const std::filesystem::path& folder, const Scene& scene, const Co
         std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
                                           "record " + r.label(), "status " + word(r.fe.status)};
         if (!legend.empty()) comments.push_back(legend);
-        write_file(folder / (kind + "_" + file_word(r.record) + r.suffix() + ".csv"), report::csv(table, comments));
+        write_file(folder / (kind + "_" + file_word(r.record) + r.suffix() + ".csv"), pages::csv(table, comments));
     };
     const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
                       signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
@@ -94,9 +97,8 @@ constexpr double share_of_run = 0.8; ///< of the progress of a run; the rest is 
 /// The models of one call, and the runs on them.
 class ContactRuns {
 public:
-    ContactRuns(const FeArguments& arguments, const Scene& scene, const std::vector<RecordPair>& records,
-                const InterruptGuard& interrupt, const StopAsked& stop, Progress& progress)
-        : arguments_(arguments), scene_(scene), meter_(progress), interrupt_(interrupt),
+    ContactRuns(const FeArguments& arguments, const Scene& scene, const std::vector<RecordPair>& records, Watch& watch)
+        : arguments_(arguments), scene_(scene), meter_(watch), watch_(watch),
           polarities_(polarities_of(arguments, scene)), options_(contact_options(scene, records, seepage_)),
           coarser_(
               scene, records, arguments.mesh_error,
@@ -104,10 +106,10 @@ public:
                   meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
                   return answer();
               },
-              stop)
+              watch.stop())
     {
         if (!arguments.out.empty()) options_.pair_series = fe2d::PairSeries::every_step;
-        options_.stop = stop;
+        options_.stop = watch.stop();
         options_.progress = [this](const fe2d::RunProgress& p) {
             meter_.reached(share_of_run * share_of(p));
             return answer();
@@ -150,14 +152,14 @@ private:
     {
         return static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps));
     }
-    fe2d::RunAnswer answer() const { return interrupt_.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on; }
+    fe2d::RunAnswer answer() const { return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on; }
     void run(const GroundMotion& motion, ContactRun& r)
     {
         meter_.begin(1);
         r.fe = model_->run(motion);
-        interrupt_.results_at_hand();
+        watch_.results_at_hand();
         r.mesh = coarser_.error_of(*model_, r.fe, motion);
-        if (exact_ && !interrupt_.interrupted()) r.exact = exact_->run(motion);
+        if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);
         if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene_, rigid_, motion, 1);
         meter_.end();
     }
@@ -165,7 +167,7 @@ private:
     const FeArguments& arguments_;
     const Scene& scene_;
     FeMeter meter_;
-    const InterruptGuard& interrupt_;
+    Watch& watch_;
     std::vector<int> polarities_;
     SeepageSource seepage_;
     fe2d::RunOptions options_;
@@ -179,11 +181,11 @@ private:
 int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
                 const std::vector<RecordPair>& records, const Streams& streams)
 {
-    const InterruptGuard interrupt;
     const std::optional<double>& allowable = scene.criteria.allowable_slip;
-    Progress progress(streams, "fe", records.size() * polarities_of(arguments, scene).size());
-    progress.phase("set-up");
-    ContactRuns all(arguments, scene, records, interrupt, streams.stop, progress);
+    TerminalWatch watch(streams);
+    watch.begin("fe", static_cast<double>(records.size() * polarities_of(arguments, scene).size()));
+    watch.phase("set-up");
+    ContactRuns all(arguments, scene, records, watch);
     const fe2d::EarthquakeRun& model = all.model();
 
     FieldSeries fields(arguments.out, model.model());
@@ -192,7 +194,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
     std::vector<ContactRun> runs;
     std::vector<std::string> of_rock;
     for (const RecordPair& pair : records) {
-        if (interrupt.interrupted()) break;
+        if (watch.stop_asked()) break;
         std::vector<GroundMotion> motions;
         for (ContactRun& run : all.run(pair, motions)) {
             const GroundMotion& motion = motions[runs.size() % all.polarities()];
@@ -207,9 +209,9 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
             r.fe.history.states = {};
         }
     }
-    progress.end();
+    watch.end();
     const Table run_table = contact_run_table(runs, allowable);
-    const report::Headline headline = fe_headline(scene, runs);
+    const pages::Headline headline = fe_headline(scene, runs);
     const Table counts = count_table(model.model().counts, model.water() ? &model.water()->water : nullptr);
     auto j = json_header("fe");
     j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
@@ -234,25 +236,26 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n"
-                    << report::text(counts)
+                    << pages::text(counts)
                     << fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n",
                                    model.structure().pairs(), model.damping().mass, model.damping().stiffness)
-                    << report::text(contact_stage_table(runs)) << "\n"
-                    << report::text(answer_part(run_table)) << "\n"
-                    << report::text(solution_part(run_table)) << "\n"
-                    << report::text(contact_slip_table(runs));
-        if (!scene.lift_joints.empty()) streams.out << "\n" << report::text(contact_lift_table(runs, allowable));
-        if (all.gives_way()) streams.out << "\n" << report::text(contact_law_table(runs));
+                    << pages::text(contact_stage_table(runs)) << "\n"
+                    << pages::text(answer_part(run_table)) << "\n"
+                    << pages::text(solution_part(run_table)) << "\n"
+                    << pages::text(contact_slip_table(runs));
+        if (!scene.lift_joints.empty()) streams.out << "\n" << pages::text(contact_lift_table(runs, allowable));
+        if (all.gives_way()) streams.out << "\n" << pages::text(contact_law_table(runs));
         streams.out << "\n" << headline_text(headline);
         for (const std::string& message : run_messages(scene, runs, of_rock))
             streams.out << "note: " << message << "\n";
     }
-    finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
+    finish_output(arguments.out, scene, j.dump(2) + "\n", fields);
+    say_written(arguments.out, streams);
     if (page) {
         std::vector<Table> tables{contact_energy_table(runs), contact_count_table(runs)};
         if (all.gives_way()) tables.insert(tables.begin(), contact_law_table(runs));
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, report::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
+        write_file(file, pages::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
     const bool whole = runs.size() == records.size() * all.polarities();

@@ -1,14 +1,15 @@
 #include "cli/explain_command.hpp"
 
+#include "analysis/fe/contact_cost.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/tied_scheme.hpp"
 #include "cli/ablate_command.hpp"
-#include "cli/run/contact_cost.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/run/tied_scheme.hpp"
-#include "cli/show/acoustic_modes.hpp"
-#include "cli/show/effect_table.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/terminal/usage_error.hpp"
-#include "report/table_text.hpp"
+#include "core/usage_error.hpp"
+#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
@@ -20,6 +21,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -89,13 +92,13 @@ nlohmann::ordered_json cost_json(const ContactCost& cost)
 std::string cost_text(const ContactCost& cost)
 {
     std::string text =
-        report::text(cost.parts) +
+        pages::text(cost.parts) +
         fmt::format("  {} factorisation{} in the set-up, one for each step size after it; no step "
                     "factorises anew.\n  measured here: set-up {:.2g} s",
                     cost.parts.rows.size() - 2, cost.parts.rows.size() == 3 ? "" : "s", cost.set_up_seconds);
     text += cost.seconds_per_step ? fmt::format(", {:.2g} ms a step of strong shaking.\n", 1e3 * *cost.seconds_per_step)
                                   : ".\n";
-    return cost.records.rows.empty() ? text : text + "\n" + report::text(cost.records);
+    return cost.records.rows.empty() ? text : text + "\n" + pages::text(cost.records);
 }
 
 } // namespace
@@ -137,14 +140,14 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     const auto on =
         std::count_if(plan.effects.begin(), plan.effects.end(), [](const PlannedEffect& e) { return e.on; });
     streams.out << scene.title << "\n\n"
-                << report::text(table)
+                << pages::text(table)
                 << fmt::format("\n{} of {} effects on; the others are neither read, built nor stored.\n", on,
                                plan.effects.size());
     if (model)
         streams.out << "\n"
-                    << report::text(model->counts)
+                    << pages::text(model->counts)
                     << "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
-    if (model && !model->joints.rows.empty()) streams.out << "\n" << report::text(model->joints);
+    if (model && !model->joints.rows.empty()) streams.out << "\n" << pages::text(model->joints);
     if (cost) streams.out << "\n" << cost_text(*cost);
     for (const std::string& note : notes) streams.out << "note: " << note << "\n";
     return exit_ok;

@@ -1,10 +1,10 @@
 #include "cli/fe_command.hpp"
 
+#include "analysis/prepare/fe_inputs.hpp"
 #include "cli/contact_run.hpp"
 #include "cli/reduced_command.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "cli/tied_run.hpp"
+#include "core/usage_error.hpp"
 
 #include <fmt/format.h>
 #include <ostream>
@@ -20,6 +20,13 @@ std::vector<int> polarities_of(const FeArguments& arguments, const Scene& scene)
 int shown_polarity(const Scene& scene, int polarity)
 {
     return scene.motion.polarity.value_or(1) * polarity;
+}
+
+void say_written(const std::filesystem::path& folder, const Streams& streams)
+{
+    if (folder.empty() || streams.quiet) return;
+    streams.talk << "written: " << (folder / "summary.json").string()
+                 << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n";
 }
 
 int fe(const FeArguments& arguments, const Streams& streams)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run/run_inputs.hpp"
+#include "cli/input/run_inputs.hpp"
 #include "cli/terminal/streams.hpp"
 
 namespace damslip::cli {
@@ -21,6 +21,9 @@ std::vector<int> polarities_of(const FeArguments& arguments, const Scene& scene)
 
 /// Against the record as it is: that of the scene counted in.
 int shown_polarity(const Scene& scene, int polarity);
+
+/// The line that says where the files are; nothing for an empty folder.
+void say_written(const std::filesystem::path& folder, const Streams& streams);
 
 /// Staged finite-element run of every record of the scene, both polarities beside each other. @returns exit_no_answer when a run did not end properly; what was
 /// computed is written all the same.

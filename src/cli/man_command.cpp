@@ -1,8 +1,9 @@
 #include "cli/man_command.hpp"
 
 #include "cli/arguments.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,14 +1,15 @@
 #include "cli/mesh_command.hpp"
 
-#include "cli/run/fe_inputs.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
+#include "core/usage_error.hpp"
 #include "fe2d/gmsh/write_gmsh.hpp"
 #include "fe2d/mesh/export_mesh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/quality.hpp"
-#include "report/table_text.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -17,6 +18,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -100,7 +103,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
         j["notes"] = note_texts(given.notes);
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << scene.title << "\n\n" << report::text(table);
+        streams.out << scene.title << "\n\n" << pages::text(table);
     }
     return exit_ok;
 }

@@ -1,18 +1,20 @@
 #include "cli/modes_command.hpp"
 
-#include "cli/run/fe_inputs.hpp"
-#include "cli/show/acoustic_modes.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
 #include "core/file.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 #include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
 #include "records/measure/response_spectrum.hpp"
-#include "report/table_text.hpp"
-#include "scene/rock_mass.hpp"
 #include "scene/plausible.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/write.hpp"
 #include "sliding/loads/added_mass.hpp"
 
@@ -25,6 +27,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -236,18 +240,18 @@ int modes(const ModesArguments& arguments, const Streams& streams)
         streams.out << j.dump(2) << "\n";
     } else {
         streams.out << scene.title << "\n\n"
-                    << report::text(answer.frequencies) << "\n"
-                    << report::text(damping.table) << "\n"
-                    << report::text(count_table(model.counts, water ? &*water : nullptr));
-        if (transfer) streams.out << "\n" << report::text(*transfer);
+                    << pages::text(answer.frequencies) << "\n"
+                    << pages::text(damping.table) << "\n"
+                    << pages::text(count_table(model.counts, water ? &*water : nullptr));
+        if (transfer) streams.out << "\n" << pages::text(*transfer);
         for (const std::string& note : notes) streams.out << "note: " << note << "\n";
     }
     if (!arguments.out.empty()) {
         if (!water) write_shapes(arguments.out, model, answer.modes);
         if (transfer)
-            write_file(arguments.out / "transfer_functions.csv",
-                       report::csv(*transfer,
-                                   {"damslip " + program_version() + " modes --frf", "scene " + scene_hash(given)}));
+            write_file(
+                arguments.out / "transfer_functions.csv",
+                pages::csv(*transfer, {"damslip " + program_version() + " modes --frf", "scene " + scene_hash(given)}));
     }
     return answer.complete ? exit_ok : exit_no_answer;
 }

@@ -2,8 +2,8 @@
 
 #include "cli/arguments.hpp"
 #include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "cli/terminal/visible_stream.hpp"
+#include "core/usage_error.hpp"
 
 #include <algorithm>
 #include <new>

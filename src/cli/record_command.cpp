@@ -1,14 +1,15 @@
 #include "cli/record_command.hpp"
 
-#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
+#include "core/usage_error.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
 #include "records/generate/spectrum_file.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/transform/transform.hpp"
 #include "records/write/write_record.hpp"
-#include "report/table_text.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -130,7 +133,7 @@ int record_info(const RecordInfoArguments& arguments, const Streams& streams)
     }
     table.columns.pop_back(); // 64 digits are for machines
     for (auto& row : table.rows) row.pop_back();
-    streams.out << report::text(table);
+    streams.out << pages::text(table);
     return exit_ok;
 }
 
@@ -223,14 +226,14 @@ int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& str
     const Record record = read(arguments.input);
     remark(record, streams);
     const Table table = record_spectrum_table(record, arguments);
-    if (!arguments.out.empty()) write_file(arguments.out, report::csv(table, {table.title}));
+    if (!arguments.out.empty()) write_file(arguments.out, pages::csv(table, {table.title}));
     if (streams.form == Form::json) {
         auto j = json_header("record-spectrum");
         j["damping_ratio"] = arguments.ratio;
         j["points"] = json_of(table);
         streams.out << j.dump(2) << "\n";
     } else if (arguments.out.empty()) {
-        streams.out << report::text(table);
+        streams.out << pages::text(table);
     }
     return exit_ok;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/terminal/streams.hpp"
+#include "core/table.hpp"
 #include "records/generate/generate.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/baseline.hpp"

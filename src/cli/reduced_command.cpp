@@ -1,20 +1,21 @@
 #include "cli/reduced_command.hpp"
 
-#include "cli/run/contact_options.hpp"
-#include "cli/run/reducible.hpp"
-#include "cli/show/contact_tables.hpp"
-#include "cli/show/effect_table.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/show/fe_report.hpp"
-#include "cli/show/reduced_report.hpp"
-#include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/progress.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
+#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/fe_report.hpp"
+#include "pages/fe/reduced_report.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -24,6 +25,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -95,9 +98,9 @@ void write_history(const std::filesystem::path& folder, const Scene& scene, cons
 {
     const ContactRun as_full = as_contact_run(run);
     write_file(folder / ("history_" + file_word(run.record) + as_full.suffix() + ".csv"),
-               report::csv(history_table(run.result.history),
-                           {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
-                            "record " + as_full.label(), "status " + word(run.result.status)}));
+               pages::csv(history_table(run.result.history),
+                          {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                           "record " + as_full.label(), "status " + word(run.result.status)}));
 }
 
 } // namespace
@@ -107,15 +110,15 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
 {
     check_reducible(scene);
     SeepageSource seepage;
-    const InterruptGuard interrupt;
+    TerminalWatch watch(streams);
     fe2d::RunOptions options = contact_options(scene, records, seepage);
     options.progress = [&](const fe2d::RunProgress&) {
-        return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+        return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
-    options.stop = streams.stop;
+    options.stop = watch.stop();
     const std::vector<int> polarities = polarities_of(arguments, scene);
-    Progress progress(streams, "fe --reduced", records.size() * polarities.size());
-    progress.phase("set-up");
+    watch.begin("fe --reduced", static_cast<double>(records.size() * polarities.size()));
+    watch.phase("set-up");
     const fe2d::EarthquakeRun full(scene, options);
     const int modes = arguments.modes.value_or(fe2d::default_modes);
     const fe2d::ReducedRun model(full, scene, options, modes);
@@ -124,7 +127,7 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
 
     std::vector<ReducedRecord> runs;
     for (const RecordPair& pair : records) {
-        if (interrupt.interrupted()) break;
+        if (watch.stop_asked()) break;
         std::vector<ReducedRecord> both(polarities.size());
         parallel_for(polarities.size(), 0, [&](std::size_t i) {
             ReducedRecord& run = both[i];
@@ -133,20 +136,20 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
             run.polarity = shown_polarity(scene, polarities[i]);
             run.both = polarities.size() > 1;
             run.result = model.run(run.motion);
-            interrupt.results_at_hand();
+            watch.results_at_hand();
             run.mesh = coarser.error_of(run.result, run.motion);
             if (rigid.state == sliding::StaticState::at_rest) run.rigid = slide_model(scene, rigid, run.motion, 1);
-            progress.advance();
+            watch.advance(1);
         });
         for (ReducedRecord& run : both) {
             runs.push_back(std::move(run));
             if (!arguments.out.empty()) write_history(arguments.out, scene, runs.back());
         }
     }
-    progress.end();
+    watch.end();
     const std::vector<ContactRun> list = as_contact_runs(runs);
     const Table table = reduced_table(runs, scene.criteria.allowable_slip);
-    const report::Headline headline = fe_headline(scene, list, "step and modes");
+    const pages::Headline headline = fe_headline(scene, list, "step and modes");
     std::vector<std::string> messages = note_texts(scene.notes);
     for (const ContactRun& run : list)
         if (run.fe.status != Status::at_rest) messages.push_back(run.label() + ": " + run.fe.message);
@@ -166,17 +169,18 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     if (streams.form == Form::json)
         streams.out << j.dump(2) << "\n";
     else {
-        streams.out << scene.title << "\n\n" << report::text(count_table(full.model().counts));
-        streams.out << report::text(contact_stage_table(list)) << "\n"
-                    << report::text(table) << "\n"
+        streams.out << scene.title << "\n\n" << pages::text(count_table(full.model().counts));
+        streams.out << pages::text(contact_stage_table(list)) << "\n"
+                    << pages::text(table) << "\n"
                     << headline_text(headline);
         for (const std::string& message : messages) streams.out << "note: " << message << "\n";
     }
     FieldSeries fields(arguments.out, full.model()); // without instants: the reduced run keeps no shapes
-    finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
+    finish_output(arguments.out, scene, j.dump(2) + "\n", fields);
+    say_written(arguments.out, streams);
     if (!arguments.out.empty()) {
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, report::page_html(
+        write_file(file, pages::page_html(
                              reduced_page({scene, plan, records, full, rigid, options.uplift, runs, table, messages})));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }

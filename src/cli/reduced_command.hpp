@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/fe_command.hpp"
-#include "cli/run/run_inputs.hpp"
+#include "cli/input/run_inputs.hpp"
 
 namespace damslip::cli {
 

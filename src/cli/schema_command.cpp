@@ -1,6 +1,6 @@
 #include "cli/schema_command.hpp"
 
-#include "cli/terminal/usage_error.hpp"
+#include "core/usage_error.hpp"
 #include "scene/document.hpp"
 
 #include <ostream>

@@ -1,13 +1,15 @@
 #include "cli/screen_command.hpp"
 
-#include "cli/show/effect_table.hpp"
-#include "cli/show/lift_joint_table.hpp"
-#include "cli/show/screen_report.hpp"
-#include "cli/show/screen_tables.hpp"
-#include "cli/show/wedge_tables.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "core/file.hpp"
-#include "report/table_text.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/screen/lift_joint_table.hpp"
+#include "pages/screen/screen_report.hpp"
+#include "pages/screen/screen_tables.hpp"
+#include "pages/screen/wedge_tables.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
@@ -18,6 +20,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -91,7 +95,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
     out << scene.title << "   (" << scene.file.string() << ", scene " << scene_hash(scene).substr(0, 12) << ")\n"
         << effects_line(s.plan) << "\n";
     const auto show = [&out](const Table& table) {
-        if (!table.rows.empty()) out << report::text(table) << "\n";
+        if (!table.rows.empty()) out << pages::text(table) << "\n";
     };
     if (scene.wedge) {
         const RigidModel& model = s.bases.front().model;
@@ -104,7 +108,7 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
         for (const std::string& warning : s.warnings) out << "note: " << warning << "\n";
         return;
     }
-    out << report::text_by_columns(sliding::equilibrium_table(s.combinations), 3) << "\n";
+    out << pages::text_by_columns(sliding::equilibrium_table(s.combinations), 3) << "\n";
     const Table verdicts = judged(sliding::verdict_table(s.combinations));
     if (verdicts.rows.empty())
         out << "verdicts: no required values are given; name criteria.document, or required_... in [[combination]]\n\n";
@@ -152,12 +156,12 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     if (!arguments.out.empty()) {
         write_file(arguments.out / "summary.json", summary(given, scene, s, records).dump(2) + "\n");
         write_file(arguments.out / "displacements.csv",
-                   report::csv(slip_table(s, scene.criteria.allowable_slip),
-                               {"damslip " + program_version(), "scene " + scene_hash(scene)}));
+                   pages::csv(slip_table(s, scene.criteria.allowable_slip),
+                              {"damslip " + program_version(), "scene " + scene_hash(scene)}));
         if (s.flexible)
             write_file(arguments.out / "flexible_block.csv",
-                       report::csv(flexible_table(s, scene.criteria.allowable_slip),
-                                   {"damslip " + program_version(), "scene " + scene_hash(scene)}));
+                       pages::csv(flexible_table(s, scene.criteria.allowable_slip),
+                                  {"damslip " + program_version(), "scene " + scene_hash(scene)}));
         write_file(arguments.out / "scene.resolved.toml", resolved_toml(given));
         const std::filesystem::path page = arguments.out / "report.html";
         write_file(page, screen_report({given, scene, s, records, arguments.jobs}));

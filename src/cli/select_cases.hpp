@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/terminal/usage_error.hpp"
+#include "core/usage_error.hpp"
 
 #include <fmt/format.h>
 #include <string>

@@ -1,16 +1,19 @@
 #include "cli/study_command.hpp"
 
-#include "cli/study/study_page.hpp"
-#include "cli/sweep/sweep_arguments.hpp"
-#include "cli/sweep/sweep_identity.hpp"
-#include "cli/sweep/sweep_rows_view.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/sweep/sweep_identity.hpp"
+#include "cli/input/make_axes.hpp"
+#include "cli/input/sweep_arguments.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
+#include "core/usage_error.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/sweep/sweep_rows_view.hpp"
 #include "records/measure/peaks.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
+#include "study/study_page.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +22,9 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
+using namespace study;
 
 namespace {
 
@@ -101,15 +107,16 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const std::vector<RecordPair> records = read_records(called_for(plan, scene), plan);
 
     // 2. its rows
-    const FeSweepInputs inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
+    const SweepInputs inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
     check_fe_scenes(inputs);
-    const SweepIdentity identity = sweep_identity(sweep, scene, axes, tasks);
+    const SweepIdentity identity = sweep_identity(inputs);
     std::filesystem::create_directories(arguments.out);
     Journal journal(journal_of(sweep.out), identity, {}, arguments.resume ? JournalStart::resume : JournalStart::fresh);
     const Grid grid = make_grid(scene, axes, tasks, records, arguments.jobs);
     std::vector<std::size_t> wanted(tasks.rows());
     std::iota(wanted.begin(), wanted.end(), 0u);
-    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, &journal, arguments.jobs, streams);
+    TerminalWatch watch(streams);
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, &journal, arguments.jobs, watch);
     if (!outcome.complete()) {
         streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
                                     outcome.rows.size(), outcome.wanted);
@@ -126,13 +133,13 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const std::vector<Finding> findings = study_findings({scene, rows, uplifts, modes, regressions, pga});
 
     std::vector<SettingsStep> settings;
-    if (axes.finite_elements()) settings = settings_ladder(scene, records, arguments.jobs, streams);
+    if (axes.finite_elements()) settings = settings_ladder(scene, records, arguments.jobs, watch);
 
     // 4. files
-    write_file(sweep.out, report::csv(table, csv_comments(identity)));
-    write_file(arguments.out / "findings.csv", report::csv(findings_table(findings)));
+    write_file(sweep.out, pages::csv(table, csv_comments(identity)));
+    write_file(arguments.out / "findings.csv", pages::csv(findings_table(findings)));
     const std::filesystem::path page = arguments.out / "report.html";
-    write_file(page, report::page_html(
+    write_file(page, pages::page_html(
                          study_page({scene, rows, table, records, uplifts, modes, regressions, findings, settings})));
     journal.mark_done();
     if (streams.form == Form::json)

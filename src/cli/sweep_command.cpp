@@ -1,13 +1,16 @@
 #include "cli/sweep_command.hpp"
 
-#include "cli/sweep/sweep_comparison.hpp"
-#include "cli/sweep/sweep_parts.hpp"
-#include "cli/sweep/sweep_plan.hpp"
-#include "cli/sweep/sweep_report.hpp"
-#include "cli/sweep/sweep_rows_view.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "cli/input/make_axes.hpp"
+#include "cli/sweep_parts.hpp"
+#include "cli/sweep_plan.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
-#include "report/table_text.hpp"
+#include "core/usage_error.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/sweep/sweep_comparison.hpp"
+#include "pages/sweep/sweep_report.hpp"
+#include "pages/sweep/sweep_rows_view.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -17,6 +20,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -155,10 +160,10 @@ constexpr std::size_t most_compared = 100; ///< lines that people read
 void talk_of(const FeSweepCounts& c, const Table& compared, const Streams& streams)
 {
     if (compared.rows.size() <= most_compared)
-        streams.talk << "\n" << report::text(compared) << "\n";
+        streams.talk << "\n" << pages::text(compared) << "\n";
     else
         streams.talk << fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
-    streams.talk << report::text(count_table(c));
+    streams.talk << pages::text(count_table(c));
     for (const std::string& choice : c.choices) streams.talk << "  " << choice << "\n";
     streams.talk << fmt::format(
         "  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
@@ -218,10 +223,10 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     else if (job.shard) {
         const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
         put(job.out,
-            part_text(identity, *job.shard, report::csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
+            part_text(identity, *job.shard, pages::csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
             streams);
     } else {
-        put(job.out, report::csv(table, csv_comments(identity)), streams);
+        put(job.out, pages::csv(table, csv_comments(identity)), streams);
     }
     if (!streams.quiet) {
         if (outcome.fe && !job.shard) talk_of(*outcome.fe, comparison(job.scene, grid, outcome), streams);
@@ -236,16 +241,17 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
 int run(const Job& job, const std::vector<RecordPair>& records, const Streams& streams)
 {
     const SweepArguments& a = job.arguments;
-    const FeSweepInputs inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness};
+    const SweepInputs inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness};
     check_fe_scenes(inputs);
-    const SweepIdentity identity = sweep_identity(a, job.scene, job.axes, job.tasks);
+    const SweepIdentity identity = sweep_identity(inputs);
     const std::vector<std::size_t> wanted = shard_rows(job.tasks, job.shard.value_or(Shard{}));
     std::optional<Journal> journal;
     if (!job.out.empty())
         journal.emplace(journal_of(job.out), identity, job.shard.value_or(Shard{}),
                         a.resume ? JournalStart::resume : JournalStart::fresh);
     const Grid grid = make_grid(job.scene, job.axes, job.tasks, records, a.jobs);
-    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, journal ? &*journal : nullptr, a.jobs, streams);
+    TerminalWatch watch(streams);
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, journal ? &*journal : nullptr, a.jobs, watch);
     if (journal) talk_of_journal(*journal, outcome, streams);
     if (journal && !outcome.complete()) { // a table with gaps would look like the whole
         streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",

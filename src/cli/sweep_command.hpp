@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/sweep/sweep_arguments.hpp"
+#include "cli/input/sweep_arguments.hpp"
 #include "cli/terminal/streams.hpp"
 
 namespace damslip::cli {

@@ -1,17 +1,13 @@
 #include "cli/tied_run.hpp"
 
-#include "cli/run/fe_inputs.hpp"
-#include "cli/run/rock_warnings.hpp"
-#include "cli/run/tied_scheme.hpp"
-#include "cli/show/acoustic_modes.hpp"
-#include "cli/show/effect_table.hpp"
-#include "cli/show/fe_output.hpp"
-#include "cli/show/tied_report.hpp"
-#include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/progress.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/rock_warnings.hpp"
+#include "analysis/prepare/tied_scheme.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/stopwatch.hpp"
+#include "core/usage_error.hpp"
+#include "core/version.hpp"
 #include "fe2d/model/held_edges.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/coupled_structure.hpp"
@@ -19,10 +15,15 @@
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "fe2d/time/structure_system.hpp"
-#include "report/page_html.hpp"
-#include "report/table_text.hpp"
-#include "scene/rock_mass.hpp"
+#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/tied_report.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
 #include "scene/plausible.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -32,6 +33,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -130,7 +133,7 @@ fe2d::HeldStart start_of(const TiedModels& models, const Eigen::VectorXd& load, 
 
 TiedRun run_record(const Scene& scene, const TiedModels& models, const fe2d::FluidModel* water,
                    const fe2d::HeldStart& start_state, const Eigen::Vector2d& resultant, const GroundMotion& motion,
-                   int polarity, const InterruptGuard& interrupt, const Streams& streams)
+                   int polarity, Watch& watch)
 {
     const fe2d::Model& damped = models.damped();
     TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
@@ -143,17 +146,18 @@ TiedRun run_record(const Scene& scene, const TiedModels& models, const fe2d::Flu
     options.static_load = start_state.load;
     options.start_displacement = start_state.displacement;
     options.static_resultant = resultant;
-    Progress progress(streams, motion.name, 1000);
+    watch.begin(motion.name, 1000);
     std::size_t shown = 0;
     options.progress = [&](const fe2d::RunProgress& p) {
         const auto now = static_cast<std::size_t>(1000 * p.step / std::max<std::int64_t>(1, p.steps));
-        if (now > shown) progress.advance(now - shown);
+        if (now > shown) watch.advance(static_cast<double>(now - shown));
         shown = now;
-        return interrupt.interrupted() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+        return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;
     const TiedScheme chosen = tied_scheme(scene, motion, options);
     run.history = integrate_by(chosen.scheme, models.moving(), motion, options);
+    watch.end();
     run.seconds = start.seconds();
     if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);
     if (models.on_free_edges && run.history.displacement.size() > 0)
@@ -191,22 +195,22 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
     FieldSeries fields(arguments.out, model);
     for (const fe2d::StaticStage& s : statics.stages) fields.add(s.name, 0.0, s.displacement, s.elastic);
     const fe2d::HeldStart start = start_of(models, load, statics);
-    const InterruptGuard interrupt;
+    TerminalWatch watch(streams);
     std::vector<TiedRun> runs;
     for (const RecordPair& pair : records) {
-        if (interrupt.interrupted()) break;
+        if (watch.stop_asked()) break;
         runs.push_back(run_record(scene, models, water ? &*water : nullptr, start, resultant,
                                   ground_motion(scene, pair, 1.0, arguments.polarity.value_or(1)),
-                                  shown_polarity(scene, arguments.polarity.value_or(1)), interrupt, streams));
-        interrupt.results_at_hand();
+                                  shown_polarity(scene, arguments.polarity.value_or(1)), watch));
+        watch.results_at_hand();
         const TiedRun& r = runs.back();
         if (r.history.displacement.size())
             fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
                        r.history.displacement, r.history.displacement);
         if (!arguments.out.empty())
             write_file(arguments.out / ("history_" + file_word(r.record) + ".csv"),
-                       report::csv(fe2d::tabulate(r.history), {"damslip " + program_version() + " fe --base tied",
-                                                               "scene " + scene_hash(scene), "record " + r.record}));
+                       pages::csv(fe2d::tabulate(r.history), {"damslip " + program_version() + " fe --base tied",
+                                                              "scene " + scene_hash(scene), "record " + r.record}));
     }
     if (water)
         for (TiedRun& r : runs) {
@@ -230,14 +234,15 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
         streams.out << j.dump(2) << "\n";
     else {
         streams.out << scene.title << "\n\n"
-                    << report::text(counts) << "\n"
-                    << report::text(stage_table(model, statics)) << "\n"
-                    << report::text(run_table(runs));
+                    << pages::text(counts) << "\n"
+                    << pages::text(stage_table(model, statics)) << "\n"
+                    << pages::text(run_table(runs));
         for (const std::string& message : messages) streams.out << "note: " << message << "\n";
         for (const TiedRun& r : runs)
             for (const std::string& note : r.notes) streams.out << "note: " << r.record << ": " << note << "\n";
     }
-    finish_output(arguments.out, scene, j.dump(2) + "\n", fields, streams);
+    finish_output(arguments.out, scene, j.dump(2) + "\n", fields);
+    say_written(arguments.out, streams);
     if (!arguments.out.empty()) {
         Polyline none; // a bonded base takes its uplift with the loads
         const FePageFrame frame{
@@ -250,9 +255,9 @@ int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan&
             "finite elements, base bonded to the rock",
             fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};
         const std::filesystem::path file = arguments.out / "report.html";
-        report::Page page = tied_page(frame, runs, stage_table(model, statics), run_table(runs));
+        pages::Page page = tied_page(frame, runs, stage_table(model, statics), run_table(runs));
         page.warnings.insert(page.warnings.begin(), messages.begin(), messages.end());
-        write_file(file, report::page_html(page));
+        write_file(file, pages::page_html(page));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
     const bool all = runs.size() == records.size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {

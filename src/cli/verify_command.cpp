@@ -4,14 +4,17 @@
 #include "cli/terminal/progress.hpp"
 #include "cli/verify_hard.hpp"
 #include "core/stopwatch.hpp"
-#include "report/table_text.hpp"
-#include "verification/registry.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "verification/cases/registry.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -82,7 +85,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
     std::size_t checks = 0, failed = 0;
     double seconds = 0.0;
     {
-        Progress progress(streams, "verify", selected.size());
+        Progress progress(streams, "verify", static_cast<double>(selected.size()));
         for (const Case* c : selected) {
             const Stopwatch start;
             outcomes.push_back({c, c->run(), 0.0});
@@ -90,7 +93,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
             seconds += outcomes.back().seconds;
             checks += outcomes.back().checks.size();
             for (const Check& check : outcomes.back().checks) failed += check.passed() ? 0 : 1;
-            progress.advance();
+            progress.advance(1);
         }
     }
     if (arguments.markdown) {
@@ -104,7 +107,7 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
         j["results"] = json_of(table_of(outcomes));
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << report::text(table_of(outcomes))
+        streams.out << pages::text(table_of(outcomes))
                     << fmt::format("{} cases, {} checks, {} failed, {:.2f} s\n", outcomes.size(), checks, failed,
                                    seconds);
     }

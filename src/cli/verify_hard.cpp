@@ -3,8 +3,9 @@
 #include "cli/select_cases.hpp"
 #include "cli/terminal/progress.hpp"
 #include "core/stopwatch.hpp"
-#include "hard/hard_case.hpp"
-#include "report/table_text.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "verification/hard/hard_case.hpp"
 
 #include <cmath>
 #include <limits>
@@ -14,6 +15,8 @@
 #include <ostream>
 
 namespace damslip::cli {
+
+using namespace pages;
 
 namespace {
 
@@ -68,14 +71,14 @@ int verify_hard(const std::string& filter, const Streams& streams)
     double seconds = 0.0;
     std::size_t failed = 0;
     {
-        Progress progress(streams, "verify --hard", selected.size());
+        Progress progress(streams, "verify --hard", static_cast<double>(selected.size()));
         for (const HardCase* c : selected) {
             const Stopwatch start;
             outcomes.push_back({c, c->run(), 0.0});
             outcomes.back().seconds = start.seconds();
             seconds += outcomes.back().seconds;
             failed += outcomes.back().passed() ? 0 : 1;
-            progress.advance();
+            progress.advance(1);
         }
     }
     if (streams.form == Form::json) {
@@ -86,7 +89,7 @@ int verify_hard(const std::string& filter, const Streams& streams)
         j["results"] = json_of(hard_table(outcomes));
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << report::text(hard_table(outcomes))
+        streams.out << pages::text(hard_table(outcomes))
                     << fmt::format("{} hard cases, {} failed, {:.2f} s\n", outcomes.size(), failed, seconds);
     }
     return failed == 0 ? exit_ok : exit_no_answer;

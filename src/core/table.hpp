@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -18,7 +19,13 @@ struct Column {
 /// Nothing (not defined here; printed as "–", null in JSON, empty in CSV), a number, a count, a word, yes/no.
 using Cell = std::variant<std::monostate, double, std::int64_t, std::string, bool>;
 
-/// Results by name and unit; made by the modules' callers, rendered by report/.
+/// The number in a unit; nothing where it is not finite.
+inline Cell finite_cell(double x, double unit = 1.0)
+{
+    return std::isfinite(x) ? Cell(x / unit) : Cell();
+}
+
+/// Results by name and unit; made by the modules' callers, rendered by pages/.
 struct Table {
     std::string title;
     std::vector<Column> columns;

@@ -3,7 +3,7 @@
 #include "fe2d/time/explicit_run.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/modal_run.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Wrong command lines and the exact words their users read.
+#include "cli/input/number_list.hpp"
 #include "cli/program.hpp"
-#include "cli/sweep/number_list.hpp"
-#include "cli/terminal/usage_error.hpp"
+#include "core/usage_error.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -74,7 +74,7 @@ TEST(CliInput, NumberLists)
               (std::vector<double>{0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0}));
     EXPECT_EQ(cli::number_list("3:1:-1,7", "--level"), (std::vector<double>{3, 2, 1, 7}));
     for (const char* bad : {"", "a", "1,", "1:2", "1:2:0", "1:2:-1", "nan", "inf", "0:1e9:1e-9", "1:2:3:4"})
-        EXPECT_THROW(cli::number_list(bad, "--friction"), cli::UsageError) << bad;
+        EXPECT_THROW(cli::number_list(bad, "--friction"), UsageError) << bad;
 }
 
 TEST(CliInput, SweepRefusesWhatTheSceneLacks)

@@ -1,7 +1,7 @@
 // Bad wishes to `record generate`, `scale`, `baseline`, `spectrum`, and what is answered.
 #include "cli/record_command.hpp"
-#include "cli/terminal/usage_error.hpp"
 #include "core/input_error.hpp"
+#include "core/usage_error.hpp"
 #include "records/generate/spectrum_file.hpp"
 
 #include <functional>

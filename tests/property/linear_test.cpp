@@ -4,7 +4,7 @@
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/integrate.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

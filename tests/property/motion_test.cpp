@@ -4,7 +4,7 @@
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "drawn_scene.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/equilibrium/base_state.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

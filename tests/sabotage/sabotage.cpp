@@ -1,7 +1,7 @@
 // A program with one defect of core/defect.hpp: the named verification case must see it.
 //
 // exit codes: 0 some check of the case fails (what is wanted), 1 all pass, 2 no such case, 3 the case throws
-#include "verification/registry.hpp"
+#include "verification/cases/registry.hpp"
 
 #include <cstdio>
 #include <exception>

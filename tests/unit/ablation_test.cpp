@@ -1,6 +1,6 @@
 // `damslip explain --ablate`: the scenes it makes, what it says of their runs, and that it says so again.
-#include "cli/ablation/ablation.hpp"
-#include "cli/ablation/ablation_rows.hpp"
+#include "analysis/ablation/ablation.hpp"
+#include "analysis/ablation/ablation_rows.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
 #include "sweep_scene.hpp"
@@ -13,8 +13,6 @@
 namespace {
 
 using namespace damslip;
-using cli::AblationPlan;
-using cli::make_ablations;
 using sweep_tests::Answer;
 using sweep_tests::content_of;
 using sweep_tests::SweepScene;
@@ -162,11 +160,11 @@ TEST(Ablation, EveryActiveEffectOnceAndNoAbsentOne)
             for (const PlannedEffect& e : make_effect_plan(parsed(text), method).effects)
                 if (e.on) on.push_back(e.name);
             const AblationPlan plan = ablations_of(text, method);
-            for (const cli::Ablation& a : plan.removals) {
+            for (const Ablation& a : plan.removals) {
                 seen.push_back(a.name);
                 EXPECT_FALSE(a.instead.empty()) << a.name;
             }
-            for (const cli::KeptEffect& k : plan.kept) {
+            for (const KeptEffect& k : plan.kept) {
                 seen.push_back(k.name);
                 EXPECT_FALSE(k.why.empty()) << k.name;
             }
@@ -191,13 +189,13 @@ TEST(Ablation, RemovalTurnsOffItsEffectAndNoOther)
     for (const std::string& text : {rich_text, other_text, wave_text})
         for (const Method method : {Method::rigid_block, Method::finite_elements}) {
             const AblationPlan plan = ablations_of(text, method);
-            for (const cli::Ablation& a : plan.removals) {
+            for (const Ablation& a : plan.removals) {
                 SCOPED_TRACE(a.name);
                 const EffectPlan after = make_effect_plan(a.scene, method);
                 const bool stiff_water =
                     a.effect == Effect::water_compressibility && a.scene.reservoir->model == ReservoirModel::acoustic;
                 EXPECT_EQ(after.on(a.effect), stiff_water || a.effect == Effect::lift_off);
-                for (const cli::Ablation& other : plan.removals) {
+                for (const Ablation& other : plan.removals) {
                     const bool goes_with_it =
                         other.part_of == a.effect || a.effect == Effect::vertical_motion ||
                         (a.effect == Effect::seepage && other.effect == Effect::curtain_sealing) ||
@@ -216,7 +214,7 @@ TEST(Ablation, EveryRemovalIsASceneThatAFileCanHold)
         for (const Method method : {Method::rigid_block, Method::finite_elements}) {
             const AblationPlan plan = ablations_of(text, method);
             std::vector<std::pair<std::string, Scene>> scenes{{"all removed", *plan.simplest}};
-            for (const cli::Ablation& a : plan.removals) scenes.emplace_back(a.name, a.scene);
+            for (const Ablation& a : plan.removals) scenes.emplace_back(a.name, a.scene);
             for (const auto& [name, scene] : scenes) {
                 SCOPED_TRACE(name);
                 std::string back;
@@ -231,17 +229,17 @@ TEST(Ablation, EveryRemovalIsASceneThatAFileCanHold)
 TEST(Ablation, StepErrorIsExactForFirstOrder)
 {
     const auto slip = [](int halvings) { return 0.2 + 0.03 * std::exp2(-halvings); };
-    EXPECT_NEAR(cli::difference_error({3, 2, true, 0.0}, slip(3), slip(2)), slip(3) - 0.2, 1e-15);
-    EXPECT_NEAR(cli::difference_error({0, 1, false, 0.0}, slip(0), slip(1)), slip(0) - 0.2, 1e-15);
+    EXPECT_NEAR(difference_error({3, 2, true, 0.0}, slip(3), slip(2)), slip(3) - 0.2, 1e-15);
+    EXPECT_NEAR(difference_error({0, 1, false, 0.0}, slip(0), slip(1)), slip(0) - 0.2, 1e-15);
 }
 
 TEST(Ablation, ChangeWithoutASlipOnEitherSideIsNone)
 {
-    EXPECT_FALSE(cli::change_from(1.0, std::nullopt).change);
-    EXPECT_FALSE(cli::change_from(std::nullopt, 1.0).change);
-    EXPECT_DOUBLE_EQ(*cli::change_from(-2.0, 1.0).percent, 150.0); // of the size of the full scene's
-    EXPECT_FALSE(cli::change_from(0.0, 1.0).percent);
-    EXPECT_DOUBLE_EQ(*cli::change_from(0.0, 1.0).change, 1.0);
+    EXPECT_FALSE(change_from(1.0, std::nullopt).change);
+    EXPECT_FALSE(change_from(std::nullopt, 1.0).change);
+    EXPECT_DOUBLE_EQ(*change_from(-2.0, 1.0).percent, 150.0); // of the size of the full scene's
+    EXPECT_FALSE(change_from(0.0, 1.0).percent);
+    EXPECT_DOUBLE_EQ(*change_from(0.0, 1.0).change, 1.0);
 }
 
 /// The scene of the sweep tests with its own ablations.
@@ -381,7 +379,8 @@ TEST_F(AblateScene, RigidRowsAreThoseOfScenesEditedByHand)
 TEST_F(AblateScene, RowWithoutEquilibriumSaysSo)
 {
     const std::string text = content("block.toml");
-    const std::string file = edited("held.toml", text, "friction = 0.1", "friction = 0.005\ncohesion_kPa = 2000"); // it never breaks
+    const std::string file =
+        edited("held.toml", text, "friction = 0.1", "friction = 0.005\ncohesion_kPa = 2000"); // it never breaks
     for (const std::string method : {"rigid", "fe"}) {
         const Answer a = ablate(file, {"--method", method});
         ASSERT_EQ(a.code, 0) << a.talk; // a recognised static failure is an answer

@@ -1,9 +1,9 @@
 // What the ladder says that steps and meshes leave open, beside the true error on scenes whose slip is known from much
 // finer runs; and the rung it names, run again.
-#include "cli/accuracy/climb.hpp"
-#include "cli/accuracy/judge.hpp"
-#include "cli/accuracy/rung_runner.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "analysis/accuracy/climb.hpp"
+#include "analysis/accuracy/judge.hpp"
+#include "analysis/accuracy/rung_runner.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,6 @@
 namespace {
 
 using namespace damslip;
-using cli::RungResult;
-using cli::RungWater;
 
 /// A scene whose slip is known from much finer steps and meshes than the ladder's.
 struct KnownScene {
@@ -61,10 +59,10 @@ std::vector<KnownScene> known_scenes()
 }
 
 /// A burst of sines of 5 s, with its vertical component.
-std::vector<cli::RecordPair> burst(double pga)
+std::vector<RecordPair> burst(double pga)
 {
     const GroundMotion motion = fe2d::test::sines(pga, 5.0, 7);
-    cli::RecordPair pair;
+    RecordPair pair;
     pair.files.name = motion.name;
     pair.horizontal.dt = motion.dt;
     pair.horizontal.acceleration = motion.accel_h;
@@ -73,10 +71,10 @@ std::vector<cli::RecordPair> burst(double pga)
     return {pair};
 }
 
-cli::Rung plain(RungWater water, int halvings, double mesh)
+Rung plain(RungWater water, int halvings, double mesh)
 {
-    cli::Rung rung;
-    rung.family = cli::RungFamily::finite_elements;
+    Rung rung;
+    rung.family = RungFamily::finite_elements;
     rung.water = water;
     rung.halvings = halvings;
     rung.mesh = mesh;
@@ -85,23 +83,23 @@ cli::Rung plain(RungWater water, int halvings, double mesh)
 
 /// The slip with steps of dt/2^8, or dt/2^4 on elements of an eighth: its own error is below a tenth of those
 /// that are judged.
-double true_slip(const KnownScene& known, const cli::RungRunner& runner)
+double true_slip(const KnownScene& known, const RungRunner& runner)
 {
     const RungResult finest = runner.run(known.meshes ? plain(known.water, 4, 0.125) : plain(known.water, 8, 1.0));
     return finest.done() ? finest.slip.front() : std::nan("");
 }
 
-std::vector<RungResult> climb(const KnownScene& known, const cli::RungRunner& runner)
+std::vector<RungResult> climb(const KnownScene& known, const RungRunner& runner)
 {
-    cli::LadderFacts facts; // the model's own steps and meshes; nothing else
+    LadderFacts facts; // the model's own steps and meshes; nothing else
     facts.waters = {known.water};
     facts.coarsest = known.meshes ? 2.0 : 1.0;
-    cli::ClimbOptions options;
+    ClimbOptions options;
     options.repeats = 1;
-    options.ladder.effort = known.meshes ? cli::Effort::full : cli::Effort::quick;
-    cli::ClimbCalls calls;
-    calls.run = [&](const cli::Rung& rung) { return runner.run(rung); };
-    return cli::climb(facts, options, calls);
+    options.ladder.effort = known.meshes ? Effort::full : Effort::quick;
+    ClimbCalls calls;
+    calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    return climb(facts, options, calls);
 }
 
 class AccuracyEstimate : public testing::TestWithParam<std::size_t> {};
@@ -112,15 +110,15 @@ class AccuracyEstimate : public testing::TestWithParam<std::size_t> {};
 TEST_P(AccuracyEstimate, IsWithinAFactorOfTwoOfTheError)
 {
     const KnownScene known = known_scenes()[GetParam()];
-    const cli::RungRunner runner(known.scene, burst(known.pga), 0.0, [] { return false; });
+    const RungRunner runner(known.scene, burst(known.pga), 0.0, [] { return false; });
     const std::vector<RungResult> results = climb(known, runner);
-    const cli::Judgement judgement = cli::judge(results, 0.02);
+    const Judgement judgement = judge(results, 0.02);
     const double truth = true_slip(known, runner);
     int judged = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
         const RungResult& r = results[i];
-        if (r.rung.family != cli::RungFamily::finite_elements || !r.rung.plain()) continue;
-        SCOPED_TRACE(cli::rung_id(r.rung));
+        if (r.rung.family != RungFamily::finite_elements || !r.rung.plain()) continue;
+        SCOPED_TRACE(rung_id(r.rung));
         ASSERT_TRUE(r.done()) << r.remark;
         const double error = std::abs(r.slip.front() - truth), estimate = judgement.rungs[i].error.value();
         if (error < 1e-3 * std::abs(truth)) continue;
@@ -141,25 +139,25 @@ TEST(AccuracyRun, TheNamedRungRunAgainIsWithinTheTolerance)
     Scene scene = coarse_dam(0.70);
     scene.reservoir->model = ReservoirModel::automatic;
     scene.reservoir->length = 75.0;
-    const cli::RungRunner runner(scene, burst(1.5), 0.0, [] { return false; });
-    const cli::LadderFacts facts = runner.facts();
+    const RungRunner runner(scene, burst(1.5), 0.0, [] { return false; });
+    const LadderFacts facts = runner.facts();
     EXPECT_EQ(facts.waters, (std::vector<RungWater>{RungWater::added_mass, RungWater::acoustic}));
     EXPECT_TRUE(facts.vertical);
     EXPECT_TRUE(facts.reducible);
-    cli::ClimbOptions options;
+    ClimbOptions options;
     options.repeats = 1;
-    options.ladder.effort = cli::Effort::quick;
-    cli::ClimbCalls calls;
-    calls.run = [&](const cli::Rung& rung) { return runner.run(rung); };
-    const std::vector<RungResult> results = cli::climb(facts, options, calls);
-    for (const RungResult& r : results) EXPECT_TRUE(r.done()) << cli::rung_id(r.rung) << ": " << r.remark;
+    options.ladder.effort = Effort::quick;
+    ClimbCalls calls;
+    calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    const std::vector<RungResult> results = climb(facts, options, calls);
+    for (const RungResult& r : results) EXPECT_TRUE(r.done()) << rung_id(r.rung) << ": " << r.remark;
     double before = std::numeric_limits<double>::infinity();
     int named = 0;
     for (const double tolerance : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0}) {
-        const cli::Judgement j = cli::judge(results, tolerance);
+        const Judgement j = judge(results, tolerance);
         if (!j.choice) continue;
         ++named;
-        const RungResult again = runner.run(*cli::parse_rung(cli::rung_id(results[*j.choice].rung)));
+        const RungResult again = runner.run(*parse_rung(rung_id(results[*j.choice].rung)));
         EXPECT_EQ(again.slip, results[*j.choice].slip);
         const double top = results[*j.top].slip.front();
         EXPECT_LE(std::abs(again.slip.front() - top), tolerance * std::abs(top));

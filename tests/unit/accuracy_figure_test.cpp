@@ -1,13 +1,15 @@
 // What the ladder's figure, tables and sentence say of a few results that are made up.
-#include "cli/accuracy/accuracy_tables.hpp"
-#include "cli/accuracy/cost_figure.hpp"
+#include "pages/accuracy/accuracy_tables.hpp"
+#include "pages/accuracy/cost_figure.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace damslip;
+using namespace damslip;
 using namespace damslip::cli;
+using namespace damslip::pages;
 
 RungResult result(const std::string& id, double slip, double seconds)
 {

@@ -1,7 +1,7 @@
 // The ladder's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
-#include "cli/accuracy/climb.hpp"
-#include "cli/accuracy/convergence.hpp"
-#include "cli/accuracy/judge.hpp"
+#include "analysis/accuracy/climb.hpp"
+#include "analysis/accuracy/convergence.hpp"
+#include "analysis/accuracy/judge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,9 @@
 
 namespace {
 
+using namespace damslip;
 using namespace damslip::cli;
+using namespace damslip::pages;
 
 constexpr double exact = 0.05; // [m]
 

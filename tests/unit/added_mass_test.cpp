@@ -3,8 +3,8 @@
 
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "exact/added_mass.hpp"
-#include "exact/reference_scene.hpp"
+#include "verification/exact/added_mass.hpp"
+#include "verification/exact/reference_scene.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

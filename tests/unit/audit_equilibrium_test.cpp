@@ -1,4 +1,4 @@
-#include "cli/run/screening.hpp"
+#include "analysis/screen/screening.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
 #include "program_answer.hpp"

@@ -1,8 +1,8 @@
 // What `damslip fe` may say of a slip: with which motion, how sure, and when nothing.
-#include "cli/show/contact_tables.hpp"
-#include "cli/show/fe_report.hpp"
+#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_report.hpp"
 #include "program_answer.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,9 @@
 namespace {
 
 using namespace damslip;
+using namespace damslip;
 using namespace damslip::cli;
+using namespace damslip::pages;
 using nlohmann::json;
 
 /// A dam of 20 m on rock, under three pulses of 0.4 s that push it downstream more than upstream.
@@ -362,8 +364,8 @@ TEST(Audit, B1_fe_what_is_not_resolved_has_no_slip_no_verdict_and_a_neutral_bann
         EXPECT_TRUE(std::holds_alternative<std::monostate>(cell_of(table, key))) << key;
     EXPECT_EQ(cell_of(table, "verdict"), Cell(std::string("–")));
     EXPECT_EQ(exit_code_of(runs), exit_no_answer);
-    const report::Headline headline = fe_headline(scene, runs);
-    EXPECT_EQ(headline.outcome, report::Outcome::unresolved);
+    const pages::Headline headline = fe_headline(scene, runs);
+    EXPECT_EQ(headline.outcome, pages::Outcome::unresolved);
     EXPECT_EQ(headline.verdict, "not resolved");
 
     // A dam that fails in another run fails, and what is not resolved is named.
@@ -374,7 +376,7 @@ TEST(Audit, B1_fe_what_is_not_resolved_has_no_slip_no_verdict_and_a_neutral_bann
     // A slip that would pass does not where another run has no answer.
     const std::vector<ContactRun> small{made_up_run(Status::at_rest, 0.01, 0.001), runs.front()};
     EXPECT_EQ(verdict_of(small, 0.05), Verdict::none);
-    EXPECT_EQ(fe_headline(scene, small).outcome, report::Outcome::unresolved);
+    EXPECT_EQ(fe_headline(scene, small).outcome, pages::Outcome::unresolved);
 }
 
 TEST(Audit, B1_fe_a_state_after_the_earthquake_that_is_not_resolved_is_no_fall)
@@ -384,8 +386,8 @@ TEST(Audit, B1_fe_a_state_after_the_earthquake_that_is_not_resolved_is_no_fall)
     std::vector<ContactRun> runs{made_up_run(Status::at_rest, 0.01, 0.001)};
     EXPECT_EQ(fe_headline(scene, runs).verdict, "PASS");
     runs[0].fe.after.status = fe2d::StageStatus::not_resolved;
-    const report::Headline headline = fe_headline(scene, runs);
-    EXPECT_EQ(headline.outcome, report::Outcome::unresolved);
+    const pages::Headline headline = fe_headline(scene, runs);
+    EXPECT_EQ(headline.outcome, pages::Outcome::unresolved);
     EXPECT_EQ(headline.sentence.find("does not stand"), std::string::npos) << headline.sentence;
     EXPECT_EQ(verdict_of(runs, 0.05), Verdict::none);
     EXPECT_EQ(exit_code_of(runs), exit_no_answer);

@@ -1,10 +1,10 @@
 // The flexible block: judged by its own slip, its decoupled slip exact, its limits and words true.
-#include "cli/run/screening.hpp"
-#include "cli/show/screen_report.hpp"
-#include "exact/flexible_slip.hpp"
+#include "analysis/screen/screening.hpp"
+#include "pages/screen/screen_report.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
+#include "verification/exact/flexible_slip.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

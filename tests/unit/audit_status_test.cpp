@@ -1,13 +1,14 @@
 // One list of statuses in all commands: what is printed, whether there is a slip, which exit code follows.
-#include "cli/accuracy/rung_runner.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/run/reducible.hpp"
-#include "cli/run/screening.hpp"
-#include "cli/sweep/sweep_rows.hpp"
-#include "cli/sweep/sweep_rows_view.hpp"
+#include "analysis/accuracy/rung_runner.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "analysis/screen/screening.hpp"
+#include "analysis/sweep/sweep_rows.hpp"
 #include "core/status_count.hpp"
+#include "pages/sweep/sweep_rows_view.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
+#include "scene/with_friction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -305,13 +306,13 @@ TEST(Audit, Statuses_records_without_a_slip_are_counted_and_not_averaged)
     large.max_slip = 0.3;
     lost.status = Status::not_resolved;
     lost.max_slip = 0.2;
-    EXPECT_EQ(&cli::worse(small, large), &large);
-    EXPECT_EQ(&cli::worse(lost, large), &lost);
+    EXPECT_EQ(&worse(small, large), &large);
+    EXPECT_EQ(&worse(lost, large), &lost);
     lost.status = Status::runs_away;
-    EXPECT_EQ(&cli::worse(large, lost), &lost);
+    EXPECT_EQ(&worse(large, lost), &lost);
     sliding::SlideResult open;
     open.status = Status::not_resolved;
-    EXPECT_EQ(&cli::worse(lost, open), &open);
+    EXPECT_EQ(&worse(lost, open), &open);
 
     // Two records, one of which runs away: n, mean and largest are of the other.
     files.write("weak.csv", "time_s,accel_m_s2\n0,0\n1,1.2\n2,0\n3,0\n");
@@ -361,15 +362,15 @@ TEST(Audit, B1_a_sweeps_stage_that_is_not_resolved_is_no_static_failure)
 TEST(Audit, B1_rows_take_slip_and_exit_code_from_the_status)
 {
     for (const StatusRow& row : status_rows()) {
-        cli::FeSlip slip;
+        FeSlip slip;
         slip.status = row.status;
         slip.slip = reported(row.status, 0.5);
-        const cli::FinishedRow finished = cli::fe_row(3, slip);
+        const FinishedRow finished = fe_row(3, slip);
         EXPECT_EQ(finished.good, is_answer(row.status)) << row.word;
-        EXPECT_EQ(cli::status_of(finished), row.status);
-        EXPECT_EQ(cli::slip_of(finished).has_value(), row.slip != SlipMeaning::none) << row.word;
+        EXPECT_EQ(status_of(finished), row.status);
+        EXPECT_EQ(slip_of(finished).has_value(), row.slip != SlipMeaning::none) << row.word;
     }
-    EXPECT_EQ(cli::FeSlip{}.status, Status::interrupted); // what was not reached is no result
+    EXPECT_EQ(FeSlip{}.status, Status::interrupted); // what was not reached is no result
 }
 
 // ---- B3
@@ -399,11 +400,11 @@ TEST(Audit, B3_a_seepage_that_is_not_solved_is_a_rung_without_an_answer)
 {
     Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam.toml");
     scene.motion.records.resize(1);
-    const std::vector<cli::RecordPair> records = cli::read_records(scene, make_effect_plan(scene, Method::rigid_block));
+    const std::vector<RecordPair> records = read_records(scene, make_effect_plan(scene, Method::rigid_block));
     scene.foundation->permeability = std::nan(""); // no solver finds an answer
-    const cli::RungRunner runner(scene, records, 0.0, [] { return false; });
-    const cli::RungResult r = runner.run(cli::parse_rung("rigid:h").value());
-    EXPECT_EQ(r.outcome, cli::RungOutcome::failed);
+    const RungRunner runner(scene, records, 0.0, [] { return false; });
+    const RungResult r = runner.run(parse_rung("rigid:h").value());
+    EXPECT_EQ(r.outcome, RungOutcome::failed);
     EXPECT_EQ(r.status, Status::not_resolved);
     EXPECT_NE(r.remark.find("seepage"), std::string::npos) << r.remark;
 }
@@ -412,13 +413,13 @@ TEST(Audit, B3_whether_a_scene_can_be_reduced_is_asked_without_a_throw)
 {
     const Scenes files;
     Scene scene = read_scene(files.block({}));
-    EXPECT_FALSE(cli::why_not_reducible(scene));
-    EXPECT_NO_THROW(cli::check_reducible(scene));
+    EXPECT_FALSE(why_not_reducible(scene));
+    EXPECT_NO_THROW(check_reducible(scene));
     scene.contact.sliding = JointPath::finite;
-    const std::optional<Diagnostic> why_not = cli::why_not_reducible(scene);
+    const std::optional<Diagnostic> why_not = why_not_reducible(scene);
     ASSERT_TRUE(why_not);
     EXPECT_NE(why_not->problem.find("--reduced with contact.sliding"), std::string::npos);
-    EXPECT_THROW(cli::check_reducible(scene), InputError);
+    EXPECT_THROW(check_reducible(scene), InputError);
 }
 
 TEST(Audit, B3_static_failure_by_all_rungs_is_an_answer)
@@ -445,7 +446,7 @@ TEST(Audit, B4_the_dams_period_without_a_reservoir_is_not_asked_for)
     b.more = "[added_mass]\nperiod_s = \"dam\"\n";
     const std::string scene = files.block(b);
     Scene read = read_scene(scene);
-    EXPECT_FALSE(cli::resolve_dam_period(read));
+    EXPECT_FALSE(resolve_dam_period(read));
     EXPECT_FALSE(read.added_mass.period);
     expect_status(swept_fe, scene, Status::at_rest);
     const ProgramAnswer reduced = answer_of({"sweep", scene, "--method", "fe-reduced", "--json"});
@@ -456,14 +457,14 @@ TEST(Audit, B4_the_dams_period_without_a_reservoir_is_not_asked_for)
                              "\"{}\"\n[uplift]\nmodel = \"linear\"\n",
                              model);
         read = read_scene(files.block(b));
-        EXPECT_FALSE(cli::resolve_dam_period(read)) << model;
+        EXPECT_FALSE(resolve_dam_period(read)) << model;
     }
     b.more = "[added_mass]\nperiod_s = \"dam\"\n[reservoir]\nlevel_m = 1\nmodel = \"added-mass\"\n[uplift]\nmodel = "
              "\"linear\"\n";
     b.section = "polygon_m = [[0, 0], [4, 0], [4, 40], [0, 40]]\n"; // slower than the metre of water
     read = read_scene(files.block(b));
     read.dam.young_modulus = 25e9;
-    ASSERT_TRUE(cli::resolve_dam_period(read));
+    ASSERT_TRUE(resolve_dam_period(read));
     EXPECT_GT(*read.added_mass.period, 0.0);
 }
 
@@ -491,19 +492,19 @@ TEST(Audit, B5_a_slip_beyond_the_base_is_no_slip)
 
 TEST(Audit, B5_the_rule_stops_at_the_length_itself)
 {
-    cli::RigidModel model;
+    RigidModel model;
     sliding::SlideResult r;
     r.max_slip = 8.0;
-    cli::check_length(model, r);
+    check_length(model, r);
     EXPECT_EQ(r.status, Status::at_rest); // no length is known
     model.length = 8.0;
-    cli::check_length(model, r);
+    check_length(model, r);
     EXPECT_EQ(r.status, Status::at_rest);
     model.length = std::nextafter(8.0, 0.0);
-    cli::check_length(model, r);
+    check_length(model, r);
     EXPECT_EQ(r.status, Status::runs_away);
     r.status = Status::not_resolved; // says more
-    cli::check_length(model, r);
+    check_length(model, r);
     EXPECT_EQ(r.status, Status::not_resolved);
 }
 
@@ -523,7 +524,7 @@ TEST(Audit, A15_an_unstable_wedge_has_one_yield_acceleration)
 
     // It is the right one: pushed the other way by as much the wedge just stands.
     const Scene scene = read_scene(file);
-    const cli::RigidWedge w = cli::make_rigid_wedge(scene);
+    const RigidWedge w = make_rigid_wedge(scene);
     EXPECT_NEAR(wedge_state(w.wedge, w.push, a_y).factor_of_safety, 1.0, 1e-12);
     EXPECT_LT(wedge_state(w.wedge, w.push, 0.9 * a_y).factor_of_safety, 1.0);
     EXPECT_GT(wedge_state(w.wedge, w.push, 1.1 * a_y).factor_of_safety, 1.0);
@@ -543,14 +544,14 @@ TEST(Audit, A15_a_wedge_has_one_critical_friction)
     EXPECT_NE(answer.out.find(fmt::format("{:.4g} that would hold it", critical)), std::string::npos);
     // With it, as --friction and sweep set it, the wedge just stands.
     const auto factor = [&](double friction) {
-        return cli::make_rigid_wedge(cli::with_friction(read_scene(file), friction)).still.factor_of_safety;
+        return make_rigid_wedge(with_friction(read_scene(file), friction)).still.factor_of_safety;
     };
     EXPECT_NEAR(factor(critical), 1.0, 1e-12);
 
     // Without friction on the first plane there is no share to keep: both get the same.
     const std::string smooth = files.wedge(0.0, 10.0);
     const double both = rows_of(answer_of({"screen", smooth, "--json"}), {"wedge"})[0]["critical_friction"];
-    EXPECT_NEAR(cli::make_rigid_wedge(cli::with_friction(read_scene(smooth), both)).still.factor_of_safety, 1.0, 1e-12);
+    EXPECT_NEAR(make_rigid_wedge(with_friction(read_scene(smooth), both)).still.factor_of_safety, 1.0, 1e-12);
 }
 
 // ---- A16
@@ -565,7 +566,7 @@ TEST(Audit, A16_sweep_slips_of_fixed_steps_say_that_they_have_no_error_estimate)
     const json rows = rows_of(answer, {"rows"});
     EXPECT_TRUE(rows[0]["remark"].is_null()); // the rigid block has no such error
     EXPECT_TRUE(rows[1]["slip_error_m"].is_null());
-    EXPECT_EQ(rows[1]["remark"], cli::no_error_estimate);
+    EXPECT_EQ(rows[1]["remark"], no_error_estimate);
     EXPECT_NE(answer.talk.find("1 slip by finite elements has no error estimate"), std::string::npos) << answer.talk;
     EXPECT_TRUE(rows_of(answer, {"comparison"})[0]["largest_slip_error_mm"].is_null()); // not ± 0
 
@@ -574,7 +575,7 @@ TEST(Audit, A16_sweep_slips_of_fixed_steps_say_that_they_have_no_error_estimate)
     const json both = rows_of(chosen, {"rows"});
     EXPECT_TRUE(both[0]["slip_error_m"].is_number());
     EXPECT_TRUE(both[0]["remark"].is_null());
-    EXPECT_EQ(both[1]["remark"], cli::no_error_estimate);
+    EXPECT_EQ(both[1]["remark"], no_error_estimate);
     EXPECT_TRUE(rows_of(chosen, {"comparison"})[0]["largest_slip_error_mm"].is_number());
 }
 

@@ -5,8 +5,8 @@
 #include "cli/terminal/visible_stream.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
+#include "pages/report/table_text.hpp"
 #include "program_answer.hpp"
-#include "report/table_text.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -188,10 +188,10 @@ TEST(Audit, C_names_are_no_formulas_for_spreadsheets)
     t.columns = {{"name", "", "", 4}, {"value", "", "", 4}};
     for (const char* name : {"=1+1", "+1", "-1", "@SUM(A1)", "plain", "a=b"})
         t.rows.push_back({std::string(name), -1.5});
-    EXPECT_EQ(report::csv(t), "name,value\n'=1+1,-1.5\n'+1,-1.5\n'-1,-1.5\n'@SUM(A1),-1.5\nplain,-1.5\na=b,-1.5\n");
+    EXPECT_EQ(pages::csv(t), "name,value\n'=1+1,-1.5\n'+1,-1.5\n'-1,-1.5\n'@SUM(A1),-1.5\nplain,-1.5\na=b,-1.5\n");
     t.rows = {{std::string("\t=1"), 2.0}, {std::string("\r=1"), 2.0}};
-    EXPECT_EQ(report::csv(t), "name,value\n␉=1,2\n␍=1,2\n");
-    EXPECT_EQ(report::csv({}, {"record x\n=1+1"}), "# record x␊=1+1\n\n");
+    EXPECT_EQ(pages::csv(t), "name,value\n␉=1,2\n␍=1,2\n");
+    EXPECT_EQ(pages::csv({}, {"record x\n=1+1"}), "# record x␊=1+1\n\n");
 
     w.write_scene("formula", "=HYPERLINK(1)");
     ASSERT_EQ(answer_of({"sweep", w.in("block.toml"), "--shard", "0/1", "--out", w.in("rows.csv")}).code, 0);
@@ -243,7 +243,7 @@ TEST(Audit, C_progress_has_lines_where_there_is_no_terminal)
     {
         cli::Progress progress(streams, "fe", 4, std::chrono::milliseconds(0));
         progress.phase("set-up");
-        progress.advance();
+        progress.advance(1);
     }
     EXPECT_EQ(talk.str().substr(0, 10), "fe: set-up");
     EXPECT_NE(talk.str().find("\nfe: 25 %, "), std::string::npos) << talk.str();
@@ -252,7 +252,7 @@ TEST(Audit, C_progress_has_lines_where_there_is_no_terminal)
     talk.str("");
     {
         cli::Progress progress(streams, "sweep", 1);
-        progress.advance();
+        progress.advance(1);
     }
     EXPECT_EQ(talk.str().find("sweep: 100 %, "), 0u) << talk.str();
     talk.str("");
@@ -260,7 +260,7 @@ TEST(Audit, C_progress_has_lines_where_there_is_no_terminal)
     {
         cli::Progress progress(quiet, "sweep", 1, std::chrono::milliseconds(0));
         progress.phase("set-up");
-        progress.advance();
+        progress.advance(1);
     }
     EXPECT_EQ(talk.str(), "");
     EXPECT_EQ(out.str(), "");

@@ -1,8 +1,8 @@
 // The quick integrator for fixed yields and the batches: same bits with and without skipping, same slip as the general
 // integrator.
 #include "block_motions.hpp"
-#include "exact/block_slip.hpp"
 #include "sliding/block/slide_batch.hpp"
+#include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Motions and blocks that break careless integrators: every result must be finite, resolved and right.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
-#include "exact/block_slip.hpp"
 #include "sliding/block/slide_batch.hpp"
+#include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The event-located integrator against closed solutions.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
-#include "exact/block_slip.hpp"
 #include "sliding/block/slide.hpp"
+#include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Strength that changes with slip: cohesion lost, residual friction, tables, drains; closed solutions.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
-#include "exact/block_slip.hpp"
 #include "sliding/block/slide.hpp"
+#include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Vertical ground motion, lift-off with and without flight, inclined base.
 #include "block_motions.hpp"
 #include "core/input_error.hpp"
-#include "exact/block_slip.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
+#include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-#include "cli/run/screening.hpp"
+#include "analysis/screen/screening.hpp"
+#include "core/statistics.hpp"
 #include "program_answer.hpp"
 
 #include <gtest/gtest.h>
@@ -380,10 +381,10 @@ TEST(Cli, CompletionKnowsCommandsAndFlags)
 
 TEST(Cli, PercentilesInterpolateBetweenOrderStatistics)
 {
-    EXPECT_DOUBLE_EQ(cli::percentile({3, 1, 2}, 0.5), 2);
-    EXPECT_DOUBLE_EQ(cli::percentile({1, 2, 3, 4}, 0.5), 2.5);
-    EXPECT_DOUBLE_EQ(cli::percentile({0, 10}, 0.16), 1.6);
-    EXPECT_TRUE(std::isnan(cli::percentile({}, 0.5)));
+    EXPECT_DOUBLE_EQ(percentile({3, 1, 2}, 0.5), 2);
+    EXPECT_DOUBLE_EQ(percentile({1, 2, 3, 4}, 0.5), 2.5);
+    EXPECT_DOUBLE_EQ(percentile({0, 10}, 0.16), 1.6);
+    EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Every .toml of examples/ is read and held against the figures it states under [expect].
-#include "cli/run/rigid_model.hpp"
-#include "cli/run/seepage_source.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "scene/read.hpp"
 
@@ -26,18 +26,16 @@ std::vector<std::filesystem::path> example_files()
 }
 
 /// The quantities an example may state, from the rigid block.
-const std::map<std::string, std::function<double(const cli::RigidModel&)>> rigid_quantities{
-    {"yield_acceleration_m_s2", [](const cli::RigidModel& m) { return m.downstream.law.constant; }},
-    {"yield_acceleration_upstream_m_s2", [](const cli::RigidModel& m) { return m.upstream.law.constant; }},
-    {"yield_coefficient_g",
-     [](const cli::RigidModel& m) { return m.downstream.law.constant / units::standard_gravity; }},
-    {"critical_friction", [](const cli::RigidModel& m) { return m.critical_friction; }},
-    {"factor_of_safety",
-     [](const cli::RigidModel& m) { return m.wedge ? m.wedge->still.factor_of_safety : std::nan(""); }},
-    {"uplift_N_m", [](const cli::RigidModel& m) { return m.block.uplift; }},
+const std::map<std::string, std::function<double(const RigidModel&)>> rigid_quantities{
+    {"yield_acceleration_m_s2", [](const RigidModel& m) { return m.downstream.law.constant; }},
+    {"yield_acceleration_upstream_m_s2", [](const RigidModel& m) { return m.upstream.law.constant; }},
+    {"yield_coefficient_g", [](const RigidModel& m) { return m.downstream.law.constant / units::standard_gravity; }},
+    {"critical_friction", [](const RigidModel& m) { return m.critical_friction; }},
+    {"factor_of_safety", [](const RigidModel& m) { return m.wedge ? m.wedge->still.factor_of_safety : std::nan(""); }},
+    {"uplift_N_m", [](const RigidModel& m) { return m.block.uplift; }},
 };
 
-double quantity_of(const cli::RigidModel& model, const std::string& name)
+double quantity_of(const RigidModel& model, const std::string& name)
 {
     const auto quantity = rigid_quantities.find(name);
     EXPECT_NE(quantity, rigid_quantities.end()) << name << " is not a quantity this test knows";
@@ -50,8 +48,8 @@ TEST(Examples, StateWhatTheProgramComputes)
     for (const auto& file : example_files()) {
         SCOPED_TRACE(file.filename().string());
         const Scene scene = read_scene(file);
-        cli::SeepageSource seepage;
-        const cli::RigidModel model = cli::make_rigid_model(scene, seepage.profile_of(scene));
+        SeepageSource seepage;
+        const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
         for (const Expectation& e : scene.expectations) {
             const double computed = quantity_of(model, e.quantity);
             // Agreement to `digits` significant digits: half a unit in the last of them.

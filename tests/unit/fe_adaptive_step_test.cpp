@@ -1,5 +1,5 @@
 // Sub-steps where the local error asks for them, against sub-steps all alike.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

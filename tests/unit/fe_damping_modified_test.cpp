@@ -1,6 +1,6 @@
 // Modified Rayleigh damping (Spears & Jensen 2012) on modes and spectra whose answer is known.
-#include "exact/damped_oscillator.hpp"
 #include "fe2d/damping/modified_rayleigh.hpp"
+#include "verification/exact/damped_oscillator.hpp"
 
 #include <gtest/gtest.h>
 

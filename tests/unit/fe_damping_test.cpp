@@ -4,7 +4,7 @@
 #include "fe2d/damping/deformation_only.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/time/linear_integrator.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Soft exponential normal contact in statics and in the earthquake run.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include "fe2d/contact/exponential_pressure.hpp"
 

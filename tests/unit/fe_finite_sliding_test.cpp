@@ -1,5 +1,5 @@
 // Dam and rock whose meshes do not match, by slip or by size.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include "fe2d/run/pairing.hpp"
 

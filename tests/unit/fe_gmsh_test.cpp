@@ -3,10 +3,10 @@
 #include "fe2d/gmsh/write_gmsh.hpp"
 #include "fe2d/mesh/export_mesh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
+#include "fe_scenes.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
-#include "fe_scenes.hpp"
-#include "verification/mixed_mesh.hpp"
+#include "verification/cases/mixed_mesh.hpp"
 
 #include <gtest/gtest.h>
 

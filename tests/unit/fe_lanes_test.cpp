@@ -1,5 +1,5 @@
 // Several runs in step, shared operators, and steps made in halves.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sliding runs whose rock has its own nodes on the plane.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

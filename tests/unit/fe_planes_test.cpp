@@ -1,8 +1,8 @@
 // Runs with lift joints: further contact planes above the base.
-#include "exact/two_blocks.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "scene/section.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
+#include "verification/exact/two_blocks.hpp"
 
 #include "sliding/block/slide.hpp"
 #include "sliding/equilibrium/base_state.hpp"
@@ -102,7 +102,7 @@ TEST(FePlanes, StiffUpperBlockSlidesAsARigidBlock)
     ASSERT_EQ(result.lifts.size(), 1u);
     EXPECT_NEAR(result.lifts[0].slip, rigid, 0.01 * std::abs(rigid)); // as the dam itself: first order in the step
     EXPECT_LT(std::abs(result.slip), 1e-6); // single pairs at heel and toe, where the traction is singular
-    EXPECT_LT(result.energy_error, 1e-9); // round-off of strains 1e4 times smaller than the concrete's
+    EXPECT_LT(result.energy_error, 1e-9);   // round-off of strains 1e4 times smaller than the concrete's
     EXPECT_EQ(result.counts.unresolved, 0);
 }
 

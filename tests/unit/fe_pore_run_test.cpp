@@ -1,9 +1,9 @@
 // Water in the rock (stages.pore_pressure) under a dam that may slide.
-#include "cli/run/contact_options.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/show/fe_output.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
 #include "fe2d/statics/static_solution.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,15 +22,15 @@ Scene sticking_dam(PorePressure form)
 
 RunResult at_rest(const Scene& scene, Eigen::Vector2d& crest)
 {
-    cli::SeepageSource seepage;
-    RunOptions options = cli::contact_options(scene, {}, seepage);
+    SeepageSource seepage;
+    RunOptions options = contact_options(scene, {}, seepage);
     options.halvings = 0;
     const EarthquakeRun run(scene, options);
     GroundMotion silence;
     silence.dt = 0.01;
     silence.accel_h.assign(11, 0.0);
     RunResult result = run.run(silence);
-    crest = cli::crest_displacement(run.model(), result.displacement);
+    crest = pages::crest_displacement(run.model(), result.displacement);
     return result;
 }
 
@@ -38,8 +38,8 @@ Eigen::Vector2d tied_crest(const Scene& scene)
 {
     const Model model = build_model(scene);
     StaticLoads loads = static_loads(scene, model);
-    loads.impounding.push_back({"water in the rock", cli::rock_water_load(scene, model), Eigen::Vector2d::Zero()});
-    return cli::crest_displacement(model, solve_static(scene, model, loads).stages.back().displacement);
+    loads.impounding.push_back({"water in the rock", rock_water_load(scene, model), Eigen::Vector2d::Zero()});
+    return pages::crest_displacement(model, solve_static(scene, model, loads).stages.back().displacement);
 }
 
 // A dam that sticks everywhere stands where the tied dam stands, with the water in the rock in either form: 1e-6 of what

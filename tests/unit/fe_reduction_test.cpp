@@ -1,6 +1,6 @@
 // The reduced run against the full one.
 #include "fe2d/reduction/reduced_run.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Sliding on rock with mass: what a run hands to reports, and runs that no step can be made of.
 #include "fe2d/model/static_loads.hpp"
 #include "program_answer.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

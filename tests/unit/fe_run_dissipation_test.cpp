@@ -1,6 +1,6 @@
 // What takes energy out of a sliding run, and what must not: mass damping in its three forms, stiffness damping beside
 // contact springs, wrong constants, impacts that give energy.
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include "fe2d/time/linear_integrator.hpp"
 

@@ -1,7 +1,7 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
 #include "fe2d/run/block_products.hpp"
 #include "fe2d/time/condensation.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

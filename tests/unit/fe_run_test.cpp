@@ -1,7 +1,8 @@
 // The staged run as a whole.
 #include "core/input_error.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
+#include "scene/with_friction.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"

@@ -1,9 +1,9 @@
 // Seepage below a dam against conformal maps (exact/seepage.hpp), conservation, symmetry, and the reference scene.
 #include "core/input_error.hpp"
-#include "exact/seepage.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
 #include "fe2d/seepage/seepage.hpp"
 #include "fe_scenes.hpp"
+#include "verification/exact/seepage.hpp"
 
 #include <gtest/gtest.h>
 

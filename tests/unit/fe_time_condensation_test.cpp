@@ -1,7 +1,7 @@
 // Massless rock condensed onto the unknowns it shares with the dam.
 #include "fe2d/time/condensation.hpp"
 #include "fe2d/time/linear_integrator.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The energy ledger: closure, the numerical dissipation against the amplification matrix, and what opens it.
-#include "exact/time_schemes.hpp"
 #include "fe2d/time/energy.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
+#include "verification/exact/time_schemes.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // One oscillator through the integrator: closed solutions, measured orders, the discrete steady state, initial
 // conditions.
-#include "exact/damped_oscillator.hpp"
-#include "exact/time_schemes.hpp"
 #include "fe2d/time/linear_integrator.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
+#include "verification/exact/damped_oscillator.hpp"
+#include "verification/exact/time_schemes.hpp"
 
 #include <gtest/gtest.h>
 

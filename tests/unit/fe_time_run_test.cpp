@@ -1,9 +1,9 @@
 // Earthquake runs of a dam tied to its base.
 #include "core/input_error.hpp"
-#include "exact/oscillator.hpp"
 #include "fe2d/model/static_loads.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe_scenes.hpp"
+#include "verification/exact/oscillator.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Constants, ranges and stability limits of the schemes, and their action on one oscillator against the characteristic
 // polynomial (exact/time_schemes.hpp), which is derived without the step equations.
 #include "core/input_error.hpp"
-#include "exact/damped_oscillator.hpp"
-#include "exact/time_schemes.hpp"
 #include "fe2d/time/linear_integrator.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
+#include "verification/exact/damped_oscillator.hpp"
+#include "verification/exact/time_schemes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -32,10 +32,12 @@ VectorXd single_entry(double value)
 /// (u, v, a) one step later, without load.
 Eigen::Vector3d one_step(fe2d::LinearIntegrator& integrator, double dt, const Eigen::Vector3d& start)
 {
-    const fe2d::State before = integrator.state(single_entry(start[0]), single_entry(start[1]), single_entry(start[2]), single_entry(0.0));
+    const fe2d::State before =
+        integrator.state(single_entry(start[0]), single_entry(start[1]), single_entry(start[2]), single_entry(0.0));
     fe2d::State after;
     const auto& step = integrator.step_operator(dt);
-    integrator.finish_step(step, before, single_entry(0.0), integrator.free_step(step, before, single_entry(0.0)), after);
+    integrator.finish_step(step, before, single_entry(0.0), integrator.free_step(step, before, single_entry(0.0)),
+                           after);
     return {after.displacement[0], after.velocity[0], after.acceleration[0]};
 }
 

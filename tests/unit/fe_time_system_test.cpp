@@ -1,6 +1,6 @@
 // Systems with many unknowns: the step equations themselves, low-rank damping, interface forces, massless unknowns.
 #include "fe2d/time/linear_integrator.hpp"
-#include "verification/fe_time_models.hpp"
+#include "verification/cases/fe_time_models.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

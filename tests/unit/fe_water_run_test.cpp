@@ -1,7 +1,7 @@
 // Sliding runs with acoustic water.
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
-#include "verification/fe_run_scenes.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 

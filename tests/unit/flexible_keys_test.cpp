@@ -1,6 +1,6 @@
 // [flexible_block] through `damslip screen`: defaults, mass ratios, one analysis or both, period and ratio of the tied modes.
+#include "analysis/prepare/flexible_mass.hpp"
 #include "cli/program.hpp"
-#include "cli/run/flexible_mass.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST_F(FlexibleScene, PeriodOfTheTiedModes)
     EXPECT_GT(found[0]["coupled_max_slip_mm"].get<double>(), 0.0);
     EXPECT_NE(warnings.find("of the tied model, T_s = "), std::string::npos) << warnings;
     Scene scene = read_scene(folder / "block.toml");
-    cli::resolve_flexible_modes(scene);
+    resolve_flexible_modes(scene);
     const double shear_speed = std::sqrt(0.4e9 / (2 * 1.2) / 2000.0);
     EXPECT_NEAR(*scene.flexible_block->period, 4 * 20 / shear_speed, 0.25 * 4 * 20 / shear_speed);
     EXPECT_GT(*scene.flexible_block->mass_ratio, 0.613);

@@ -1,5 +1,5 @@
 // Every hard case is a ctest test of its own name.
-#include "hard/hard_case.hpp"
+#include "verification/hard/hard_case.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Static loads on the faces of the section, each against a hand calculation.
 #include "sliding/loads/static_loads.hpp"
 
-#include "exact/reference_scene.hpp"
 #include "scene/section.hpp"
+#include "verification/exact/reference_scene.hpp"
 
 #include <gtest/gtest.h>
 

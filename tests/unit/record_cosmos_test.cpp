@@ -9,8 +9,8 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
-using agency_files::warned;
 using agency_files::Cosmos;
+using agency_files::warned;
 
 std::vector<Record> read_cosmos_text(const std::string& text, const ReadOptions& options = {})
 {

@@ -47,8 +47,8 @@ TEST(RecordGenerate, rock_shape)
     EXPECT_EQ(s(0.03), 1.0);
     EXPECT_NEAR(s(0.125), 2.12, 1e-12);
     EXPECT_EQ(s(0.4), 2.12);
-    EXPECT_NEAR(s(1.0) / s(0.5), 0.5, 1e-12); // velocity branch, from 0.4544 s
-    EXPECT_NEAR(s(6.0) / s(3.0), 0.25, 1e-12);   // displacement branch, from 2.95 s
+    EXPECT_NEAR(s(1.0) / s(0.5), 0.5, 1e-12);  // velocity branch, from 0.4544 s
+    EXPECT_NEAR(s(6.0) / s(3.0), 0.25, 1e-12); // displacement branch, from 2.95 s
     for (const double corner : {1.0 / 33.0, 0.125, 0.454, 2.95})
         EXPECT_NEAR(s(corner * 0.9999) / s(corner * 1.0001), 1.0, 1e-3);
 }

@@ -9,8 +9,8 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
-using agency_files::warned;
 using agency_files::KNet;
+using agency_files::warned;
 
 /// 100 samples: an offset of 8000 counts with +-100 around it, so that the mean is 8000.
 KNet one_second()

@@ -9,8 +9,8 @@ namespace {
 
 using namespace damslip;
 using namespace damslip::records;
-using agency_files::warned;
 using agency_files::Smc;
+using agency_files::warned;
 
 std::string smc_error(const std::string& text, const ReadOptions& options = {})
 {

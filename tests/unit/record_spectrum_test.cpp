@@ -1,7 +1,7 @@
 // Response spectra against closed solutions of the oscillator on piecewise-linear ground acceleration.
-#include "exact/oscillator.hpp"
 #include "records/measure/oscillator.hpp"
 #include "records/measure/response_spectrum.hpp"
+#include "verification/exact/oscillator.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "report/chart_data.hpp"
+#include "pages/report/chart_data.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace damslip::report;
+using namespace damslip::pages;
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 

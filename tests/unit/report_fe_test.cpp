@@ -1,9 +1,9 @@
 // The report of FE contact runs: its charts say what the runs say.
-#include "cli/run/contact_options.hpp"
-#include "cli/run/fe_inputs.hpp"
-#include "cli/show/fe_report.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
 #include "core/units.hpp"
-#include "report/page_html.hpp"
+#include "pages/fe/fe_report.hpp"
+#include "pages/report/page_html.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -14,14 +14,15 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::cli;
+using namespace damslip;
+using namespace damslip::pages;
 
 /// The runs of the browser test's scene with their page, made once for all tests.
 struct FeReportRun {
     Scene scene;
     std::vector<RecordPair> records;
     std::vector<ContactRun> runs;
-    report::Page page;
+    pages::Page page;
 };
 
 FeReportRun make_run()
@@ -52,28 +53,28 @@ const FeReportRun& fe_run()
 }
 
 template <class Part>
-std::vector<const Part*> parts_of(const report::Page& page)
+std::vector<const Part*> parts_of(const pages::Page& page)
 {
     std::vector<const Part*> list;
-    for (const report::Section& section : page.sections)
-        for (const report::Part& part : section.parts)
+    for (const pages::Section& section : page.sections)
+        for (const pages::Part& part : section.parts)
             if (const auto* p = std::get_if<Part>(&part)) list.push_back(p);
     return list;
 }
 
-const report::Chart* chart_named(const std::string& title)
+const pages::Chart* chart_named(const std::string& title)
 {
-    for (const report::Chart* chart : parts_of<report::Chart>(fe_run().page))
+    for (const pages::Chart* chart : parts_of<pages::Chart>(fe_run().page))
         if (chart->title == title) return chart;
     return nullptr;
 }
 
 TEST(FeReportPage, EveryChartHasFiniteValuesInEachCurve)
 {
-    const auto charts = parts_of<report::Chart>(fe_run().page);
+    const auto charts = parts_of<pages::Chart>(fe_run().page);
     EXPECT_EQ(charts.size(), 2u * 9u + 1u); // seven histories and two charts of the base for each record, spectra
-    for (const report::Chart* chart : charts)
-        for (const report::Curve& curve : chart->curves)
+    for (const pages::Chart* chart : charts)
+        for (const pages::Curve& curve : chart->curves)
             EXPECT_TRUE(std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); }))
                 << chart->title << ", " << curve.name;
 }
@@ -82,7 +83,7 @@ TEST(FeReportPage, SlipHistoriesEndAtTheSlipsOfTheTable)
 {
     const ContactRun& run = fe_run().runs[0];
     ASSERT_GT(run.fe.slip, 1e-3);
-    const report::Chart* slip = chart_named("pulses <1>: slip");
+    const pages::Chart* slip = chart_named("pulses <1>: slip");
     ASSERT_NE(slip, nullptr);
     ASSERT_EQ(slip->curves.size(), 5u); // heel, middle, toe, mean, rigid
     EXPECT_EQ(slip->curves[3].y.back(), run.fe.slip / units::mm);
@@ -95,10 +96,10 @@ TEST(FeReportPage, PressureChartsIntegrateToTheForcesOfTheHistory)
     const fe2d::RunResult& fe = fe_run().runs[0].fe;
     for (const auto& [what, force] : {std::pair{"effective pressure", &fe.history.normal_force},
                                       {"shear, resisting downstream slip", &fe.history.shear_force}}) {
-        const report::Chart* chart = chart_named(std::string("pulses <1>: ") + what + " along the base");
+        const pages::Chart* chart = chart_named(std::string("pulses <1>: ") + what + " along the base");
         ASSERT_NE(chart, nullptr);
         ASSERT_TRUE(chart->moving);
-        const report::Moving& moving = *chart->moving;
+        const pages::Moving& moving = *chart->moving;
         EXPECT_LE(moving.at.size(), 152u);
         EXPECT_EQ(moving.at.front(), fe.history.time.front());
         EXPECT_EQ(moving.at.back(), fe.history.time.back());
@@ -119,7 +120,7 @@ TEST(FeReportPage, PressureChartsIntegrateToTheForcesOfTheHistory)
 TEST(FeReportPage, StatesOfTheMapAddUpToTheLengthsOfTheHistory)
 {
     const fe2d::RunResult& fe = fe_run().runs[0].fe;
-    const report::StateMap& map = *parts_of<report::StateMap>(fe_run().page)[0];
+    const pages::StateMap& map = *parts_of<pages::StateMap>(fe_run().page)[0];
     ASSERT_EQ(map.states.size(), fe.history.time.size());
     for (std::size_t row = 0; row < map.states.size(); ++row) {
         double open = 0.0, slips = 0.0;
@@ -139,13 +140,13 @@ TEST(FeReportPage, StatesOfTheMapAddUpToTheLengthsOfTheHistory)
 TEST(FeReportPage, StressesAreThoseOfTheStaticState)
 {
     const FeReportRun& r = fe_run();
-    const report::MeshView& view = *parts_of<report::MeshView>(r.page)[0];
+    const pages::MeshView& view = *parts_of<pages::MeshView>(r.page)[0];
     ASSERT_GE(view.states.size(), 4u);
     EXPECT_EQ(view.states[0].name, "before the earthquake");
     EXPECT_EQ(view.states[0].shift_x, 0.0);
     EXPECT_TRUE(std::is_sorted(view.states.begin(), view.states.begin() + 4,
                                [](const auto& a, const auto& b) { return a.time < b.time; }));
-    for (const report::MeshView::State& s : view.states) {
+    for (const pages::MeshView::State& s : view.states) {
         EXPECT_EQ(s.ux.size(), view.nodes.size());
         ASSERT_EQ(s.values.size(), view.fields.size());
         for (const auto& values : s.values)
@@ -179,28 +180,28 @@ TEST(FeReportPage, HeadlineJudgesBySlipStatusAndStaticState)
     runs[1].fe.slip_error = 0.0; // the scene's sub-steps are fixed, which leaves no estimate
     runs[0].fe.after.status = runs[1].fe.after.status = fe2d::StageStatus::ok;
     scene.criteria.allowable_slip = 0.98 * slip;
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::fail);
     scene.criteria.allowable_slip = 1.005 * slip; // within the error
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::unresolved);
     scene.criteria.allowable_slip = 1.02 * slip;
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::pass);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::pass);
     fe2d::LiftResult neck;
     neck.name = "neck";
     neck.largest_slip = 1.03 * slip;
     neck.slip_error = 0.005 * slip;
     runs[1].fe.lifts = {neck};
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::fail);
     EXPECT_NE(fe_headline(scene, runs).sentence.find("lift joint neck"), std::string::npos);
     runs[1].fe.lifts.clear();
     scene.criteria.allowable_slip.reset();
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::none);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::none);
     runs[1].fe.after.status = fe2d::StageStatus::slides;
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::fail);
     runs[1].fe.status = Status::not_resolved;
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::unresolved);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::unresolved);
     runs[1].fe.status = Status::static_failure;
-    EXPECT_EQ(fe_headline(scene, runs).outcome, report::Outcome::fail);
-    EXPECT_EQ(fe_headline(scene, {}).outcome, report::Outcome::none);
+    EXPECT_EQ(fe_headline(scene, runs).outcome, pages::Outcome::fail);
+    EXPECT_EQ(fe_headline(scene, {}).outcome, pages::Outcome::none);
 }
 
 // A crest that goes 0, 3, 1, -2, 0 mm while the base slips 0, 1, 1, 1, 4 mm (downstream) at 0, 1, ... s: the lean is 0, 2,
@@ -231,7 +232,7 @@ TEST(StoredStates, AreThoseOfTheLargestLeansAndSlipRate)
 
 TEST(FeReportPage, SameBytesEachTime)
 {
-    EXPECT_EQ(report::page_html(fe_run().page), report::page_html(make_run().page));
+    EXPECT_EQ(pages::page_html(fe_run().page), pages::page_html(make_run().page));
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 #include "core/file.hpp"
-#include "report/assets.hpp"
-#include "report/chart_data.hpp"
-#include "report/escape.hpp"
-#include "report/page_html.hpp"
-#include "report/sketch.hpp"
+#include "pages/report/assets.hpp"
+#include "pages/report/chart_data.hpp"
+#include "pages/report/escape.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/sketch.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::report;
+using namespace damslip::pages;
 
 std::size_t occurrences(const std::string& text, const std::string& word)
 {
@@ -117,7 +117,7 @@ TEST(ReportPage, TablesShowDigitsUnitsVerdictsAndNothing)
 
 TEST(ReportPage, VendoredFilesAreThoseOfTheirChecksums)
 {
-    const std::filesystem::path folder = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "src/report/vendor/uplot";
+    const std::filesystem::path folder = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "src/pages/report/vendor/uplot";
     std::istringstream sums(read_file(folder / "SHA256SUMS"));
     std::string sum, name;
     std::size_t n = 0;

@@ -1,5 +1,5 @@
-#include "cli/show/screen_report.hpp"
 #include "core/units.hpp"
+#include "pages/screen/screen_report.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::cli;
+using namespace damslip;
+using namespace damslip::pages;
 
 /// The scene of the browser test, which names its records.
 Scene report_scene()
@@ -34,18 +35,18 @@ ReportRun report_run(const Scene& given)
     return run;
 }
 
-std::vector<const report::Chart*> charts_of(const report::Page& page)
+std::vector<const pages::Chart*> charts_of(const pages::Page& page)
 {
-    std::vector<const report::Chart*> charts;
-    for (const report::Section& section : page.sections)
-        for (const report::Part& part : section.parts)
-            if (const auto* chart = std::get_if<report::Chart>(&part)) charts.push_back(chart);
+    std::vector<const pages::Chart*> charts;
+    for (const pages::Section& section : page.sections)
+        for (const pages::Part& part : section.parts)
+            if (const auto* chart = std::get_if<pages::Chart>(&part)) charts.push_back(chart);
     return charts;
 }
 
-const report::Chart* chart_named(const report::Page& page, const std::string& title)
+const pages::Chart* chart_named(const pages::Page& page, const std::string& title)
 {
-    for (const report::Chart* chart : charts_of(page))
+    for (const pages::Chart* chart : charts_of(page))
         if (chart->title == title) return chart;
     return nullptr;
 }
@@ -53,12 +54,12 @@ const report::Chart* chart_named(const report::Page& page, const std::string& ti
 TEST(ScreenReport, EveryChartHasFiniteValuesInEachCurve)
 {
     const ReportRun run = report_run(report_scene());
-    const report::Page page = screen_page({report_scene(), run.scene, run.screening, run.records, 1});
+    const pages::Page page = screen_page({report_scene(), run.scene, run.screening, run.records, 1});
     const auto charts = charts_of(page);
     EXPECT_GE(charts.size(), 9u);
-    for (const report::Chart* chart : charts) {
+    for (const pages::Chart* chart : charts) {
         EXPECT_FALSE(chart->curves.empty()) << chart->title;
-        for (const report::Curve& curve : chart->curves)
+        for (const pages::Curve& curve : chart->curves)
             EXPECT_TRUE(std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); }))
                 << chart->title << ", " << curve.name;
     }
@@ -68,11 +69,11 @@ TEST(ScreenReport, ChartsAgreeWithTheScreening)
 {
     const ReportRun run = report_run(report_scene());
     const Screening& s = run.screening;
-    const report::Page page = screen_page({report_scene(), run.scene, s, run.records, 1});
+    const pages::Page page = screen_page({report_scene(), run.scene, s, run.records, 1});
     const double mu = run.scene.contact.friction;
 
     // Friction is varied through the scene's own value, where the largest slip is that of the table to the last bit.
-    const report::Chart* slip = chart_named(page, "Slip over friction");
+    const pages::Chart* slip = chart_named(page, "Slip over friction");
     ASSERT_NE(slip, nullptr);
     const auto& x = slip->curves[0].x;
     const auto at = std::find(x.begin(), x.end(), mu);
@@ -82,14 +83,14 @@ TEST(ScreenReport, ChartsAgreeWithTheScreening)
     EXPECT_EQ(slip->curves[0].y[static_cast<std::size_t>(at - x.begin())], expected);
 
     // a_y is linear in friction: interpolated to the scene's value it is the table's.
-    const report::Chart* yield = chart_named(page, "Yield acceleration over friction");
+    const pages::Chart* yield = chart_named(page, "Yield acceleration over friction");
     ASSERT_NE(yield, nullptr);
-    const report::Curve& own = yield->curves[0];
+    const pages::Curve& own = yield->curves[0];
     const double slope = (own.y.back() - own.y.front()) / (own.x.back() - own.x.front());
     EXPECT_NEAR(own.y.front() + slope * (mu - own.x.front()), s.bases.front().model.downstream.law.constant, 1e-12);
 
     // The history ends at the slip of the table.
-    const report::Chart* history = chart_named(page, "pulses <1>: slip");
+    const pages::Chart* history = chart_named(page, "pulses <1>: slip");
     ASSERT_NE(history, nullptr);
     ASSERT_EQ(history->curves.size(), 2u);
     const double end = std::max(std::abs(s.slips[0].with_vertical->slip), std::abs(s.slips[1].with_vertical->slip));
@@ -105,11 +106,11 @@ TEST(ScreenReport, HeadlineJudgesBySlipAndStaticState)
 
     scene.criteria.allowable_slip = 0.99 * worst;
     run = report_run(scene);
-    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, pages::Outcome::fail);
 
     scene.criteria.allowable_slip = 1.01 * worst;
     run = report_run(scene);
-    EXPECT_NE(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+    EXPECT_NE(screen_headline(run.scene, run.screening).outcome, pages::Outcome::fail);
     EXPECT_NE(screen_headline(run.scene, run.screening).verdict.find("PASS"), std::string::npos);
 
     scene.criteria.allowable_slip.reset();
@@ -118,7 +119,7 @@ TEST(ScreenReport, HeadlineJudgesBySlipAndStaticState)
 
     scene.contact.friction = 0.3; // below what holds the dam
     run = report_run(scene);
-    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, report::Outcome::fail);
+    EXPECT_EQ(screen_headline(run.scene, run.screening).outcome, pages::Outcome::fail);
     EXPECT_NE(screen_headline(run.scene, run.screening).sentence.find("without any earthquake"), std::string::npos);
 }
 

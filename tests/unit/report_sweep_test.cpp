@@ -1,6 +1,6 @@
 // The report of a sweep: its charts say what the rows say.
-#include "cli/sweep/sweep_charts.hpp"
-#include "cli/sweep/sweep_report.hpp"
+#include "pages/sweep/sweep_charts.hpp"
+#include "pages/sweep/sweep_report.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::cli;
+using namespace damslip;
+using namespace damslip::pages;
 
 /// Rows as `sweep` writes them. Slip of a row in mm, chosen so that every row is told from every other:
 /// 100 (1 - μ) + 10 level index + record + method; polarity -1 slides half as far. Critical friction 0.7.
@@ -56,9 +57,9 @@ TEST(SweepReport, ViewReadsVariantsMethodsAndStaticFailures)
 TEST(SweepReport, SlipOverFrictionIsTheLargestOfFewRecords)
 {
     const SweepView view = sweep_view(sweep_rows());
-    const report::Chart chart = slip_over_friction(view, 0, 0.04);
+    const pages::Chart chart = slip_over_friction(view, 0, 0.04);
     ASSERT_EQ(chart.curves.size(), 2u);
-    const report::Curve& fe = chart.curves[1];
+    const pages::Curve& fe = chart.curves[1];
     EXPECT_EQ(fe.name, "fe");
     EXPECT_TRUE(fe.low.empty());
     EXPECT_TRUE(std::isnan(fe.y[0])); // slides statically
@@ -73,9 +74,9 @@ TEST(SweepReport, SlipOverFrictionIsTheLargestOfFewRecords)
 TEST(SweepReport, SlipOverFrictionIsTheMedianOfManyRecordsWithABandOfOneMethod)
 {
     const SweepView view = sweep_view(sweep_rows(5));
-    const report::Chart chart = slip_over_friction(view, 0, {});
+    const pages::Chart chart = slip_over_friction(view, 0, {});
     ASSERT_EQ(chart.curves.size(), 2u);
-    const report::Curve& fe = chart.curves[1];
+    const pages::Curve& fe = chart.curves[1];
     EXPECT_NEAR(fe.y[1], 20 + 10 + 3 + 20, 1e-9);
     EXPECT_NEAR(fe.low[1], 20 + 10 + 1 + 20, 1e-9);
     EXPECT_NEAR(fe.high[2], 10 + 10 + 5 + 20, 1e-9);
@@ -86,7 +87,7 @@ TEST(SweepReport, FeOverRigidPairsTheSameMotions)
 {
     const auto chart = fe_over_rigid(sweep_view(sweep_rows()));
     ASSERT_TRUE(chart);
-    const report::Curve& fe = chart->curves[0];
+    const pages::Curve& fe = chart->curves[0];
     ASSERT_EQ(fe.x.size(), 24u); // 2 frictions that stand, 2 levels, 2 polarities, 3 records
     for (std::size_t i = 0; i < fe.x.size(); ++i) {
         const double more = fe.y[i] - fe.x[i];
@@ -100,12 +101,12 @@ TEST(SweepReport, FeOverRigidPairsTheSameMotions)
 TEST(SweepReport, PointsOverTheYieldRatioAndYieldOverFriction)
 {
     const SweepView view = sweep_view(sweep_rows());
-    const report::Chart ratio = slip_over_yield_ratio(view);
+    const pages::Chart ratio = slip_over_yield_ratio(view);
     ASSERT_EQ(ratio.curves.size(), 2u);
     EXPECT_EQ(ratio.curves[0].x.size(), 24u);
     EXPECT_NEAR(ratio.curves[0].x.front(), 10.0 * 0.1 / 2.0, 1e-9);
     EXPECT_NEAR(ratio.curves[0].x.back(), 10.0 * 0.2 / 2.0, 1e-9);
-    const report::Chart yield = yield_over_friction(view);
+    const pages::Chart yield = yield_over_friction(view);
     ASSERT_EQ(yield.curves.size(), 1u); // both levels have the same here
     EXPECT_NEAR(yield.curves[0].y[0], -0.5, 1e-12);
 }
@@ -122,8 +123,8 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
 {
     const Scene scene = sweep_scene();
     Table rows = sweep_rows();
-    report::Page page = sweep_page({&scene, rows, {}, {}, "results.csv"});
-    EXPECT_EQ(page.headline.outcome, report::Outcome::none);
+    pages::Page page = sweep_page({&scene, rows, {}, {}, "results.csv"});
+    EXPECT_EQ(page.headline.outcome, pages::Outcome::none);
     EXPECT_NE(page.headline.sentence.find("72 rows: the largest slip is 53 mm (fe, μ = 0.8, record record 3)"),
               std::string::npos)
         << page.headline.sentence;
@@ -136,7 +137,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end
     rows.rows[1][16] = std::string("not resolved");
     page = sweep_page({&scene, rows, {}, {}, "results.csv"});
-    EXPECT_EQ(page.headline.outcome, report::Outcome::unresolved);
+    EXPECT_EQ(page.headline.outcome, pages::Outcome::unresolved);
     ASSERT_EQ(page.warnings.size(), 1u);
     EXPECT_NE(page.warnings[0].find("not resolved"), std::string::npos);
 }

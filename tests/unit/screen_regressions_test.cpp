@@ -1,5 +1,5 @@
 // Regressions in `screen`: the weighted median under those of each record, weights and period from the scene.
-#include "cli/run/screening.hpp"
+#include "analysis/screen/screening.hpp"
 #include "core/input_error.hpp"
 #include "records/measure/measures.hpp"
 #include "scene/read.hpp"
@@ -11,7 +11,7 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::cli;
+using namespace damslip;
 
 const double omega = 4.0 * std::acos(-1.0);
 

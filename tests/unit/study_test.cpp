@@ -1,5 +1,5 @@
 // `damslip study`: its grid, findings and files on a small dam.
-#include "cli/study/fe_findings.hpp"
+#include "study/fe_findings.hpp"
 #include "sweep_scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,17 +13,17 @@ namespace {
 // Steps of 5 mm for a hundredth of friction: 80, 35, 35, 20 and 5 mm from one friction of the study to the next.
 TEST(StudyFindings, ProgressiveFromTheFirstSteepStep)
 {
-    EXPECT_DOUBLE_EQ(cli::progressive_from({0, 1, 2, 38, 300, 700}), 0.77);
-    EXPECT_DOUBLE_EQ(cli::progressive_from({0, 79, 115, 200, 400, 500}), 0.84); // 36 > 35 mm
-    EXPECT_DOUBLE_EQ(cli::progressive_from({0, 79, 113, 140, 400, 500}),
+    EXPECT_DOUBLE_EQ(study::progressive_from({0, 1, 2, 38, 300, 700}), 0.77);
+    EXPECT_DOUBLE_EQ(study::progressive_from({0, 79, 115, 200, 400, 500}), 0.84); // 36 > 35 mm
+    EXPECT_DOUBLE_EQ(study::progressive_from({0, 79, 113, 140, 400, 500}),
                      0.70); // 34 and 27 mm are not enough, 260 > 20 mm are
-    EXPECT_TRUE(std::isnan(cli::progressive_from({0, 0, 0, 1, 2, 3})));
-    EXPECT_DOUBLE_EQ(cli::progressive_from({0, 1, 2, NAN, NAN, NAN}), 0.77); // slides statically below
+    EXPECT_TRUE(std::isnan(study::progressive_from({0, 0, 0, 1, 2, 3})));
+    EXPECT_DOUBLE_EQ(study::progressive_from({0, 1, 2, NAN, NAN, NAN}), 0.77); // slides statically below
 }
 
 TEST(StudyFindings, SlipsReadAsNumbers)
 {
-    EXPECT_EQ(cli::slip_list({0.0, 0.0271, 3.04, 41.7, NAN}), "0, 0.027, 3.0, 42, – mm");
+    EXPECT_EQ(study::slip_list({0.0, 0.0271, 3.04, 41.7, NAN}), "0, 0.027, 3.0, 42, – mm");
 }
 
 class Study : public SweepScene {

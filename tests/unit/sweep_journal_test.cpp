@@ -1,5 +1,5 @@
 // The journal of a sweep: torn and damaged lines, foreign and unfinished journals.
-#include "cli/sweep/sweep_journal.hpp"
+#include "analysis/sweep/sweep_journal.hpp"
 #include "core/input_error.hpp"
 #include "sweep_scene.hpp"
 
@@ -9,11 +9,7 @@ namespace damslip::sweep_tests {
 
 namespace {
 
-using cli::FinishedRow;
-using cli::Journal;
-using cli::JournalStart;
-
-const cli::SweepIdentity identity{"1.0", "scene-hash", "records-hash", "friction 0.7,0.8", 10};
+const SweepIdentity identity{"1.0", "scene-hash", "records-hash", "friction 0.7,0.8", 10};
 
 FinishedRow row(std::size_t id, double slip, const std::string& status = "at rest")
 {
@@ -29,7 +25,7 @@ protected:
         for (const FinishedRow& r : rows) journal.append({&r, 1});
         if (done) journal.mark_done();
     }
-    std::string refusal(const cli::SweepIdentity& now, const cli::Shard& shard, JournalStart start) const
+    std::string refusal(const SweepIdentity& now, const Shard& shard, JournalStart start) const
     {
         try {
             Journal journal(file(), now, shard, start);
@@ -44,7 +40,7 @@ TEST_F(SweepJournal, GivesBackEveryBit)
 {
     std::vector<FinishedRow> rows{
         row(7, 0.1 + 0.2), row(2, -0.0), row(0, 5e-324), row(9, 1e300, "a \"quoted\", line\nwith μ"), {4, false, {}}};
-    rows.back().results.resize(cli::result_columns);
+    rows.back().results.resize(result_columns);
     rows[1].history = {0.06, {0.0, -0.0000001, 0.1 + 0.2}};
     write_rows(rows);
     Journal journal(file(), identity, {}, JournalStart::resume);
@@ -122,12 +118,12 @@ TEST_F(SweepJournal, ALineWithAnotherChecksumIsLeftAside)
 TEST_F(SweepJournal, RefusesOtherInputsAndSaysWhich)
 {
     write_rows({row(1, 0.5)});
-    const auto says = [&](cli::SweepIdentity now, const cli::Shard& shard, const std::string& part) {
+    const auto says = [&](SweepIdentity now, const Shard& shard, const std::string& part) {
         const std::string words = refusal(now, shard, JournalStart::resume);
         EXPECT_NE(words.find("this journal belongs to a sweep of other inputs: " + part), std::string::npos) << words;
         EXPECT_EQ(refusal(now, shard, JournalStart::fresh), words);
     };
-    cli::SweepIdentity other = identity;
+    SweepIdentity other = identity;
     other.scene = "x";
     says(other, {}, "scene (other contents).");
     other.records = "y";
@@ -153,7 +149,7 @@ TEST_F(SweepJournal, AFreshStartTakesNothingThatIsUnfinished)
 
     std::filesystem::remove(file());
     write_rows({row(1, 0.5)}, "done");
-    cli::SweepIdentity other = identity;
+    SweepIdentity other = identity;
     other.scene = "x";
     EXPECT_EQ(refusal(other, {}, JournalStart::fresh), "taken"); // the table of the other sweep is written
     Journal journal(file(), other, {}, JournalStart::resume);

@@ -1,7 +1,7 @@
 // Sizes of a sweep: every length of a scene grows, nothing else does, and a run does not tell a grown scene from one
 // that was written so.
-#include "cli/run/rigid_model.hpp"
-#include "cli/sweep/sweep_size.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/sweep/sweep_size.hpp"
 #include "core/number.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
@@ -92,9 +92,9 @@ TEST(SweepSizeOfScene, GrowsEveryLengthAndNothingElse)
     const Scene scene = parse_scene(scaled_text(all_lengths, 1.0), "dam.toml");
     for (const double factor : {2.0, 0.5}) {
         const Scene written = parse_scene(scaled_text(all_lengths, factor), "dam.toml");
-        EXPECT_EQ(resolved_toml(cli::sized(scene, factor)), resolved_toml(written)) << factor;
+        EXPECT_EQ(resolved_toml(sized(scene, factor)), resolved_toml(written)) << factor;
     }
-    EXPECT_EQ(resolved_toml(cli::sized(scene, 1.0)), resolved_toml(scene));
+    EXPECT_EQ(resolved_toml(sized(scene, 1.0)), resolved_toml(scene));
 }
 
 TEST_F(SweepScene, ARowOfSizeTwoIsTheRunOfASceneTwiceAsLarge)

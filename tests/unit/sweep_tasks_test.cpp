@@ -1,8 +1,8 @@
 // Order, parts and FE groups of a sweep's rows; sizes; quoting of commands.
-#include "cli/run/rigid_model.hpp"
-#include "cli/sweep/sweep_plan.hpp"
-#include "cli/sweep/sweep_size.hpp"
-#include "cli/sweep/sweep_tasks.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/sweep/sweep_size.hpp"
+#include "analysis/sweep/sweep_tasks.hpp"
+#include "cli/sweep_plan.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>
@@ -127,13 +127,12 @@ Scene dam_with_water()
 // Stopped once: halves; twice: quarters; often enough: one by one. Other groups stay whole; each row is there once, in its order.
 TEST(SweepTasks, StoppedGroupsGoOnInPieces)
 {
-    std::vector<cli::FeGroup> groups(2);
+    std::vector<FeGroup> groups(2);
     groups[0].rows = {0, 2, 4, 6, 8, 10};
     groups[1].rows = {1, 3, 5};
     const auto sizes = [&](const std::map<std::size_t, int>& stopped) {
         std::vector<std::size_t> list;
-        for (const cli::FeGroup& piece : cli::with_stopped_in_pieces(groups, stopped))
-            list.push_back(piece.rows.size());
+        for (const FeGroup& piece : with_stopped_in_pieces(groups, stopped)) list.push_back(piece.rows.size());
         return list;
     };
     EXPECT_EQ(sizes({}), (std::vector<std::size_t>{6, 3}));
@@ -142,7 +141,7 @@ TEST(SweepTasks, StoppedGroupsGoOnInPieces)
     EXPECT_EQ(sizes({{4, 2}, {6, 1}}), (std::vector<std::size_t>{1, 1, 1, 1, 1, 1, 3}));
     EXPECT_EQ(sizes({{4, 1000}}).size(), 7u);
     std::vector<std::size_t> rows;
-    for (const cli::FeGroup& piece : cli::with_stopped_in_pieces(groups, {{4, 1}}))
+    for (const FeGroup& piece : with_stopped_in_pieces(groups, {{4, 1}}))
         rows.insert(rows.end(), piece.rows.begin(), piece.rows.end());
     EXPECT_EQ(rows, (std::vector<std::size_t>{0, 2, 4, 6, 8, 10, 1, 3, 5}));
 }

@@ -2,8 +2,8 @@
 #include "sliding/uplift/crack.hpp"
 
 #include "core/input_error.hpp"
-#include "exact/cracked_base.hpp"
-#include "exact/reference_scene.hpp"
+#include "verification/exact/cracked_base.hpp"
+#include "verification/exact/reference_scene.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

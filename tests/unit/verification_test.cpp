@@ -1,5 +1,5 @@
 // Every registered verification case is a ctest test of its own name.
-#include "verification/registry.hpp"
+#include "verification/cases/registry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,8 +15,8 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
-Progress::Progress(const Streams& streams, std::string label, std::size_t total, std::chrono::milliseconds line_every)
-    : streams_(streams), label_(std::move(label)), total_(static_cast<double>(total)), line_every_(line_every),
+Progress::Progress(const Streams& streams, std::string label, double total, std::chrono::milliseconds line_every)
+    : streams_(streams), label_(std::move(label)), total_(total), line_every_(line_every),
       start_(std::chrono::steady_clock::now()), drawn_(start_)
 {
 }
@@ -54,10 +54,10 @@ void Progress::phase(const std::string& what)
     }
 }
 
-void Progress::advance(std::size_t by)
+void Progress::advance(double by)
 {
     const std::lock_guard lock(mutex_);
-    done_ += static_cast<double>(by);
+    done_ += by;
     draw_now_and_then();
 }
 

@@ -3,7 +3,6 @@
 #include "cli/terminal/streams.hpp"
 
 #include <chrono>
-#include <cstddef>
 #include <mutex>
 
 namespace damslip::cli {
@@ -13,7 +12,7 @@ namespace damslip::cli {
 class Progress {
 public:
     /// @param line_every  of the lines, where there is no terminal
-    Progress(const Streams& streams, std::string label, std::size_t total,
+    Progress(const Streams& streams, std::string label, double total,
              std::chrono::milliseconds line_every = std::chrono::seconds(10));
     ~Progress(); ///< end(), where it was not called
     Progress(const Progress&) = delete;
@@ -23,8 +22,8 @@ public:
     void end();
     /// Names what goes on before the first step, "set-up": the bar and the lines say it at once.
     void phase(const std::string& what);
-    void advance(std::size_t by = 1); ///< from any thread
-    void at(double done);             ///< sets what is done, in the unit of the total; may step back
+    void advance(double by); ///< from any thread
+    void at(double done);    ///< sets what is done, in the unit of the total; may step back
 
 private:
     void draw_now_and_then();

@@ -1,13 +1,8 @@
 #pragma once
 
 #include "core/stop.hpp"
-#include "core/table.hpp"
 
-#include <filesystem>
 #include <iosfwd>
-#include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
 namespace damslip::cli {
 
@@ -24,13 +19,5 @@ struct Streams {
     std::ostream* bar = nullptr; ///< the terminal itself, for a bar that is drawn over; null: no terminal
     StopAsked stop = {};         ///< does the user want the command to end? empty: never
 };
-
-/// Table rows as a JSON array for a command's --json object.
-nlohmann::ordered_json json_of(const Table& table);
-
-/// {"schema": "damslip.<what>/1", "program": {...}}: how each --json object begins.
-nlohmann::ordered_json json_header(const std::string& what);
-
-std::string program_version();
 
 } // namespace damslip::cli

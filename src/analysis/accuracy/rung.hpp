@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// A rung of the accuracy ladder: one way to compute the slip of a scene.
+namespace damslip {
+
+enum class RungFamily { regression, rigid, finite_elements };
+enum class Components { horizontal, both };
+enum class RigidScheme { exact, slammer };
+enum class RungWater { dry, hydrostatic, added_mass, acoustic }; ///< how the water takes part in the shaking
+enum class StepChoice {
+    fixed,        ///< dt / 2^halvings
+    by_tolerance, ///< halved until the slip is within time.slip_tolerance: the default of `fe`
+    adaptive,     ///< the same, sub-steps spread by their local error
+    as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the ladder's settings
+};
+
+struct Rung {
+    RungFamily family = RungFamily::rigid;
+    std::string regression; ///< id, or "ensemble": all valid ones, weighted
+
+    // Rigid block.
+    Components components = Components::both;
+    RigidScheme scheme = RigidScheme::exact;
+
+    // Finite elements; exact contact unless something else is said.
+    RungWater water = RungWater::dry;
+    StepChoice step = StepChoice::fixed;
+    int halvings = 0;
+    double mesh = 1.0;                          ///< element sizes over the scene's [-]: 2, 0.5
+    std::string element;                        ///< mesh.element in place of the scene's: "q8"; empty: the scene's
+    std::optional<int> modes;                   ///< reduced run: elastic modes kept
+    std::optional<double> tangential_stiffness; ///< penalty [N/m^3]
+    std::optional<double> alpha;                ///< of HHT, in place of the scene's scheme [-]
+
+    /// Neither other elements, modes, penalty nor scheme: a point of the model's own row of steps and column of meshes.
+    bool plain() const
+    {
+        return element.empty() && !modes && !tangential_stiffness && !alpha && step == StepChoice::fixed;
+    }
+    bool operator==(const Rung&) const = default;
+};
+
+/// One word without blanks: "regression:jibson-1998", "rigid:h+v", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
+/// "fe-added-mass:dt/4,modes=12".
+std::string rung_id(const Rung& rung);
+/// The inverse; nothing for a word that is no id.
+std::optional<Rung> parse_rung(std::string_view id);
+
+/// What the rung computes a limit of: rungs of one model tend to one slip as steps, elements and penalties are refined.
+/// "rigid:h+v", "fe-acoustic", each regression its own.
+std::string model_of(const Rung& rung);
+
+std::string_view water_word(RungWater water); ///< "added mass"
+
+} // namespace damslip

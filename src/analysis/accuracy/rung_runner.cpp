@@ -1,0 +1,239 @@
+#include "analysis/accuracy/rung_runner.hpp"
+
+#include "analysis/accuracy/peak_memory.hpp"
+#include "analysis/accuracy/regression_rungs.hpp"
+#include "analysis/accuracy/variant.hpp"
+#include "analysis/fe/mesh_scale.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "core/input_error.hpp"
+#include "core/processor_clock.hpp"
+#include "core/units.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "scene/exact_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace damslip {
+
+namespace {
+
+std::string first_line(const std::string& text)
+{
+    return text.substr(0, text.find('\n'));
+}
+
+/// Takes over one record's run. @returns false where it gives no slip
+template <class Run>
+bool take(const Run& run, RungResult& result)
+{
+    result.steps = result.steps.value_or(0) + run.counts.steps;
+    result.time_step = std::min(result.time_step.value_or(run.dt), run.dt);
+    result.status = run.status;
+    if (run.status == Status::interrupted) result.outcome = RungOutcome::stopped;
+    if (run.status != Status::at_rest) {
+        result.remark = run.message;
+        return false;
+    }
+    result.slip.push_back(run.slip);
+    return true;
+}
+
+bool has_water(const Scene& scene)
+{
+    return scene.reservoir && scene.reservoir->level > 0.0;
+}
+
+/// FE models from poor to rich: what the scene's reservoir.model calls for, and the poorer one below it.
+std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& left_out)
+{
+    if (!has_water(scene)) return {RungWater::dry};
+    switch (scene.reservoir->model) {
+    case ReservoirModel::hydrostatic:
+        left_out.push_back("Added mass and acoustic water are not on this ladder: reservoir.model = \"hydrostatic\".");
+        return {RungWater::hydrostatic};
+    case ReservoirModel::added_mass:
+        left_out.push_back(
+            "Acoustic water is not on this ladder: reservoir.model = \"added-mass\"; with \"auto\" it is.");
+        return {RungWater::added_mass};
+    case ReservoirModel::acoustic:
+    case ReservoirModel::automatic:
+        break;
+    }
+    return {RungWater::added_mass, RungWater::acoustic};
+}
+
+bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
+{
+    const std::optional<Diagnostic> why_not = why_not_reducible(scene);
+    if (why_not) left_out.push_back("Reduced runs are not on this ladder: " + first_line(why_not->problem));
+    return !why_not;
+}
+
+std::vector<double> other_alphas(const TimeOptions& time)
+{
+    std::vector<double> alphas{0.0, -0.05, -0.3};
+    if (time.scheme == TimeScheme::hht || time.scheme == TimeScheme::automatic) std::erase(alphas, time.alpha);
+    return alphas;
+}
+
+bool linear_elements(ElementKind kind)
+{
+    return kind == ElementKind::q4_incompatible || kind == ElementKind::q4 || kind == ElementKind::t3;
+}
+
+double coarsest_mesh(const Scene& scene)
+{
+    const double elements = elements_on_base(scene);
+    double factor = 1.0;
+    while (factor < 4.0 && elements / (2.0 * factor) >= least_elements) factor *= 2.0;
+    return factor;
+}
+
+} // namespace
+
+RungRunner::RungRunner(Scene scene, std::vector<RecordPair> records, double read_seconds,
+                       std::function<bool()> interrupted)
+    : scene_(std::move(scene)), records_(std::move(records)), read_seconds_(read_seconds),
+      interrupted_(std::move(interrupted))
+{
+}
+
+RungResult RungRunner::run(const Rung& rung) const
+{
+    RungResult result;
+    result.rung = rung;
+    const PeakMemory memory;
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    try {
+        const Scene scene = scene_of(scene_, rung);
+        if (rung.family == RungFamily::regression)
+            run_regression(rung, result);
+        else if (rung.family == RungFamily::rigid)
+            run_rigid(scene, result);
+        else
+            run_finite_elements(scene, result);
+        if (result.slip.size() == records_.size()) result.outcome = RungOutcome::done;
+    } catch (const Interrupted& stop) {
+        result.outcome = RungOutcome::stopped;
+        result.remark = stop.what();
+    } catch (const InputError& error) {
+        result.outcome = RungOutcome::refused;
+        result.status = Status::refused;
+        result.remark = first_line(error.diagnostics().front().problem);
+    } catch (const NotConverged& error) {
+        result.status = Status::not_resolved;
+        result.remark = first_line(error.diagnostic().problem);
+    }
+    if (!result.done()) result.slip = result.low = result.high = {}; // of some records only
+    result.seconds = read_seconds_ + clock.seconds();
+    result.set_up_seconds += read_seconds_;
+    result.bytes = memory.bytes();
+    result.repeats = 1;
+    return result;
+}
+
+void RungRunner::run_regression(const Rung& rung, RungResult& result) const
+{
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    SeepageSource seepage;
+    const EffectPlan plan = make_effect_plan(scene_, Method::rigid_block);
+    const Scene scene = called_for(plan, scene_);
+    const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
+    result.set_up_seconds = clock.seconds();
+    for (const RecordPair& pair : records_) {
+        const auto slip = regression_slip(rung.regression, scene, pair, model);
+        if (!slip) {
+            result.status =
+                model.state == sliding::StaticState::at_rest ? Status::refused : sliding::status_of(model.state);
+            if (result.status == Status::refused) result.outcome = RungOutcome::refused;
+            result.remark = "no valid value for record " + pair.files.name;
+            return;
+        }
+        result.status = Status::at_rest;
+        result.slip.push_back(slip->median);
+        if (slip->low && slip->high) {
+            result.low.push_back(*slip->low);
+            result.high.push_back(*slip->high);
+        }
+        result.remark = slip->remark;
+    }
+    if (result.low.size() != result.slip.size()) result.low = result.high = {};
+}
+
+void RungRunner::run_rigid(const Scene& given, RungResult& result) const
+{
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    SeepageSource seepage;
+    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
+    const Scene scene = called_for(plan, given);
+    const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
+    result.set_up_seconds = clock.seconds();
+    for (const RecordPair& pair : records_) {
+        GroundMotion motion = ground_motion(scene, pair);
+        if (!scene.motion.vertical) motion = horizontal_only(std::move(motion));
+        const sliding::SlideResult r = slide_model(scene, model, motion, 1);
+        result.status = r.status;
+        if (r.status != Status::at_rest) {
+            result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : r.notes.front();
+            return;
+        }
+        result.slip.push_back(r.slip);
+    }
+}
+
+void RungRunner::run_finite_elements(const Scene& given, RungResult& result) const
+{
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
+    Scene scene = fe_scene(given, plan);
+    resolve_dam_period(scene, interrupted_);
+    SeepageSource seepage;
+    fe2d::RunOptions options = contact_options(scene, records_, seepage);
+    options.progress = [this](const fe2d::RunProgress&) {
+        return interrupted_() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+    };
+    options.stop = interrupted_;
+    const fe2d::EarthquakeRun full(scene, options);
+    std::optional<fe2d::ReducedRun> reduced;
+    if (result.rung.modes) reduced.emplace(full, scene, options, *result.rung.modes);
+    result.unknowns = full.water() ? static_cast<std::int64_t>(full.water()->size) + full.model().counts.unknowns -
+                                         static_cast<std::int64_t>(full.water()->dam_unknowns)
+                                   : full.model().counts.unknowns;
+    if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
+    result.set_up_seconds = clock.seconds();
+    for (const RecordPair& pair : records_) {
+        const GroundMotion motion = ground_motion(scene, pair);
+        if (reduced ? !take(reduced->run(motion), result) : !take(full.run(motion), result)) return;
+    }
+}
+
+LadderFacts RungRunner::facts() const
+{
+    LadderFacts facts;
+    facts.vertical = std::any_of(records_.begin(), records_.end(), [](const RecordPair& p) { return p.vertical; });
+    if (!facts.vertical) facts.left_out.push_back("No rung with vertical motion: the records have none that counts.");
+    facts.slammer = scene_.sliding.scheme == SlidingScheme::slammer;
+    facts.regressions = best_regressions(scene_, records_);
+    if (facts.regressions.empty()) facts.left_out.push_back("No regression is valid for all records.");
+    if (!scene_.dam.young_modulus) {
+        facts.left_out.push_back("No finite elements: dam.young_modulus_GPa is not given.");
+        return facts;
+    }
+    facts.waters = waters_of(scene_, facts.left_out);
+    facts.reducible = can_reduce(scene_of(scene_, parse_rung("fe-added-mass:dt").value()), facts.left_out);
+    facts.alphas = other_alphas(scene_.time);
+    facts.own_settings = scene_.time.substeps || with_exact_contact(scene_);
+    facts.quadratic = linear_elements(scene_.mesh.element);
+    if (!facts.quadratic)
+        facts.left_out.push_back(
+            "Quadratic elements are not tried beside the scene's, which are quadratic themselves.");
+    facts.coarsest = coarsest_mesh(scene_);
+    return facts;
+}
+
+} // namespace damslip

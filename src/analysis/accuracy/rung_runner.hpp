@@ -1,0 +1,38 @@
+#pragma once
+
+#include "analysis/accuracy/ladder.hpp"
+#include "analysis/prepare/records.hpp"
+
+#include <functional>
+
+namespace damslip {
+
+/// Runs single rungs of one scene. Nothing is shared between rungs, so each costs what it costs alone.
+class RungRunner {
+public:
+    /// @param read_seconds  that reading scene and records took: every rung pays them
+    /// @param interrupted  asked at every step of the record and between the parts of a set-up
+    RungRunner(Scene scene, std::vector<RecordPair> records, double read_seconds, std::function<bool()> interrupted);
+
+    /// Once, with its seconds and memory. Input that a rung does not admit (mesh, law) and runs without an answer are a
+    /// failed result, never a throw.
+    RungResult run(const Rung& rung) const;
+
+    /// What decides about rungs; regressions are evaluated for it.
+    LadderFacts facts() const;
+
+    const Scene& scene() const { return scene_; }
+    const std::vector<RecordPair>& records() const { return records_; }
+
+private:
+    void run_regression(const Rung& rung, RungResult& result) const;
+    void run_rigid(const Scene& scene, RungResult& result) const;
+    void run_finite_elements(const Scene& scene, RungResult& result) const;
+
+    Scene scene_;
+    std::vector<RecordPair> records_;
+    double read_seconds_;
+    std::function<bool()> interrupted_;
+};
+
+} // namespace damslip

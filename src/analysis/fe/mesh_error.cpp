@@ -1,0 +1,119 @@
+#include "analysis/fe/mesh_error.hpp"
+
+#include "analysis/fe/mesh_scale.hpp"
+#include "analysis/prepare/contact_options.hpp"
+#include "core/input_error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+constexpr double twice = 2.0; ///< the size of all elements
+
+void no_answer(Status status, const std::string& message, MeshError& result)
+{
+    result.check = MeshCheck::no_answer;
+    result.reason =
+        fmt::format("the mesh's part of the error is not known: on elements of twice the size the run ends \"{}\" ({})",
+                    word(status), message);
+}
+
+} // namespace
+
+CoarserMesh::CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
+                         StopAsked stop, int modes)
+    : scene_(scene), records_(records), wanted_(wanted), progress_(std::move(progress)), stop_(std::move(stop)),
+      modes_(modes)
+{
+}
+
+/// What can be said without a run.
+bool CoarserMesh::known_to_fail(Status status, double step_error, MeshError& result) const
+{
+    if (status != Status::at_rest || std::isnan(step_error)) {
+        result.check = MeshCheck::no_slip;
+        if (status_row(status).slip != SlipMeaning::none)
+            result.reason =
+                "step only: elements of twice the size are run for slips that are final and within the step's "
+                "tolerance";
+    } else if (!wanted_) {
+        result.check = MeshCheck::left_out;
+        result.reason = "step only: --no-mesh-error";
+    } else if (scene_.mesh.file) {
+        result.check = MeshCheck::imported;
+        result.reason = "step only: the mesh is imported (mesh.file)";
+    } else if (elements_on_base(scene_) < twice * least_elements) {
+        result.check = MeshCheck::too_coarse;
+        result.reason = fmt::format("step only: elements of twice the size would leave fewer than {:g} on the base",
+                                    least_elements);
+    } else
+        return false;
+    return true;
+}
+
+/// The model on the coarser mesh. @returns false where there is none, with the reason
+bool CoarserMesh::make(MeshError& result, bool reduced)
+{
+    const std::lock_guard lock(mutex_); // others who need the same model wait for it
+    if (!full_ && why_not_.empty()) {
+        coarse_ = scene_;
+        scale_mesh(twice, coarse_);
+        SeepageSource seepage;
+        try {
+            fe2d::RunOptions options = contact_options(coarse_, records_, seepage);
+            options.progress = progress_;
+            options.stop = stop_;
+            full_ = std::make_unique<const fe2d::EarthquakeRun>(coarse_, options);
+            if (reduced) reduced_ = std::make_unique<const fe2d::ReducedRun>(*full_, coarse_, options, modes_);
+        } catch (const Interrupted& stopped) { // the run it was for is finished: its slip is kept
+            full_.reset();
+            no_answer(Status::interrupted, stopped.what(), result);
+            return false;
+        } catch (const InputError& error) {
+            const std::string& problem = error.diagnostics().front().problem;
+            why_not_ = "step only: no mesh of elements of twice the size: " + problem;
+        } catch (const NotConverged& error) {
+            why_not_ = "step only: no model on elements of twice the size: " + error.diagnostic().problem;
+        }
+    }
+    if (why_not_.empty()) return true;
+    result.check = MeshCheck::too_coarse;
+    result.reason = why_not_;
+    return false;
+}
+
+MeshError CoarserMesh::error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run,
+                                const GroundMotion& motion)
+{
+    MeshError result;
+    if (known_to_fail(run.status, run.slip_error, result) || !make(result, false)) return result;
+    const fe2d::RunResult coarse = full_->run_at(motion, model.steps_of(run));
+    if (coarse.status != Status::at_rest || coarse.lifts.size() != run.lifts.size()) {
+        no_answer(coarse.status, coarse.message, result);
+        return result;
+    }
+    result.check = MeshCheck::done;
+    result.base = std::abs(run.slip - coarse.slip);
+    for (std::size_t k = 0; k < run.lifts.size(); ++k)
+        result.lifts.push_back(std::abs(run.lifts[k].slip - coarse.lifts[k].slip));
+    return result;
+}
+
+MeshError CoarserMesh::error_of(const fe2d::ReducedResult& run, const GroundMotion& motion)
+{
+    MeshError result;
+    if (known_to_fail(run.status, run.step_error, result) || !make(result, true)) return result;
+    const fe2d::ReducedResult coarse = reduced_->run(motion, {}, run.halvings);
+    if (coarse.status != Status::at_rest) {
+        no_answer(coarse.status, coarse.message, result);
+        return result;
+    }
+    result.check = MeshCheck::done;
+    result.base = std::abs(run.slip - coarse.slip);
+    return result;
+}
+
+} // namespace damslip

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "analysis/prepare/records.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/run/earthquake_run.hpp"
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+/// What the mesh leaves open of the slip: |slip(h) - slip(2h)| from one more run on elements of twice the size, with the steps of
+/// the run it is for. No order of convergence is assumed.
+namespace damslip {
+
+enum class MeshCheck {
+    done,       ///< the error is known
+    left_out,   ///< not wanted
+    imported,   ///< mesh.file: there is no coarser one
+    too_coarse, ///< elements of twice the size would not mesh the base
+    no_slip,    ///< the run has no final slip with an error of its step: nothing to add to
+    no_answer   ///< the run on elements of twice the size has no slip: what the mesh leaves open is not known
+};
+
+struct MeshError {
+    MeshCheck check = MeshCheck::left_out;
+    double base = std::numeric_limits<double>::quiet_NaN(); ///< of the mean slip at the end [m]; NaN: not known
+    std::vector<double> lifts;                              ///< of the lift joints, from bottom to top [m]
+    std::string reason; ///< why it is not known: "step only: the mesh is imported"; empty: it is known, or nobody asks
+};
+
+/// The scene on elements of twice the size, made when the first run asks for it, for all that follow. Runs may ask from
+/// their own threads.
+class CoarserMesh {
+public:
+    using Answer = std::function<fe2d::RunAnswer(const fe2d::RunProgress&)>;
+
+    /// @param scene, records  outlive this @param wanted  false: every run has MeshCheck::left_out
+    /// @param modes  of reduced runs
+    /// @param progress  of the runs on it
+    /// @param stop  asked between the parts of its set-up; stopped there, the error is not known
+    CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
+                StopAsked stop, int modes = fe2d::default_modes);
+
+    /// @param run  of `model` with this motion
+    MeshError error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run, const GroundMotion& motion);
+    MeshError error_of(const fe2d::ReducedResult& run, const GroundMotion& motion);
+
+private:
+    bool known_to_fail(Status status, double step_error, MeshError& result) const;
+    bool make(MeshError& result, bool reduced);
+
+    const Scene& scene_;
+    const std::vector<RecordPair>& records_;
+    bool wanted_;
+    Answer progress_;
+    StopAsked stop_;
+    int modes_;
+    std::mutex mutex_;
+    Scene coarse_;
+    std::string why_not_; ///< the coarser mesh cannot be made
+    std::unique_ptr<const fe2d::EarthquakeRun> full_;
+    std::unique_ptr<const fe2d::ReducedRun> reduced_;
+};
+
+} // namespace damslip

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/stop.hpp"
+#include "fe2d/model/model.hpp"
+#include "scene/effect_plan.hpp"
+#include "scene/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace damslip {
+
+/// The scene with what the plan calls for.
+Scene fe_scene(const Scene& given, const EffectPlan& plan);
+
+/// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
+fe2d::AddedMassLaw added_mass_law(const Scene& scene);
+
+/// What became of reservoir.model = "auto".
+struct ReservoirChoice {
+    double frequency = 0.0; ///< first natural frequency with added mass [Hz]
+    std::string reason;     ///< one sentence with the numbers
+};
+
+/// Decides reservoir.model = "auto" by the compressibility criterion (3-36) on the computed first frequency: acoustic where Omega_r < 2, else
+/// added mass. Nothing where the scene says itself what it wants.
+/// @throws Interrupted
+std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene, const StopAsked& stop = {});
+
+/// Water in the rock as nodal forces (stages.pore_pressure = total or effective), from the seepage on the model's own mesh; zero for none.
+/// @throws NotConverged when the seepage solver loses its accuracy
+Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model);
+
+/// Does stages.pore_pressure ask for water in the rock, and is there rock?
+bool has_water_in_rock(const Scene& scene);
+
+/// The part of rock_water_load() beyond the uplift on both faces of the joint, which contact runs have by themselves. The
+/// joint's two sides must have facing nodes for stages.pore_pressure = "effective".
+Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model);
+
+/// How added_mass.period_s = "dam" came out.
+struct DamPeriod {
+    double frequency = 0.0; ///< f_1 with the added mass of its own period [Hz]
+    int iterations = 0;
+    double incompressible_frequency = 0.0; ///< f_1 with T = infinity [Hz]
+};
+
+/// Finds the period of the dam with the added mass that belongs to it: the root of T = 1/f_1(T), bracketed between the reservoir's own
+/// period, where the mass is infinite, and the incompressible answer. The scene gets the value as added_mass.period.
+/// @returns nothing, the scene as it was, where the period is not asked for or no added mass acts: without a reservoir, with an
+/// empty, hydrostatic or acoustic one.
+/// @throws InputError where the dam is so stiff that its period lies below the reservoir's; Interrupted
+std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop = {});
+
+} // namespace damslip

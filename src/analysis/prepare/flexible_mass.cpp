@@ -1,0 +1,86 @@
+#include "analysis/prepare/flexible_mass.hpp"
+
+#include "analysis/prepare/fe_inputs.hpp"
+#include "core/usage_error.hpp"
+#include "fe2d/modes/natural_modes.hpp"
+#include "scene/section.hpp"
+#include "sliding/flexible/mode_shape.hpp"
+#include "sliding/loads/added_mass_integral.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+/// Dam and the water that moves with it, horizontally [kg/m].
+double moving_mass(const Scene& scene)
+{
+    const std::optional<double> level = scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt;
+    return scene.dam.density * area(scene.section) + sliding::scene_added_mass(scene, level).xx;
+}
+
+double mass_ratio(const Scene& scene, double otherwise)
+{
+    const FlexibleMass& m = *scene.flexible_block;
+    if (m.mass_ratio) return *m.mass_ratio;
+    if (m.shape_exponent) return sliding::power_shape(scene, *m.shape_exponent).mass_ratio();
+    if (m.modal_load && m.modal_mass) return *m.modal_load * *m.modal_load / (moving_mass(scene) * *m.modal_mass);
+    return otherwise;
+}
+
+} // namespace
+
+std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene)
+{
+    sliding::FlexibleBlock block;
+    if (!scene.flexible_block) {
+        if (scene.regressions.period <= 0.0 || scene.wedge) return std::nullopt;
+        block.period = scene.regressions.period;
+        return block;
+    }
+    block.period = scene.flexible_block->period.value_or(scene.regressions.period);
+    block.damping_ratio = scene.flexible_block->damping_ratio;
+    block.mass_ratio = mass_ratio(scene, block.mass_ratio);
+    return block;
+}
+
+std::string mass_ratio_words(const Scene& scene)
+{
+    if (!scene.flexible_block) return "of a uniform shear column, the default";
+    const FlexibleMass& m = *scene.flexible_block;
+    if (m.mass_ratio) return "as the scene gives it";
+    if (m.shape_exponent) return fmt::format("of the shape (y/H)^{:.4g}, water included", *m.shape_exponent);
+    if (m.modal_load) return "L²/(M M₁) of the scene's L and M₁";
+    return "of a uniform shear column, the default";
+}
+
+std::string resolve_flexible_modes(Scene& scene)
+{
+    if (!scene.flexible_block || !scene.flexible_block->of_modes) return "";
+    Scene tied = fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
+    if (tied.reservoir && tied.reservoir->model == ReservoirModel::acoustic)
+        tied.reservoir->model = ReservoirModel::added_mass;
+    resolve_dam_period(tied);
+    fe2d::ModelOptions options;
+    options.added_mass = added_mass_law(tied);
+    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(tied, options), 5);
+    if (modes.frequency.size() == 0)
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
+                                      "flexible_block.period_s = \"modes\": no mode was found: " + modes.solver.text(),
+                                      "a model whose modes the solver finds", "give the period as a number"});
+    Eigen::Index best = 0;
+    for (Eigen::Index i = 1; i < modes.frequency.size(); ++i)
+        if (modes.effective_share(0, i) > modes.effective_share(0, best)) best = i;
+    FlexibleMass& mass = *scene.flexible_block;
+    mass.period = 1.0 / modes.frequency[best];
+    mass.mass_ratio = modes.effective_share(0, best);
+    mass.of_modes = false;
+    return fmt::format(
+        "flexible_block.period_s = \"modes\": mode {} of the tied model{}, T_s = {:.5g} s, effective mass "
+        "{:.4g} kg/m, mass ratio {:.4g}",
+        best + 1, tied.reservoir ? " with added mass" : "", *mass.period, modes.effective_mass(0, best),
+        *mass.mass_ratio);
+}
+
+} // namespace damslip

@@ -1,0 +1,132 @@
+#include "analysis/prepare/rigid_model.hpp"
+
+#include "core/units.hpp"
+#include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "scene/section.hpp"
+
+#include <fmt/format.h>
+#include <numbers>
+
+namespace damslip {
+
+namespace {
+
+RigidModel make_wedge_model(const Scene& scene)
+{
+    RigidModel model;
+    RigidWedge& w = model.wedge.emplace(make_rigid_wedge(scene));
+    model.block.mass = w.wedge.mass;
+    model.block.gravity = w.wedge.gravity;
+    model.block.friction = w.wedge.first.friction;
+    model.stages = {{0.0, model.block, 0.0}};
+    model.downstream = {w.yields.at_rest.law, w.yields.at_rest.factor};
+    const sliding::WedgeYield back = wedge_yield(w.wedge, sum({}, -1.0, w.push));
+    model.upstream = {back.law, back.factor};
+    model.state = w.still.mode == sliding::WedgeMode::lifts ? sliding::StaticState::lifts_off
+                  : w.still.factor_of_safety < 1.0          ? sliding::StaticState::slides_downstream
+                                                            : sliding::StaticState::at_rest;
+    model.critical_friction = critical_first_friction(w.wedge, w.still);
+    model.length = sliding_length(*scene.wedge, w.yields.at_rest.state.mode);
+    return model;
+}
+
+} // namespace
+
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
+{
+    if (scene.wedge) return make_wedge_model(scene);
+    sliding::BlockOptions options;
+    options.crack = crack;
+    options.seepage = seepage;
+    RigidModel model;
+    model.block = sliding::make_rigid_block(scene, options);
+    model.stages = sliding::strength_stages(model.block, scene.contact);
+    if (scene.drains && scene.drains->lost_at_slip) {
+        sliding::BlockOptions later = options;
+        later.drains = sliding::DrainState::ineffective;
+        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
+                                                sliding::make_rigid_block(scene, later));
+    }
+    model.downstream = sliding::yield_downstream(model.block);
+    model.upstream = sliding::yield_upstream(model.block);
+    model.state = sliding::static_state(model.block);
+    model.critical_friction = sliding::critical_friction(model.block);
+    model.length = base_length(scene.section);
+    return model;
+}
+
+namespace {
+
+sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::HistoryOutput history)
+{
+    return {scene.sliding, polarity, history};
+}
+
+} // namespace
+
+void check_length(const RigidModel& model, sliding::SlideResult& result)
+{
+    const bool slides = result.status == Status::at_rest || result.status == Status::sliding_at_end;
+    if (!slides || !model.length || !(result.max_slip > *model.length)) return;
+    result.status = Status::runs_away;
+    result.notes.push_back(
+        fmt::format("It slides further than the {:.4g} m it slides on: no slip is given.", *model.length));
+}
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history)
+{
+    if (model.wedge) return slide_model(scene, model, motion.motion(), polarity, history);
+    sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+    check_length(model, result);
+    return result;
+}
+
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history)
+{
+    const sliding::SlideOptions options = slide_options(scene, polarity, history);
+    sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options)
+                                              : sliding::slide(motion, model.stages, options);
+    if (model.wedge && fails_statically(result.status)) result.status = sliding::status_of(model.state);
+    check_length(model, result);
+    return result;
+}
+
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s)
+{
+    Record horizontal;
+    horizontal.dt = motion.dt;
+    horizontal.acceleration = motion.accel_h;
+    const records::Measures m = records::measure(horizontal);
+    sliding::RegressionInputs inputs;
+    inputs.yield_coefficient = model.downstream.law.constant / units::standard_gravity;
+    inputs.pga_g = m.pga / units::standard_gravity;
+    inputs.arias_m_s = m.arias_intensity;
+    inputs.pgv_cm_s = m.pgv / units::cm;
+    inputs.mean_period_s = m.mean_period;
+    inputs.magnitude = pair.files.magnitude;
+    // N_eq sine cycles of amplitude a_max and period T_m have the Arias intensity pi/(2g) N_eq T_m a_max^2/2.
+    if (m.mean_period && m.pga > 0.0)
+        inputs.cycles =
+            4.0 * units::standard_gravity * m.arias_intensity / (std::numbers::pi * *m.mean_period * m.pga * m.pga);
+    inputs.sa_13_g = inputs.sa_15_g = inputs.pga_g;
+    if (period_s > 0.0) {
+        inputs.period_s = period_s;
+        const double periods[] = {1.3 * period_s, 1.5 * period_s};
+        const auto spectrum = records::response_spectrum(motion.accel_h, motion.dt, periods, 0.05);
+        inputs.sa_13_g = spectrum.points[0].pseudo_acceleration / units::standard_gravity;
+        inputs.sa_15_g = spectrum.points[1].pseudo_acceleration / units::standard_gravity;
+    }
+    return inputs;
+}
+
+GroundMotion horizontal_only(GroundMotion motion)
+{
+    motion.accel_v.clear();
+    return motion;
+}
+
+} // namespace damslip

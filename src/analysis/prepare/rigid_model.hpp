@@ -1,0 +1,48 @@
+#pragma once
+
+#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/wedge_model.hpp"
+#include "scene/scene.hpp"
+#include "sliding/block/skipping_motion.hpp"
+#include "sliding/block/slide.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/empirical/regression.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+
+namespace damslip {
+
+/// The rigid block of a scene, what it becomes with slip, and what holds it.
+struct RigidModel {
+    sliding::RigidBlock block;  ///< before any slip
+    sliding::SlipStages stages; ///< strength and uplift over slip
+    sliding::Yield downstream, upstream;
+    sliding::StaticState state = sliding::StaticState::at_rest;
+    double critical_friction = 0.0;  ///< [-]; of a wedge: of its first plane
+    std::optional<RigidWedge> wedge; ///< takes the place of block and stages
+    std::optional<double> length;    ///< of what it slides on [m]; none: a wedge whose surfaces are not given
+};
+
+/// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
+/// @param crack    in place of the scene's uplift.crack, if given
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage,
+                            std::optional<CrackRule> crack = std::nullopt);
+
+/// The one place where a slip that passes what it slides on loses its meaning: Status::runs_away in place of at_rest and
+/// sliding_at_end.
+void check_length(const RigidModel& model, sliding::SlideResult& result);
+
+/// Slip of the model under a motion with the scene's [sliding] options.
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
+                                 int polarity, sliding::HistoryOutput history = sliding::HistoryOutput::none);
+sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                 sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+/// What the regressions ask for, measured from the scaled horizontal component; magnitude as the scene gives it.
+/// @param period_s  T_s of the sliding mass [s]; 0: rigid, spectral accelerations are then the PGA
+sliding::RegressionInputs regression_inputs(const RecordPair& pair, const GroundMotion& motion, const RigidModel& model,
+                                            double period_s = 0.0);
+
+/// The same motion without its vertical component.
+GroundMotion horizontal_only(GroundMotion motion);
+
+} // namespace damslip

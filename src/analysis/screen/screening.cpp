@@ -1,0 +1,512 @@
+#include "analysis/screen/screening.hpp"
+
+#include "analysis/prepare/seepage_source.hpp"
+#include "core/input_error.hpp"
+#include "core/parallel.hpp"
+#include "core/statistics.hpp"
+#include "core/units.hpp"
+#include "scene/wet_base.hpp"
+#include "sliding/empirical/ensemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace damslip {
+
+namespace {
+
+double peak(const std::vector<double>& a)
+{
+    double p = 0.0;
+    for (const double x : a) p = std::max(p, std::abs(x));
+    return p;
+}
+
+void set_status(SlipRow& row, Status status)
+{
+    row.horizontal.status = status;
+    if (row.with_vertical) row.with_vertical->status = status;
+    if (!row.flexible) return;
+    if (row.flexible->decoupled) row.flexible->decoupled->slide.status = status;
+    if (row.flexible->coupled) row.flexible->coupled->slide.status = status;
+}
+
+/// Largest acceleration of the mass: that of the ground, or what a flexible mass makes of it [m/s^2].
+double strongest_shaking(const SlipRow& row)
+{
+    double strongest = row.pga;
+    if (row.flexible)
+        for (const auto* slide : {&row.flexible->decoupled, &row.flexible->coupled})
+            if (*slide) strongest = std::max(strongest, (*slide)->peak_acceleration);
+    return strongest;
+}
+
+std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records, int jobs,
+                               std::vector<std::string>& warnings)
+{
+    const RigidModel& model = s.bases.front().model;
+    std::vector<GroundMotion> motions;
+    std::vector<SlipRow> rows;
+    for (const RecordPair& pair : records) {
+        motions.push_back(ground_motion(scene, pair));
+        for (const std::string& note : motions.back().notes) warnings.push_back(motions.back().name + ": " + note);
+        for (const int polarity : {1, -1}) {
+            SlipRow row;
+            row.record = motions.back().name;
+            row.polarity = polarity;
+            row.pga = peak(motions.back().accel_h);
+            row.vertical_pga = peak(motions.back().accel_v);
+            rows.push_back(std::move(row));
+        }
+    }
+    parallel_for(3 * rows.size(), jobs, [&](std::size_t task) {
+        SlipRow& row = rows[task / 3];
+        const GroundMotion& motion = motions[task / 6];
+        if (task % 3 == 0)
+            row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
+        else if (task % 3 == 1 && !motion.accel_v.empty())
+            row.with_vertical = slide_model(scene, model, motion, row.polarity);
+        else if (task % 3 == 2 && s.flexible)
+            row.flexible = slide_flexible(scene, *s.flexible, model, motion, row.polarity);
+    });
+    for (SlipRow& row : rows) {
+        if (overturns(s.bases.front())) set_status(row, Status::overturns);
+        row.broken_premises = broken_premises(s.bases.front(), strongest_shaking(row));
+    }
+    return rows;
+}
+
+/// The scene's weights. @throws InputError for an id that no regression has.
+std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
+{
+    std::vector<sliding::RegressionWeight> weights;
+    for (const RegressionWeightKey& key : scene.regressions.weights) {
+        if (!sliding::find_regression(key.model)) {
+            std::string ids;
+            for (const sliding::Regression& r : sliding::regressions())
+                ids += (ids.empty() ? "" : ", ") + std::string(r.id);
+            throw InputError(Diagnostic{scene.file.string(), 0, 0,
+                                        fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
+                                        "write one of these"});
+        }
+        weights.push_back({key.model, key.weight});
+    }
+    return weights;
+}
+
+std::optional<double> metres(const std::optional<double>& value_cm)
+{
+    return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
+}
+
+RegressionRow regression_row(const std::string& record, const sliding::RegressionResult& r)
+{
+    RegressionRow row;
+    row.record = record;
+    row.id = r.regression->id;
+    row.model = r.regression->name;
+    row.median = metres(r.median_cm), row.low = metres(r.minus_sd_cm), row.high = metres(r.plus_sd_cm);
+    row.nonzero_median = metres(r.nonzero_median_cm);
+    row.zero_probability = r.zero_probability;
+    row.valid = sliding::valid(r);
+    row.status = sliding::reason(r);
+    if (r.status != sliding::RegressionStatus::missing_input) row.remark = r.remark; // which the status names
+    return row;
+}
+
+/// 16, 50 and 84 % of the weighted distribution; no numbers where no regression is valid.
+RegressionRow ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
+{
+    RegressionRow row;
+    row.record = record;
+    row.id = weighted_median_id;
+    row.model = "weighted median";
+    row.valid = e.median_cm.has_value();
+    row.status = row.valid ? "valid" : "no regression valid";
+    row.remark = "no regression valid here";
+    if (!row.valid) return row;
+    row.median = metres(e.median_cm), row.low = metres(e.low_cm), row.high = metres(e.high_cm);
+    row.remark = fmt::format("of {}, {}", e.members.size(), weights_given ? "weights of the scene" : "equal weights");
+    if (weights_given && e.weight_left_out > 0.0)
+        row.remark += fmt::format("; {:.3g} % of the weight on others", 100.0 * e.weight_left_out);
+    return row;
+}
+
+/// Every regression in table order, then all valid ones weighted.
+std::vector<RegressionRow> regression_rows_of(const std::string& record,
+                                              const std::vector<sliding::RegressionResult>& results,
+                                              const std::vector<sliding::RegressionWeight>& weights)
+{
+    const sliding::Ensemble ensemble = sliding::weighted_ensemble(results, weights);
+    std::vector<RegressionRow> rows;
+    for (const sliding::RegressionResult& r : results) {
+        rows.push_back(regression_row(record, r));
+        const auto member = std::find(ensemble.members.begin(), ensemble.members.end(), r.regression->id);
+        if (member != ensemble.members.end())
+            rows.back().weight = ensemble.weights[static_cast<std::size_t>(member - ensemble.members.begin())];
+        else if (rows.back().valid && rows.back().remark.empty())
+            rows.back().remark = "not weighted";
+    }
+    rows.push_back(ensemble_row(record, ensemble, !weights.empty()));
+    return rows;
+}
+
+std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
+                                           const std::vector<RecordPair>& records)
+{
+    const std::vector<sliding::RegressionWeight> weights = regression_weights(scene);
+    std::vector<RegressionRow> rows;
+    for (const RecordPair& pair : records) {
+        auto inputs = regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period);
+        const bool stands = model.state == sliding::StaticState::at_rest;
+        if (!stands) inputs.yield_coefficient = 0.0; // no regression is of a block that floats or slides upstream
+        for (RegressionRow& row : regression_rows_of(pair.files.name, sliding::evaluate_all(inputs), weights)) {
+            if (!stands && row.id != weighted_median_id) row.status = word(sliding::status_of(model.state));
+            rows.push_back(std::move(row));
+        }
+    }
+    return rows;
+}
+
+/// Both polarities of one record.
+struct RecordSlides {
+    std::string record;
+    const sliding::SlideResult *positive, *negative;
+};
+
+/// Records that fail over those that can be judged; nothing where none can.
+std::optional<double> failing_share(const std::vector<RecordSlides>& records, const std::optional<double>& allowable)
+{
+    if (!allowable) return std::nullopt;
+    std::size_t judged = 0, failing = 0;
+    for (const RecordSlides& r : records) {
+        if (!is_answer(worse(*r.positive, *r.negative).status)) continue;
+        ++judged;
+        const auto fails = [&](const sliding::SlideResult& slide) {
+            return status_row(slide.status).judging == Judging::fails || slide.max_slip > *allowable;
+        };
+        failing += fails(*r.positive) || fails(*r.negative);
+    }
+    if (judged == 0) return std::nullopt;
+    return static_cast<double>(failing) / static_cast<double>(judged);
+}
+
+SetStatistics statistics_of(const std::string& quantity, const std::vector<RecordSlides>& records,
+                            const std::optional<double>& allowable)
+{
+    SetStatistics s;
+    s.quantity = quantity;
+    std::vector<double> values;
+    s.largest = std::nan("");
+    for (const RecordSlides& r : records) {
+        const sliding::SlideResult& slide = worse(*r.positive, *r.negative);
+        const std::optional<double> slip = reported(slide.status, slide.max_slip);
+        if (!slip) {
+            s.without_slip.add(slide.status);
+            continue;
+        }
+        values.push_back(*slip);
+        if (status_row(slide.status).slip == SlipMeaning::lower_bound) s.lower_bounds.add(slide.status);
+        if (s.largest >= *slip) continue;
+        s.largest = *slip;
+        s.controlling_record = r.record;
+    }
+    s.n = values.size();
+    s.median = percentile(values, 0.5);
+    s.percentile_16 = percentile(values, 0.16);
+    s.percentile_84 = percentile(values, 0.84);
+    s.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    s.share_above_allowable = failing_share(records, allowable);
+    return s;
+}
+
+/// Rows come in pairs of polarities. @param select  a row's slide; null: it has none of this kind
+template <class Select>
+std::vector<RecordSlides> slides_of(const std::vector<SlipRow>& rows, Select&& select)
+{
+    std::vector<RecordSlides> records;
+    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
+        const sliding::SlideResult *a = select(rows[i]), *b = select(rows[i + 1]);
+        if (a && b) records.push_back({rows[i].record, a, b});
+    }
+    return records;
+}
+
+const sliding::SlideResult* slide_of(const std::optional<sliding::FlexibleSlide>& flexible)
+{
+    return flexible ? &flexible->slide : nullptr;
+}
+
+std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, const std::optional<double>& allowable)
+{
+    std::vector<SetStatistics> out;
+    const auto add = [&](const std::string& name, auto&& select) {
+        const std::vector<RecordSlides> records = slides_of(rows, select);
+        if (!records.empty()) out.push_back(statistics_of(name, records, allowable));
+    };
+    add("rigid, horizontal", [](const SlipRow& r) { return &r.horizontal; });
+    add("rigid, with vertical", [](const SlipRow& r) { return r.with_vertical ? &*r.with_vertical : nullptr; });
+    add("flexible, decoupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->decoupled) : nullptr; });
+    add("flexible, coupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->coupled) : nullptr; });
+    return out;
+}
+
+/// All slides of a row.
+std::vector<const sliding::SlideResult*> all_slides(const SlipRow& row)
+{
+    std::vector<const sliding::SlideResult*> slides{&row.horizontal};
+    if (row.with_vertical) slides.push_back(&*row.with_vertical);
+    if (row.flexible)
+        for (const auto* slide : {slide_of(row.flexible->decoupled), slide_of(row.flexible->coupled)})
+            if (slide) slides.push_back(slide);
+    return slides;
+}
+
+void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
+{
+    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, s.largest_vertical_pga}, seepage);
+    if (scene.reservoir || scene.tailwater)
+        s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
+}
+
+void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warnings)
+{
+    const auto& [decoupled, coupled] = *row.flexible;
+    for (const auto& [name, result] : {std::pair("decoupled", &decoupled), std::pair("coupled", &coupled)}) {
+        if (!*result || (*result)->slide.status == Status::at_rest || fails_statically((*result)->slide.status))
+            continue;
+        for (const std::string& note : (*result)->slide.notes)
+            warnings.push_back(fmt::format("{}, polarity {:+d}, {}: {}", row.record, row.polarity, name, note));
+    }
+    if (row.rigid().lift_offs > 0 && !decoupled)
+        warnings.push_back(
+            fmt::format("{}, polarity {:+d}: the base opens, which the coupled analysis does not follow; "
+                        "flexible_block.mode = \"both\" gives the decoupled slip to judge by.",
+                        row.record, row.polarity));
+}
+
+void add_warnings(const Scene& scene, const Screening& s, std::vector<std::string>& warnings)
+{
+    if (overturns(s.bases.front()))
+        warnings.push_back("The resultant of the static loads acts outside the base: the dam tips over without any "
+                           "earthquake.");
+    if (s.dry_base)
+        warnings.push_back("The base is taken as dry although there is water on the dam: no answer here counts any "
+                           "uplift.");
+    for (const std::string& premise : broken_premises(s)) warnings.push_back("No PASS: the dam " + premise + ".");
+    const RigidModel& model = s.bases.front().model;
+    if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
+        warnings.push_back(fmt::format(
+            "The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.",
+            model.block.friction, model.critical_friction));
+    if (model.state == sliding::StaticState::lifts_off)
+        warnings.push_back("The uplift carries more than the weight: the block floats without any earthquake.");
+    if (scene.sliding.scheme == SlidingScheme::slammer)
+        warnings.push_back("SLAMMER's trapezoid scheme has an error of second order in the time step, largest where "
+                           "the yield acceleration is near the peak; the exact scheme has none.");
+    if (scene.sliding.scheme == SlidingScheme::slammer && s.flexible)
+        warnings.push_back("sliding.scheme = \"slammer\" is the rigid block's; decoupled and coupled are exact: events "
+                           "located on closed forms.");
+    for (const SlipRow& row : s.slips)
+        if (row.flexible) add_flexible_warnings(row, warnings);
+    for (const SlipRow& row : s.slips)
+        for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
+            if (!r) continue;
+            if (r->status == Status::sliding_at_end)
+                warnings.push_back(fmt::format(
+                    "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
+                    row.record, row.polarity, scene.sliding.run_out_max));
+            if (r->status == Status::not_resolved)
+                for (const std::string& note : r->notes) warnings.push_back(row.record + ": " + note);
+            if (r->status == Status::runs_away)
+                warnings.push_back(
+                    fmt::format("{}, polarity {:+d}: runs away. {}", row.record, row.polarity, r->notes.back()));
+        }
+}
+
+std::string in_g(double a)
+{
+    return fmt::format("{:.3g} g", a / units::standard_gravity);
+}
+
+/// "tips at 0.305 g before it slides at 0.869 g: ..."; nothing where it slides first, or the motion stays below.
+std::optional<std::string> before_sliding(const std::string& what, double limit, double yield, double pga)
+{
+    if (!(limit > 0.0 && limit < pga && limit < yield)) return std::nullopt; // without an earthquake: `overturns`
+    const std::string slides = std::isfinite(yield) ? " before it slides at " + in_g(yield) : " and does not slide";
+    return fmt::format("{} at {}{}: the rigid sliding block does not hold here", what, in_g(limit), slides);
+}
+
+} // namespace
+
+GoverningSlip SlipRow::governing() const
+{
+    if (!flexible) return {rigid(), "rigid", slip_error(rigid())};
+    const auto& [decoupled, coupled] = *flexible;
+    const bool opens = rigid().lift_offs > 0 || (decoupled && decoupled->slide.lift_offs > 0);
+    if (decoupled && (opens || !coupled)) return {decoupled->slide, "decoupled", slip_error(decoupled->slide)};
+    return {coupled->slide, "coupled", opens ? std::nan("") : slip_error(coupled->slide)};
+}
+
+double slip_error(const sliding::SlideResult& slide)
+{
+    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : 0.0;
+}
+
+Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable)
+{
+    return judge(slide.status, slide.max_slip, slip_error(slide), allowable);
+}
+
+Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
+{
+    const GoverningSlip g = row.governing();
+    const Verdict verdict = judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
+}
+
+const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b)
+{
+    const auto rank = [](const sliding::SlideResult& r) {
+        return !is_answer(r.status) ? 2 : status_row(r.status).slip == SlipMeaning::none ? 1 : 0;
+    };
+    if (rank(a) != rank(b)) return rank(b) > rank(a) ? b : a;
+    return b.max_slip > a.max_slip ? b : a;
+}
+
+StatusCount statuses_of(const Screening& screening)
+{
+    StatusCount count;
+    for (const SlipRow& row : screening.slips)
+        for (const sliding::SlideResult* slide : all_slides(row)) count.add(slide->status);
+    return count;
+}
+
+bool overturns(const BaseRow& base)
+{
+    return base.model.state == sliding::StaticState::at_rest &&
+           (base.limits.tips <= 0.0 || base.limits.tips_upstream <= 0.0);
+}
+
+std::vector<std::string> broken_premises(const BaseRow& base, double pga)
+{
+    const sliding::BaseLimits& limits = base.limits;
+    const double down = base.model.downstream.law.constant, up = base.model.upstream.law.constant;
+    std::vector<std::string> out;
+    const auto add = [&](const char* what, double limit, double yield) {
+        if (auto sentence = before_sliding(what, limit, yield, pga)) out.push_back(std::move(*sentence));
+    };
+    add("tips", limits.tips, down);
+    if (limits.opens < limits.tips * (1.0 - 1e-9)) add("has its joint open from heel to toe", limits.opens, down);
+    const double bond = limits.bond_fails;
+    if (bond < pga && bond < down * (1.0 - 1e-9))
+        out.push_back(
+            fmt::format("slides at {} with the crack that the same acceleration opens, not at {}: its bond does "
+                        "not hold until then",
+                        in_g(bond), in_g(down)));
+    add("tips upstream", limits.tips_upstream, up);
+    return out;
+}
+
+std::vector<std::string> broken_premises(const Screening& screening)
+{
+    std::vector<std::string> all;
+    for (const SlipRow& row : screening.slips)
+        for (const std::string& premise : row.broken_premises)
+            if (std::find(all.begin(), all.end(), premise) == all.end()) all.push_back(premise);
+    return all;
+}
+
+FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
+                             const GroundMotion& motion, int polarity, sliding::HistoryOutput history)
+{
+    const FlexibleMethod method = scene.flexible_block ? scene.flexible_block->method : FlexibleMethod::both;
+    const sliding::SlideOptions options{scene.sliding, polarity, history};
+    FlexibleSlips slips;
+    if (method != FlexibleMethod::coupled)
+        slips.decoupled = sliding::slide_decoupled(motion, model.stages, flexible, options);
+    if (method != FlexibleMethod::decoupled)
+        slips.coupled = sliding::slide_coupled(motion, model.stages, flexible, options);
+    for (auto* flexibly : {&slips.decoupled, &slips.coupled})
+        if (*flexibly) check_length(model, (*flexibly)->slide);
+    return slips;
+}
+
+namespace {
+
+/// The block under all records, without limit equilibrium.
+void add_slips(const Scene& scene, const std::vector<RecordPair>& records, int jobs, Screening& s)
+{
+    s.slips = slip_rows(scene, s, records, jobs, s.warnings);
+    for (const SlipRow& row : s.slips) {
+        s.largest_pga = std::max(s.largest_pga, row.pga);
+        s.largest_vertical_pga = std::max(s.largest_vertical_pga, row.vertical_pga);
+    }
+}
+
+/// What the kept way of sliding of a wedge leaves out.
+void add_wedge_warnings(const Scene& scene, const std::vector<RecordPair>& records, Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    const RigidWedge& w = *model.wedge;
+    for (const RecordPair& pair : records) {
+        const GroundMotion motion = ground_motion(scene, pair);
+        double share = 0.0;
+        for (const int polarity : {1, -1})
+            share = std::max(share, share_of_other_modes(w.wedge, w.push, motion, w.yields.at_rest, polarity));
+        if (share > 0.0)
+            s.warnings.push_back(
+                fmt::format("{}: at {:.2g} % of the samples beyond the yield the wedge would start another "
+                            "way than at the yield (other planes, or lifting); the way at the yield is kept.",
+                            motion.name, 100.0 * share));
+    }
+    if (model.upstream.law.constant < s.largest_pga)
+        s.warnings.push_back(
+            fmt::format("Pushed the other way the wedge would start at {:.4g} m/s², below the largest PGA of "
+                        "{:.4g} m/s²: that sliding is not followed.",
+                        std::max(0.0, model.upstream.law.constant), s.largest_pga));
+}
+
+Screening screen_wedge(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+{
+    Screening s;
+    s.plan = plan;
+    s.bases.push_back({"wedge", make_rigid_model(scene, {})});
+    add_slips(scene, records, jobs, s);
+    s.regressions = regression_rows(scene, s.bases.front().model, records);
+    s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
+    add_warnings(scene, s, s.warnings);
+    if (s.bases.front().model.state == sliding::StaticState::at_rest) add_wedge_warnings(scene, records, s);
+    return s;
+}
+
+} // namespace
+
+Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+{
+    if (scene.wedge) return screen_wedge(scene, plan, records, jobs);
+    Screening s;
+    s.plan = plan;
+    SeepageSource source;
+    const sliding::SeepageProfile seepage = source.profile_of(scene);
+    const auto base = [&](const char* name, std::optional<CrackRule> crack) {
+        return BaseRow{name, make_rigid_model(scene, seepage, crack), sliding::base_limits(scene, seepage, crack)};
+    };
+    const bool cracks = plan.on(Effect::base_crack);
+    s.bases.push_back(base(cracks ? "cracked, as given" : "uncracked, as given", std::nullopt));
+    s.bases.push_back(cracks ? base("uncracked", CrackRule::none)
+                             : base("cracked under static loads", CrackRule::fixed_static));
+    s.dry_base = base_taken_as_dry(scene);
+    s.flexible = flexible_block(scene);
+    s.mass_ratio_words = mass_ratio_words(scene);
+    add_slips(scene, records, jobs, s);
+    add_equilibrium(scene, seepage, s);
+    s.regressions = regression_rows(scene, s.bases.front().model, records);
+    s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
+    add_warnings(scene, s, s.warnings);
+    return s;
+}
+
+} // namespace damslip

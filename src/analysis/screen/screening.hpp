@@ -1,0 +1,138 @@
+#pragma once
+
+#include "analysis/prepare/flexible_mass.hpp"
+#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "core/status_count.hpp"
+#include "sliding/equilibrium/base_limits.hpp"
+#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/flexible/flexible_slide.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What `screen` computes, as data; screen_command.cpp prints it.
+namespace damslip {
+
+/// The base with its uplift, once as the scene says and once with a crack where none was asked for.
+struct BaseRow {
+    std::string base; ///< "as given", "cracked base"
+    RigidModel model;
+    sliding::BaseLimits limits = {}; ///< how far the sliding block is the dam; none of a wedge
+};
+
+/// Slip of a block that is flexible, by the analyses the scene asks for; with the vertical component where the record has one.
+struct FlexibleSlips {
+    std::optional<sliding::FlexibleSlide> decoupled, coupled;
+};
+
+/// The slip that is judged, and by which analysis it was found.
+struct GoverningSlip {
+    const sliding::SlideResult& slide;
+    std::string_view method; ///< "rigid", "decoupled", "coupled"
+    double error;            ///< slip_error(); NaN also where the analysis leaves out what happens: nothing is decided
+};
+
+/// One record with one polarity.
+struct SlipRow {
+    std::string record;
+    int polarity = 1;
+    double pga = 0.0;                                  ///< of the scaled horizontal component [m/s^2]
+    double vertical_pga = 0.0;                         ///< of the vertical one; 0: there is none [m/s^2]
+    sliding::SlideResult horizontal;                   ///< without the vertical component
+    std::optional<sliding::SlideResult> with_vertical; ///< where the record has one
+
+    std::optional<FlexibleSlips> flexible; ///< where the sliding mass is flexible
+
+    std::vector<std::string> broken_premises =
+        {}; ///< why the slip is none of a dam in this motion: no PASS rests on it
+
+    /// Of the rigid block, with the vertical component where there is one.
+    const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
+    /// Of the analysis that models the mass best: coupled; decoupled where that alone was asked for, or where the base
+    /// opens, which coupled does not follow; of a rigid mass rigid().
+    GoverningSlip governing() const;
+    /// The slip to judge by.
+    const sliding::SlideResult& judged() const { return governing().slide; }
+};
+
+/// Id of the row of all valid regressions.
+inline constexpr std::string_view weighted_median_id = "weighted-median";
+
+/// One regression, or all valid ones weighted, for one record.
+struct RegressionRow {
+    std::string record;
+    std::string id; ///< "jibson-1998", "weighted-median"
+    std::string model;
+    std::optional<double> median, low, high; ///< 50, 16 and 84 % of the slip, P(D = 0) counted [m]; none: no value
+    std::optional<double> nonzero_median;    ///< of slips above zero [m]
+    std::optional<double> zero_probability;  ///< P(D = 0) [-], where the model has one
+    bool valid = false;                      ///< has a value from inputs within their ranges
+    std::string status;                      ///< in three words at most: "valid", "outside its range"
+    std::optional<double> weight;            ///< share in the weighted median [-]; none: does not count
+    std::string remark;                      ///< numbers of the status
+};
+
+/// Over the records, each with the worse polarity. Records whose worse polarity has no slip are counted by their status.
+struct SetStatistics {
+    std::string quantity;     ///< "rigid, horizontal", "rigid, with vertical"
+    std::size_t n = 0;        ///< records with a slip, lower bounds included
+    StatusCount without_slip; ///< the others
+    StatusCount lower_bounds; ///< of the n
+    double median = 0.0, percentile_16 = 0.0, percentile_84 = 0.0, mean = 0.0, largest = 0.0; ///< [m]; NaN where n is 0
+    /// Records that fail against the allowable slip, over those that can be judged [-]
+    std::optional<double> share_above_allowable;
+    std::string controlling_record; ///< of the largest
+};
+
+struct Screening {
+    EffectPlan plan;
+    std::vector<BaseRow> bases;
+    std::vector<sliding::Equilibrium> combinations; ///< limit equilibrium per load combination
+    std::vector<sliding::UpliftComparison> uplifts; ///< what each uplift profile asks for
+    std::optional<sliding::FlexibleBlock> flexible;
+    std::string mass_ratio_words; ///< where the flexible block's mass ratio comes from
+    std::vector<SlipRow> slips;
+    std::vector<RegressionRow> regressions;
+    std::vector<SetStatistics> statistics;
+    double largest_pga = 0.0;          ///< of all records [m/s^2]
+    bool dry_base = false;             ///< there is water on the dam, but no uplift
+    double largest_vertical_pga = 0.0; ///< of their vertical components; 0: they have none [m/s^2]
+    std::vector<std::string> warnings;
+};
+
+/// Error of the slip that is numerical [m]: none where events are located exactly; NaN for a scheme whose own is not known.
+double slip_error(const sliding::SlideResult& slide);
+
+/// The slide's largest slip against the allowable [m].
+Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable);
+
+/// The governing slip against the allowable [m]; no PASS where a premise of the slip is broken.
+Verdict judge(const SlipRow& row, const std::optional<double>& allowable);
+
+/// The one that decides: one that is no answer, else one without a slip, else the larger.
+const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b);
+
+/// Statuses of all slides of a screening.
+StatusCount statuses_of(const Screening& screening);
+
+/// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
+Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
+
+/// The resultant of the static loads acts outside the base: it tips without any earthquake.
+bool overturns(const BaseRow& base);
+
+/// What must hold for the block's slip to be the dam's, and does not in a motion of this peak: the dam tips, or its joint
+/// opens and loses its bond, at a smaller acceleration than slides it, and the motion reaches it. One sentence each.
+/// @param peak  of the mass [m/s^2], reached both ways
+std::vector<std::string> broken_premises(const BaseRow& base, double peak);
+
+/// Those of all rows, each once.
+std::vector<std::string> broken_premises(const Screening& screening);
+
+FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
+                             const GroundMotion& motion, int polarity,
+                             sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+} // namespace damslip

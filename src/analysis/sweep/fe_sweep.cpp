@@ -1,0 +1,256 @@
+#include "analysis/sweep/fe_sweep.hpp"
+
+#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "analysis/sweep/fe_meter.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
+#include "core/input_error.hpp"
+#include "core/parallel.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "scene/exact_contact.hpp"
+#include "scene/with_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
+
+namespace damslip {
+
+namespace {
+
+/// Mesh and matrices of one variant and law while a group needs them.
+struct PreparedModel {
+    std::mutex mutex;
+    std::size_t groups_left = 0;
+    Scene scene;
+    fe2d::RunOptions options;
+    std::unique_ptr<const fe2d::EarthquakeRun> full;
+    std::unique_ptr<const fe2d::ReducedRun> reduced; ///< on `full`; none: not asked for yet
+    std::string why_not;                             ///< it could not be made; empty: it could
+};
+/// Variant, law, and whether reservoir.model = "auto" stays added mass, as on few modes of the dam.
+using ModelKey = std::tuple<std::size_t, FeLaw, bool>;
+
+/// Members that full and reduced runs have in common.
+template <class Result>
+FeSlip slip_of(const Result& r, double step_error)
+{
+    FeSlip slip;
+    slip.status = r.status;
+    if (!r.stages.empty() && std::isfinite(r.stages.back().friction_needed))
+        slip.critical_friction = r.stages.back().friction_needed;
+    slip.slip = reported(r.status, r.slip);
+    slip.max_slip = reported(r.status, r.max_slip);
+    slip.slip_error = reported(r.status, step_error);
+    return slip;
+}
+
+template <class Result>
+void count(const Result& r, FeSweepCounts& counts)
+{
+    ++counts.runs;
+    counts.static_failures += fails_statically(r.status);
+    counts.steps += r.counts.steps;
+    counts.unresolved += r.counts.unresolved;
+    counts.static_seconds += r.seconds.statics;
+    counts.dynamic_seconds += r.seconds.dynamics;
+}
+
+void add(const FeSweepCounts& c, FeSweepCounts& sum)
+{
+    sum.set_ups += c.set_ups;
+    sum.runs += c.runs;
+    sum.static_failures += c.static_failures;
+    sum.steps += c.steps;
+    sum.factorisations += c.factorisations;
+    sum.unresolved += c.unresolved;
+    sum.set_up_seconds += c.set_up_seconds;
+    sum.static_seconds += c.static_seconds;
+    sum.dynamic_seconds += c.dynamic_seconds;
+    sum.choices.insert(c.choices.begin(), c.choices.end());
+    sum.failures.insert(c.failures.begin(), c.failures.end());
+}
+
+Scene scene_of(const SweepInputs& in, const GridIndex& at)
+{
+    const Scene scene =
+        with_law(variant_of(in.scene, in.axes, at), in.axes.method[at.method].law, in.penalty_stiffness);
+    return fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
+}
+
+/// Groups through their models.
+class FeGroups {
+public:
+    FeGroups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, Watch& watch, const BeginRows& begin,
+             const TakeSlips& take)
+        : in_(inputs), meter_(watch), watch_(watch), begin_(begin), take_(take)
+    {
+        for (const FeGroup& group : groups) ++models_[key(group)].groups_left;
+    }
+
+    FeSweepCounts run(const FeGroup& group)
+    {
+        FeSweepCounts counts;
+        meter_.begin(group.rows.size());
+        PreparedModel& model = models_.at(key(group));
+        const GridIndex at = in_.tasks.index(group.rows.front());
+        if (!watch_.stop_asked()) {
+            begin_(group.rows);
+            try {
+                if (prepare(model, at, counts))
+                    run_prepared(model, at, group, counts);
+                else {
+                    FeSlip none;
+                    none.status = Status::not_resolved;
+                    take_(group.rows, std::vector<FeSlip>(group.rows.size(), none));
+                }
+            } catch (const Interrupted&) { // in the set-up: these rows are not finished
+            }
+        }
+        meter_.end();
+        const std::lock_guard lock(model.mutex);
+        if (--model.groups_left == 0) {
+            if (model.full) counts.factorisations += model.full->factorisations();
+            model.reduced.reset();
+            model.full.reset();
+        }
+        return counts;
+    }
+
+private:
+    /// Laws that come to the same share a model.
+    ModelKey key(const FeGroup& group) const
+    {
+        const FeLaw law = in_.axes.method[group.method].law;
+        return {group.variant, law == FeLaw::exact && !with_exact_contact(in_.scene) ? FeLaw::scene : law,
+                in_.axes.method[group.method].reduced};
+    }
+
+    void run_prepared(const PreparedModel& model, const GridIndex& at, const FeGroup& group, FeSweepCounts& counts)
+    {
+        const GroundMotion motion =
+            ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale], in_.axes.polarity[at.polarity]);
+        if (in_.axes.method[at.method].reduced)
+            run_reduced_group(model, motion, group, counts);
+        else
+            run_full(model, motion, group, counts);
+    }
+
+    /// @returns false where a solver found no answer: then there is no model, for any of its rows
+    bool prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    {
+        const std::lock_guard lock(model.mutex); // others who need the same model wait for it
+        if (!model.why_not.empty()) return false;
+        try {
+            make(model, at, counts);
+        } catch (const NotConverged& error) {
+            model.why_not = error.diagnostic().problem;
+            counts.failures.insert(model.why_not);
+        }
+        return model.why_not.empty();
+    }
+
+    void make(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    {
+        if (!model.full) {
+            model.scene = scene_of(in_, at);
+            const StopAsked stop = watch_.stop();
+            if (!in_.axes.method[at.method].reduced)
+                if (const auto choice = resolve_reservoir_model(model.scene, stop))
+                    counts.choices.insert(choice->reason);
+            resolve_dam_period(model.scene, stop);
+            SeepageSource seepage;
+            model.options = contact_options(model.scene, in_.records, seepage);
+            model.options.stop = stop;
+            model.options.progress = [this](const fe2d::RunProgress& p) {
+                meter_.step(p);
+                return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+            };
+            model.full = std::make_unique<fe2d::EarthquakeRun>(model.scene, model.options);
+            ++counts.set_ups;
+            counts.set_up_seconds += model.full->seconds();
+        }
+        if (in_.axes.method[at.method].reduced && !model.reduced)
+            model.reduced = std::make_unique<fe2d::ReducedRun>(*model.full, model.scene, model.options,
+                                                               in_.modes.value_or(fe2d::default_modes));
+    }
+
+    Contact contact(const PreparedModel& model, std::size_t id) const
+    {
+        const double friction = in_.axes.friction[in_.tasks.index(id).friction];
+        return friction == model.scene.contact.friction ? model.scene.contact
+                                                        : with_friction(model.scene, friction).contact;
+    }
+
+    void run_full(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group, FeSweepCounts& counts)
+    {
+        std::vector<Contact> contacts;
+        for (const std::size_t id : group.rows) contacts.push_back(contact(model, id));
+        std::vector<FeSlip> slips;
+        for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
+            slips.push_back(slip_of(r, r.slip_error));
+            for (const fe2d::LiftResult& lift : r.lifts)
+                if (slips.back().slip)
+                    slips.back().lift_slip = std::max(slips.back().lift_slip.value_or(0.0), lift.largest_slip);
+            if (keep_histories() && slips.back().slip)
+                slips.back().history = slip_history(r.history.time, r.history.slip);
+            count(r, counts);
+        }
+        take_(group.rows, slips);
+    }
+
+    void run_reduced_group(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group,
+                           FeSweepCounts& counts)
+    {
+        for (const std::size_t& id : group.rows) {
+            if (watch_.stop_asked()) return;
+            const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id));
+            FeSlip slip = slip_of(r, r.step_error);
+            if (slip.slip) slip.truncation_error = r.truncation_error;
+            if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
+            count(r, counts);
+            take_({&id, 1}, {&slip, 1});
+            meter_.reached(static_cast<double>(&id - group.rows.data() + 1) / static_cast<double>(group.rows.size()));
+        }
+    }
+
+    bool keep_histories() const { return in_.tasks.rows() <= most_rows_with_history; }
+
+    const SweepInputs& in_;
+    FeMeter meter_;
+    Watch& watch_;
+    const BeginRows& begin_;
+    const TakeSlips& take_;
+    std::map<ModelKey, PreparedModel> models_;
+};
+
+} // namespace
+
+void check_fe_scenes(const SweepInputs& in)
+{
+    for (std::size_t variant = 0; variant < in.tasks.variants(); ++variant)
+        for (std::size_t method = 0; method < in.axes.method.size(); ++method) {
+            if (in.axes.method[method].kind != SweepKind::finite_elements) continue;
+            GridIndex at = in.tasks.index(variant * in.tasks.motions() * in.tasks.method);
+            at.method = method;
+            const Scene scene = scene_of(in, at);
+            if (in.axes.method[method].reduced) check_reducible(scene);
+        }
+}
+
+FeSweepCounts run_fe_groups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
+                            const BeginRows& begin, const TakeSlips& take)
+{
+    FeGroups runner(inputs, groups, watch, begin, take);
+    std::vector<FeSweepCounts> counted(groups.size());
+    parallel_for(groups.size(), jobs, [&](std::size_t i) { counted[i] = runner.run(groups[i]); });
+    FeSweepCounts sum;
+    for (const FeSweepCounts& c : counted) add(c, sum);
+    return sum;
+}
+
+} // namespace damslip

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "analysis/prepare/records.hpp"
+#include "analysis/sweep/slip_history.hpp"
+#include "analysis/sweep/sweep_tasks.hpp"
+#include "core/status.hpp"
+#include "core/watch.hpp"
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace damslip {
+
+/// What one FE contact run gives to a sweep. Empty: not computed, or the status has none.
+struct FeSlip {
+    Status status = Status::interrupted;                                ///< interrupted: not a result
+    std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
+    std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
+    std::optional<double> lift_slip; ///< largest |slip| of the lift joints on the way [m]; none: no joint
+    SlipHistory history;             ///< of sweeps of few rows
+};
+
+/// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.
+struct FeSweepCounts {
+    std::int64_t set_ups = 0; ///< meshes and matrices made
+    std::int64_t runs = 0, static_failures = 0, steps = 0, factorisations = 0, unresolved = 0;
+    double set_up_seconds = 0.0, static_seconds = 0.0, dynamic_seconds = 0.0;
+    std::set<std::string> choices;  ///< what reservoir.model = "auto" became, a sentence each
+    std::set<std::string> failures; ///< why models could not be made, a sentence each
+};
+
+/// What FE runs need of a sweep.
+struct SweepInputs {
+    const Scene& scene; ///< as given, not yet called for by an effect plan
+    const Axes& axes;
+    const TaskList& tasks;
+    const std::vector<RecordPair>& records;
+    std::optional<int> modes;                ///< of reduced runs
+    std::optional<double> penalty_stiffness; ///< [N/m^3]
+};
+
+/// Scenes that FE cannot take are found here, before anything is computed. @throws UsageError
+void check_fe_scenes(const SweepInputs& inputs);
+
+/// Takes ids and their slips as soon as they are there; called from several threads.
+using TakeSlips = std::function<void(std::span<const std::size_t> ids, std::span<const FeSlip> slips)>;
+
+/// Told the rows of a group before they go through the earthquake; called from several threads.
+using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
+
+/// Runs all groups. Mesh, matrices and condensed rock of a variant and contact law are made once, when the first of its
+/// groups comes up, and given back after the last; the frictions of a group go through the earthquake together.
+/// Results do not depend on the number of threads.
+FeSweepCounts run_fe_groups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
+                            const BeginRows& begin, const TakeSlips& take);
+
+} // namespace damslip

@@ -1,0 +1,128 @@
+#include "analysis/sweep/sweep_axes.hpp"
+
+#include "analysis/sweep/sweep_size.hpp"
+#include "core/number.hpp"
+#include "scene/uplift_row.hpp"
+#include "scene/words.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace damslip {
+
+namespace {
+
+const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{
+    {"westergaard", AddedMassFormula::westergaard},
+    {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
+    {"zangar", AddedMassFormula::zangar},
+    {"goldgruber", AddedMassFormula::goldgruber}};
+
+template <class Enum>
+std::string word_of(const std::vector<std::pair<std::string, Enum>>& words, Enum value)
+{
+    return std::find_if(words.begin(), words.end(), [value](const auto& w) { return w.second == value; })->first;
+}
+
+template <class Enum>
+Enum value_of(const std::vector<std::pair<std::string, Enum>>& words, const std::string& word)
+{
+    return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; })->second;
+}
+
+template <class Enum>
+std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>& words)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : words) keys.push_back(key);
+    return keys;
+}
+
+std::string reservoir_word(const Scene& scene)
+{
+    if (!scene.reservoir) return "none";
+    switch (scene.reservoir->model) {
+    case ReservoirModel::automatic:
+        return "auto";
+    case ReservoirModel::hydrostatic:
+        return "hydrostatic";
+    case ReservoirModel::acoustic:
+        return "acoustic";
+    case ReservoirModel::added_mass:
+        break;
+    }
+    return word_of(formula_words, scene.added_mass.formula);
+}
+
+/// "0.65,0.7" with all digits.
+std::string joined(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double v : values) text += (text.empty() ? "" : ",") + shortest(v);
+    return text;
+}
+
+} // namespace
+
+bool Axes::finite_elements() const
+{
+    return std::any_of(method.begin(), method.end(),
+                       [](const SweepMethod& m) { return m.kind == SweepKind::finite_elements; });
+}
+
+Axes axes_of(const Scene& scene)
+{
+    Axes axes;
+    axes.friction = {scene.contact.friction};
+    axes.level = {scene.reservoir ? scene.reservoir->level : 0.0};
+    axes.size = axes.scale = {1.0};
+    axes.polarity = {1};
+    axes.uplift = {scene.uplift ? word(scene.uplift->model) : "none"};
+    axes.reservoir = {reservoir_word(scene)};
+    axes.method = {sweep_method("rigid")};
+    return axes;
+}
+
+std::vector<std::string> reservoir_axis_words()
+{
+    std::vector<std::string> words = keys_of(formula_words);
+    words.insert(words.begin(), {"auto", "hydrostatic", "acoustic"});
+    return words;
+}
+
+Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size)
+{
+    if (scene.reservoir) {
+        scene.reservoir->level = level;
+        if (reservoir == "auto")
+            scene.reservoir->model = ReservoirModel::automatic;
+        else if (reservoir == "hydrostatic")
+            scene.reservoir->model = ReservoirModel::hydrostatic;
+        else if (reservoir == "acoustic")
+            scene.reservoir->model = ReservoirModel::acoustic;
+        else {
+            scene.added_mass.formula = value_of(formula_words, reservoir);
+            scene.reservoir->model = ReservoirModel::added_mass;
+        }
+    }
+    if (uplift == "none")
+        scene.uplift.reset();
+    else {
+        if (!scene.uplift) scene.uplift.emplace();
+        scene.uplift->model = uplift_model(uplift);
+    }
+    return sized(std::move(scene), size);
+}
+
+std::string text_of(const Axes& axes)
+{
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    return fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
+                       joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),
+                       fmt::join(axes.reservoir, ","), joined(axes.size), joined(axes.scale),
+                       fmt::join(axes.polarity, ","), fmt::join(methods, ","));
+}
+
+} // namespace damslip

@@ -1,0 +1,43 @@
+#include "analysis/sweep/sweep_grid.hpp"
+
+#include "analysis/prepare/seepage_source.hpp"
+#include "core/parallel.hpp"
+#include "scene/with_friction.hpp"
+
+namespace damslip {
+
+Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
+{
+    return variant(scene, axes.level[at.level], axes.uplift[at.uplift], axes.reservoir[at.reservoir],
+                   axes.size[at.size]);
+}
+
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const std::vector<RecordPair>& records,
+               int jobs)
+{
+    Grid grid;
+    grid.axes = axes;
+    grid.tasks = tasks;
+    std::vector<SeepageSource> seepage(axes.size.size()); // one profile serves one geometry
+    grid.models.resize(axes.friction.size() * tasks.variants());
+    const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
+    parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
+        const GridIndex at = tasks.index(i * rows_of_model);
+        Scene here = variant_of(scene, axes, at);
+        if (axes.friction[at.friction] != here.contact.friction)
+            here = with_friction(std::move(here), axes.friction[at.friction]);
+        grid.models[i] = make_rigid_model(here, seepage[at.size].profile_of(here));
+    });
+    for (const RecordPair& pair : records) {
+        grid.records.push_back(pair.files.name);
+        for (const double scale : axes.scale) {
+            const GroundMotion motion = ground_motion(scene, pair, scale);
+            grid.measured.push_back(regression_inputs(pair, motion, grid.models.front(), scene.regressions.period));
+            grid.horizontal_motions.emplace_back(horizontal_only(motion));
+            grid.motions.emplace_back(motion);
+        }
+    }
+    return grid;
+}
+
+} // namespace damslip

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/sweep/sweep_tasks.hpp"
+#include "core/units.hpp"
+#include "sliding/block/skipping_motion.hpp"
+
+namespace damslip {
+
+/// What all rows share, made once: a rigid model per friction and variant, a motion per record and scale.
+struct Grid {
+    Axes axes;
+    TaskList tasks;
+    std::vector<RigidModel> models;
+    std::vector<sliding::SkippingMotion> motions,
+        horizontal_motions;                          ///< of each record and scale, with and without the vertical
+    std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
+    std::vector<std::string> records;                ///< names
+
+    const RigidModel& model(const GridIndex& at) const
+    {
+        return models[at.friction * tasks.variants() + tasks.variant(at)];
+    }
+    const sliding::SkippingMotion& motion(const GridIndex& at) const { return motions[record_and_scale(at)]; }
+    const sliding::SkippingMotion& horizontal(const GridIndex& at) const
+    {
+        return horizontal_motions[record_and_scale(at)];
+    }
+    sliding::RegressionInputs inputs_of(const GridIndex& at) const
+    {
+        sliding::RegressionInputs inputs = measured[record_and_scale(at)];
+        inputs.yield_coefficient = model(at).downstream.law.constant / units::standard_gravity;
+        return inputs;
+    }
+
+private:
+    std::size_t record_and_scale(const GridIndex& at) const { return at.record * tasks.scale + at.scale; }
+};
+
+/// @param scene  as given: axes may bring back what the scene itself leaves off, such as another uplift model
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const std::vector<RecordPair>& records,
+               int jobs);
+
+/// The scene of a variant: level, uplift, reservoir and size of `at`.
+Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at);
+
+} // namespace damslip

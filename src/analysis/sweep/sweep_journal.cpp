@@ -1,0 +1,255 @@
+#include "analysis/sweep/sweep_journal.hpp"
+
+#include "core/file.hpp"
+#include "core/input_error.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <sys/file.h>
+#include <unistd.h>
+#include <utility>
+
+namespace damslip {
+
+namespace {
+
+constexpr std::string_view first_line = "damslip sweep journal 2";
+constexpr std::string_view done_line = "done\n", begun_word = "begun";
+constexpr std::size_t checksum_digits = 16, head_lines = 7;
+
+std::string head_of(const SweepIdentity& i, const Shard& shard)
+{
+    return fmt::format("{}\nversion {}\nscene {}\nrecords {}\ngrid {}\nrows {}\npart {}/{}\n", first_line, i.version,
+                       i.scene, i.records, i.grid, i.rows, shard.index, shard.count);
+}
+
+std::string line_of(const FinishedRow& row)
+{
+    nlohmann::json cells = nlohmann::json::array();
+    for (const Cell& cell : row.results)
+        std::visit(
+            [&cells](const auto& v) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
+                    cells.push_back(nullptr);
+                else
+                    cells.push_back(v);
+            },
+            cell);
+    nlohmann::json line{row.id, row.good, cells};
+    if (row.history.interval > 0.0) {
+        line.push_back(row.history.interval);
+        line.push_back(row.history.slip);
+    }
+    const std::string text = line.dump();
+    return sha256(text).substr(0, checksum_digits) + " " + text + "\n";
+}
+
+Cell cell_of(const nlohmann::json& value)
+{
+    if (value.is_number_integer()) return value.get<std::int64_t>();
+    if (value.is_number()) return value.get<double>();
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>();
+    return {};
+}
+
+/// Nothing for a line that is not what line_of wrote.
+std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
+{
+    if (line.size() < checksum_digits + 2 || line[checksum_digits] != ' ') return std::nullopt;
+    const std::string_view text = line.substr(checksum_digits + 1);
+    if (sha256(text).substr(0, checksum_digits) != line.substr(0, checksum_digits)) return std::nullopt;
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_array() || (json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() ||
+        !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_columns ||
+        json[0].get<std::size_t>() >= rows)
+        return std::nullopt;
+    FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), {}, {}};
+    for (const auto& value : json[2]) row.results.push_back(cell_of(value));
+    if (json.size() == 5) {
+        if (!json[3].is_number() || !json[4].is_array()) return std::nullopt;
+        row.history = {json[3].get<double>(), json[4].get<std::vector<double>>()};
+    }
+    return row;
+}
+
+/// What differs between two heads, in words: "the scene, the grid (friction 0.7; ... here, friction 0.8; ... there)".
+std::string differences(const std::string& mine, const std::string& theirs)
+{
+    std::string words;
+    std::size_t a = 0, b = 0;
+    while (a < mine.size() && b < theirs.size()) {
+        const auto line = [](const std::string& text, std::size_t& at) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            std::string out = text.substr(at, end - at);
+            at = end + 1;
+            return out;
+        };
+        const std::string here = line(mine, a), there = line(theirs, b);
+        if (here == there) continue;
+        const std::string name = here.substr(0, here.find(' '));
+        const bool hash = name == "scene" || name == "records";
+        const auto value = [&](const std::string& text) { return text.substr(std::min(text.size(), name.size() + 1)); };
+        words +=
+            (words.empty() ? "" : "; ") + name +
+            (hash ? std::string(" (other contents)") : fmt::format(" ({} now, {} there)", value(here), value(there)));
+    }
+    return words;
+}
+
+/// Nothing is lost with it: its table is written, or it has no row yet.
+bool replaceable(const std::string& content)
+{
+    if (!content.starts_with(first_line)) return false;
+    if (content.ends_with("\n" + std::string(done_line))) return true;
+    std::size_t rows = 0, line = 0;
+    for (std::size_t at = 0; at < content.size(); ++line) {
+        const std::size_t end = std::min(content.find('\n', at), content.size() - 1) + 1;
+        rows += line >= head_lines && !content.substr(at, begun_word.size()).starts_with(begun_word);
+        at = end;
+    }
+    return rows == 0;
+}
+
+/// Ids of a line that begin() wrote; a damaged one gives others or none, which only costs time.
+std::vector<std::size_t> begun_ids(std::string_view line)
+{
+    std::vector<std::size_t> ids;
+    std::istringstream in{std::string(line.substr(begun_word.size()))};
+    for (std::size_t id = 0; in >> id;) ids.push_back(id);
+    return ids;
+}
+
+/// Opened and locked; the lock goes with the process, however it ends.
+int open_locked(const std::filesystem::path& file)
+{
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+    if (descriptor < 0)
+        refuse(file, fmt::format("cannot be opened: {}.", std::strerror(errno)), "a file with write permission",
+               "choose another --out");
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor);
+        refuse(file, "another process is writing this journal.", "one process for each --out",
+               "wait for it, or end it, or choose another --out");
+    }
+    return descriptor;
+}
+
+} // namespace
+
+Journal::Journal(std::filesystem::path file, const SweepIdentity& identity, const Shard& shard, JournalStart start)
+    : file_(std::move(file))
+{
+    const std::string head = head_of(identity, shard);
+    const bool there = std::filesystem::exists(file_);
+    if (!there) write_file(file_, head);
+    descriptor_ = open_locked(file_);
+    if (!there) return;
+    try {
+        const std::string content = read_file(file_, std::uintmax_t{1} << 40);
+        if (start == JournalStart::fresh && replaceable(content)) {
+            write_file(file_, head); // a new file in its place: whole at any moment
+            const int old = std::exchange(descriptor_, open_locked(file_));
+            ::close(old);
+            return;
+        }
+        read(content, head, identity.rows);
+        if (start == JournalStart::fresh)
+            refuse(file_, fmt::format("{} rows of this sweep are finished here.", finished_.size()),
+                   "--resume to go on, or another --out", "add  --resume ; to begin again delete this file");
+        if (::ftruncate(descriptor_, static_cast<off_t>(whole_bytes_)) != 0)
+            refuse(file_, fmt::format("cannot be cut: {}.", std::strerror(errno)), "a file with write permission",
+                   "choose another --out");
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+}
+
+Journal::~Journal()
+{
+    ::close(descriptor_); // the lock goes with it
+}
+
+void Journal::read(const std::string& content, const std::string& head, std::size_t rows)
+{
+    if (!content.starts_with(head)) {
+        const bool journal = content.starts_with(std::string(first_line) + "\n");
+        refuse(file_,
+               journal ? "this journal belongs to a sweep of other inputs: " + differences(head, content) + "."
+                       : std::string("this is not a journal of a sweep."),
+               "the journal of the same scene, records, grid, part and version",
+               "choose another --out, or delete this file to begin again");
+    }
+    std::vector<bool> seen(rows);
+    std::size_t at = head.size();
+    while (at < content.size()) {
+        const std::size_t end = content.find('\n', at);
+        if (end == std::string::npos) {
+            ++damaged_;
+            break;
+        }
+        const std::string_view line = std::string_view(content).substr(at, end + 1 - at);
+        std::optional<FinishedRow> row = row_of(line.substr(0, line.size() - 1), rows);
+        if (line == done_line)
+            done_ = true;
+        else if (line.starts_with(begun_word))
+            for (const std::size_t id : begun_ids(line)) ++stopped_[id];
+        else if (!row)
+            ++damaged_;
+        else if (!seen[row->id]) {
+            seen[row->id] = true;
+            finished_.push_back(std::move(*row));
+        }
+        at = end + 1;
+    }
+    whole_bytes_ = at;
+    std::erase_if(stopped_, [&](const auto& entry) { return entry.first >= rows || seen[entry.first]; });
+}
+
+void Journal::append(std::span<const FinishedRow> rows)
+{
+    std::string lines;
+    for (const FinishedRow& row : rows) lines += line_of(row);
+    write(lines);
+}
+
+void Journal::begin(std::span<const std::size_t> ids)
+{
+    std::string line(begun_word);
+    for (const std::size_t id : ids) line += fmt::format(" {}", id);
+    write(line + "\n");
+}
+
+void Journal::mark_done()
+{
+    if (!std::exchange(done_, true)) write(done_line);
+}
+
+void Journal::write(std::string_view lines)
+{
+    const std::lock_guard lock(mutex_);
+    for (std::size_t written = 0; written < lines.size();) {
+        const ssize_t n = ::write(descriptor_, lines.data() + written, lines.size() - written);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0)
+            refuse(file_, fmt::format("cannot be written: {}.", std::strerror(errno)), "space left on the disk",
+                   "make room, then go on with --resume");
+        written += static_cast<std::size_t>(n);
+    }
+}
+
+std::filesystem::path journal_of(const std::filesystem::path& csv)
+{
+    std::filesystem::path file = csv;
+    file += ".journal";
+    return file;
+}
+
+} // namespace damslip

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "analysis/sweep/slip_history.hpp"
+#include "analysis/sweep/sweep_identity.hpp"
+#include "core/table.hpp"
+
+#include <map>
+#include <mutex>
+#include <span>
+
+namespace damslip {
+
+/// What a method gave for one row.
+struct FinishedRow {
+    std::size_t id = 0;
+    bool good = true;          ///< false: the method did not end properly
+    std::vector<Cell> results; ///< of the columns after the axes and the yield acceleration, result_columns of them
+    SlipHistory history = {};  ///< of slides and FE runs of sweeps of few rows
+};
+constexpr std::size_t result_columns = 10;
+
+enum class JournalStart {
+    fresh, ///< an unfinished journal in its place is refused, one that is done or empty replaced
+    resume ///< finished rows are read; without a journal as fresh
+};
+
+/// Finished rows of a sweep in a file, so that a stop at any moment loses none of them.
+///
+/// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (the first
+/// 16 hexadecimal digits of SHA-256) and the row as JSON, numbers with all digits; "done" when the table is written. A
+/// line that was torn by the stop is cut off on resuming; one whose checksum is wrong is left aside, and its row is
+/// computed again. A line "begun" with the ids of rows that start together says on resuming which were stopped on the way.
+class Journal {
+public:
+    /// @throws InputError for a journal of other inputs (says which differ), for one that another process has open, for
+    /// an unfinished one when starting fresh, and where it cannot be written.
+    Journal(std::filesystem::path file, const SweepIdentity& identity, const Shard& shard, JournalStart start);
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    std::vector<FinishedRow> take_finished() { return std::move(finished_); } ///< as read when opened
+    std::size_t damaged() const { return damaged_; } ///< lines left aside, torn last line included
+
+    /// How often rows that are not finished were begun, by id: a run of them was stopped so many times.
+    const std::map<std::size_t, int>& stopped() const { return stopped_; }
+
+    /// Rows that go through the earthquake together from now on. From any thread.
+    void begin(std::span<const std::size_t> ids);
+
+    /// From any thread; in the file when this returns. @throws InputError when the disk is full.
+    void append(std::span<const FinishedRow> rows);
+
+    void mark_done(); ///< the table is written: a fresh start may replace this journal
+
+private:
+    void write(std::string_view lines);
+    void read(const std::string& content, const std::string& head, std::size_t rows);
+
+    std::filesystem::path file_;
+    int descriptor_ = -1;
+    std::vector<FinishedRow> finished_;
+    std::map<std::size_t, int> stopped_;
+    std::size_t damaged_ = 0, whole_bytes_ = 0;
+    bool done_ = false;
+    std::mutex mutex_;
+};
+
+/// "results.csv" -> "results.csv.journal".
+std::filesystem::path journal_of(const std::filesystem::path& csv);
+
+} // namespace damslip

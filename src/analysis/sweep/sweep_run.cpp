@@ -1,0 +1,131 @@
+#include "analysis/sweep/sweep_run.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+
+namespace damslip {
+
+namespace {
+
+constexpr std::size_t block_rows = 256; ///< rigid rows that go into the journal at once
+
+/// Rows by their place among the wanted ids, written from several threads, each place once.
+class RowStore {
+public:
+    RowStore(const std::vector<std::size_t>& wanted, Journal* journal, Watch& watch)
+        : wanted_(wanted), journal_(journal), watch_(watch), rows_(wanted.size())
+    {
+    }
+
+    void put(FinishedRow row)
+    {
+        const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), row.id);
+        if (at == wanted_.end() || *at != row.id) return; // not of this part
+        rows_[static_cast<std::size_t>(at - wanted_.begin())] = std::move(row);
+    }
+    void finish(std::vector<FinishedRow> rows)
+    {
+        if (journal_)
+            journal_->append(rows);
+        else
+            watch_.results_at_hand();
+        for (FinishedRow& row : rows) put(std::move(row));
+    }
+    void begin(std::span<const std::size_t> ids)
+    {
+        if (journal_) journal_->begin(ids);
+    }
+    std::map<std::size_t, int> stopped() const { return journal_ ? journal_->stopped() : std::map<std::size_t, int>{}; }
+    std::vector<std::size_t> missing() const
+    {
+        std::vector<std::size_t> ids;
+        for (std::size_t i = 0; i < wanted_.size(); ++i)
+            if (!rows_[i]) ids.push_back(wanted_[i]);
+        return ids;
+    }
+    std::vector<FinishedRow> finished()
+    {
+        std::vector<FinishedRow> rows;
+        for (auto& row : rows_)
+            if (row) rows.push_back(std::move(*row));
+        return rows;
+    }
+
+private:
+    const std::vector<std::size_t>& wanted_;
+    Journal* journal_;
+    Watch& watch_;
+    std::vector<std::optional<FinishedRow>> rows_;
+};
+
+FeSweepCounts run_fe_rows(const SweepInputs& inputs, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
+                          RowStore& store)
+{
+    const auto threads = static_cast<std::size_t>(thread_count(jobs));
+    const std::vector<FeGroup> groups =
+        with_stopped_in_pieces(fe_groups(inputs.tasks, inputs.axes, missing, threads), store.stopped());
+    std::size_t runs = 0;
+    for (const FeGroup& group : groups) runs += group.rows.size();
+    watch.begin("sweep, finite elements", static_cast<double>(runs));
+    FeSweepCounts counts = run_fe_groups(
+        inputs, groups, jobs, watch, [&store](std::span<const std::size_t> ids) { store.begin(ids); },
+        [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
+            std::vector<FinishedRow> rows;
+            for (std::size_t i = 0; i < ids.size(); ++i)
+                if (slips[i].status != Status::interrupted) rows.push_back(fe_row(ids[i], slips[i]));
+            store.finish(std::move(rows));
+        });
+    watch.end();
+    return counts;
+}
+
+void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_t> missing, int jobs, Watch& watch,
+                    RowStore& store)
+{
+    std::erase_if(missing, [&](std::size_t id) {
+        return grid.axes.method[grid.tasks.index(id).method].kind == SweepKind::finite_elements;
+    });
+    watch.begin("sweep", static_cast<double>(missing.size()));
+    parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
+        if (watch.stop_asked()) return;
+        const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
+        std::vector<FinishedRow> rows;
+        for (std::size_t i = first; i < last; ++i) rows.push_back(rigid_row(scene, grid, missing[i]));
+        store.finish(std::move(rows));
+        watch.advance(static_cast<double>(last - first));
+    });
+    watch.end();
+}
+
+} // namespace
+
+bool SweepOutcome::all_good() const
+{
+    return std::all_of(rows.begin(), rows.end(), [](const FinishedRow& row) { return row.good; });
+}
+
+const FinishedRow* SweepOutcome::find(std::size_t id) const
+{
+    const auto at = std::lower_bound(rows.begin(), rows.end(), id,
+                                     [](const FinishedRow& row, std::size_t i) { return row.id < i; });
+    return at != rows.end() && at->id == id ? &*at : nullptr;
+}
+
+SweepOutcome run_sweep(const SweepInputs& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
+                       Journal* journal, int jobs, Watch& watch)
+{
+    RowStore store(wanted, journal, watch);
+    SweepOutcome outcome;
+    outcome.wanted = wanted.size();
+    if (journal)
+        for (FinishedRow& row : journal->take_finished()) store.put(std::move(row));
+    const std::vector<std::size_t> missing = store.missing();
+    outcome.found = wanted.size() - missing.size();
+    if (inputs.axes.finite_elements()) outcome.fe = run_fe_rows(inputs, missing, jobs, watch, store);
+    run_rigid_rows(inputs.scene, grid, missing, jobs, watch, store);
+    outcome.rows = store.finished();
+    return outcome;
+}
+
+} // namespace damslip

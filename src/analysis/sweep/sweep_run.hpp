@@ -1,0 +1,25 @@
+#pragma once
+
+#include "analysis/sweep/sweep_rows.hpp"
+
+namespace damslip {
+
+/// Rows of a sweep, or of a part of it, by ascending id.
+struct SweepOutcome {
+    std::vector<FinishedRow> rows;     ///< finished ones only
+    std::size_t wanted = 0, found = 0; ///< rows asked for; taken from the journal
+    std::optional<FeSweepCounts> fe;   ///< of this process; none: no FE method
+
+    bool complete() const { return rows.size() == wanted; }
+    bool all_good() const;
+    const FinishedRow* find(std::size_t id) const; ///< nullptr: not finished
+};
+
+/// Computes the rows that are asked for: FE groups first, then the rigid block and the regressions. Rows in the journal
+/// are not computed again; what finishes goes into it at once. Ends early when interrupted.
+/// @param wanted   ids, ascending
+/// @param journal  nullptr: none
+SweepOutcome run_sweep(const SweepInputs& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
+                       Journal* journal, int jobs, Watch& watch);
+
+} // namespace damslip

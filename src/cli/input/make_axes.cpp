@@ -1,0 +1,222 @@
+#include "cli/input/make_axes.hpp"
+
+#include "cli/input/number_list.hpp"
+#include "cli/input/run_inputs.hpp"
+#include "core/number.hpp"
+#include "core/units.hpp"
+#include "core/usage_error.hpp"
+#include "scene/plausible.hpp"
+#include "scene/section.hpp"
+#include "scene/uplift_row.hpp"
+#include "scene/words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+namespace {
+
+std::vector<double> checked_numbers(const std::string& text, const std::string& flag, double own, double low,
+                                    double high, const std::string& meaning)
+{
+    if (text.empty()) return {own};
+    std::vector<double> values = number_list(text, flag);
+    for (const double v : values)
+        if (!(v >= low && v <= high))
+            refuse_usage(
+                fmt::format("{}: {} is not allowed.", flag, v), meaning,
+                fmt::format("give values from {} to {}, with a decimal point: a comma parts two values", low, high));
+    return values;
+}
+
+/// Notes the first value that is not one of real dams, and says how many more there are.
+/// @param key  whose range it is: "contact.friction"; @param unit  of the values, one of the key's; {}: without
+/// @throws UsageError for "0,7", where both are unusual and 0.7 is not: a decimal comma
+void look_at(const std::string& text, const std::string& flag, const std::string& key,
+             const std::vector<double>& values, std::vector<Diagnostic>& notes, const UnitSuffix& unit = {})
+{
+    if (text.empty()) return;
+    const Key of = key_named(key);
+    const auto note_of = [&](double v) {
+        return unusual(of, {fmt::format("{} {}", flag, shortest(v)), v, unit, false});
+    };
+    const auto is_unusual = [&](double v) { return note_of(v).has_value(); };
+    const auto count = std::count_if(values.begin(), values.end(), is_unusual);
+    if (count == 0) return;
+    const std::optional<double> comma = decimal_comma(text);
+    const bool comma_meant = comma && !is_unusual(*comma);
+    Diagnostic note = *note_of(*std::find_if(values.begin(), values.end(), is_unusual));
+    if (comma_meant && count == 2)
+        refuse_usage(fmt::format("{} {} is read as two values, {} and {}, and neither is usual.", flag, text,
+                                 shortest(values[0]), shortest(values[1])),
+                     note.expected,
+                     fmt::format("a decimal comma? write  {0} {1} ; for the two values  {0} {2}.0,{3}", flag,
+                                 shortest(*comma), shortest(values[0]), shortest(values[1])));
+    if (comma_meant) note.fix = fmt::format("a decimal comma? write  {} {}", flag, shortest(*comma));
+    if (count > 1) note.problem += fmt::format(" So are {} more of the {} values.", count - 1, values.size());
+    notes.push_back(std::move(note));
+}
+
+void look_at_levels(const std::string& text, const Scene& scene, const std::vector<double>& levels,
+                    std::vector<Diagnostic>& notes)
+{
+    if (text.empty() || scene.wedge || scene.section.rock_slope) return;
+    const double highest = *std::max_element(levels.begin(), levels.end());
+    if (auto note = unusual_level("--level " + shortest(highest), highest, crest_level(scene.section)))
+        notes.push_back(std::move(*note));
+}
+
+/// Heights of the dam at the sizes of the axis.
+void look_at_sizes(const std::string& text, const Scene& scene, const std::vector<double>& sizes,
+                   std::vector<Diagnostic>& notes)
+{
+    if (text.empty() || scene.wedge) return;
+    for (const double size : sizes) {
+        const double height = size * crest_level(scene.section);
+        auto note = unusual_argument(fmt::format("--size {}: a height of {:.6g} m", shortest(size), height),
+                                     "section.height", height);
+        if (!note) continue;
+        note->fix = "--size is a factor on the lengths of the scene, not a length";
+        notes.push_back(std::move(*note));
+        return;
+    }
+}
+
+void look_at_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
+{
+    look_at(a.friction, "--friction", "contact.friction", axes.friction, axes.notes);
+    if (!a.friction_deg.empty())
+        look_at(a.friction_deg, "--friction-deg", "contact.friction", number_list(a.friction_deg, "--friction-deg"),
+                axes.notes, {"deg", 1.0, true});
+    look_at(a.scale, "--scale", "motion.scale", axes.scale, axes.notes);
+    look_at_levels(a.level, scene, axes.level, axes.notes);
+    look_at_sizes(a.size, scene, axes.size, axes.notes);
+    if (a.penalty_stiffness)
+        if (auto note = unusual_argument("--penalty-stiffness " + shortest(*a.penalty_stiffness),
+                                         "contact.tangential_stiffness", *a.penalty_stiffness))
+            axes.notes.push_back(std::move(*note));
+}
+
+std::vector<double> friction_axis(const SweepArguments& a, const Scene& scene)
+{
+    if (!a.friction.empty() && !a.friction_deg.empty())
+        refuse_usage("--friction and --friction-deg are both given.", "one of them", "delete one");
+    if (a.friction_deg.empty())
+        return checked_numbers(a.friction, "--friction", scene.contact.friction, 0, 10, "Coulomb mu, 0 ... 10");
+    std::vector<double> values =
+        checked_numbers(a.friction_deg, "--friction-deg", 0, 0, 84, "friction angle [deg], 0 ... 84");
+    for (double& v : values) v = std::tan(v * units::degree);
+    return values;
+}
+
+std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> known;
+    for (const UpliftRow& row : uplift_rows()) known.push_back(row.word);
+    std::vector<std::string> words = word_list(a.uplift, "--uplift", known);
+    for (const std::string& u : words)
+        if (const UpliftRow& row = uplift_row(uplift_model(u)); !has_what_it_needs(scene, row))
+            refuse_usage(fmt::format("--uplift {}: the scene lacks what this profile needs.", u), row.needs,
+                         "add it to the scene or leave the profile out");
+    return words;
+}
+
+std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> ids{"rigid"};
+    const bool vertical = std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                      [](const RecordFiles& r) { return r.vertical.has_value(); });
+    if (!a.method.empty())
+        ids = word_list(a.method, "--method", sweep_methods());
+    else if (vertical && scene.motion.vertical)
+        ids.emplace_back("rigid-v");
+    std::vector<SweepMethod> methods;
+    for (const std::string& id : ids) methods.push_back(sweep_method(id));
+    const auto given = [&](auto&& matches) { return std::any_of(methods.begin(), methods.end(), matches); };
+    const bool penalty = given([](const SweepMethod& m) { return m.law == FeLaw::penalty; });
+    if (penalty && !a.penalty_stiffness && !scene.contact.tangential_stiffness)
+        refuse_usage("--method fe-penalty: neither scene nor command line give the stiffness of sticking.",
+                     "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\", or --penalty-stiffness",
+                     "add  --penalty-stiffness 1e11");
+    if (!penalty && a.penalty_stiffness)
+        refuse_usage("--penalty-stiffness is given, but fe-penalty is not among the methods.", "both or neither",
+                     "add fe-penalty to --method, or delete --penalty-stiffness");
+    if (a.modes && !given([](const SweepMethod& m) { return m.reduced; }))
+        refuse_usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
+                     "add fe-reduced to --method, or delete --modes");
+    return methods;
+}
+
+template <class Value>
+void refuse_repeats(const char* flag, const std::vector<Value>& values)
+{
+    for (std::size_t i = 1; i < values.size(); ++i)
+        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
+            values.begin() + static_cast<std::ptrdiff_t>(i))
+            refuse_usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once",
+                         "delete the second one");
+}
+
+void check_repeats(const Axes& axes)
+{
+    refuse_repeats("--friction", axes.friction);
+    refuse_repeats("--level", axes.level);
+    refuse_repeats("--uplift", axes.uplift);
+    refuse_repeats("--reservoir", axes.reservoir);
+    refuse_repeats("--size", axes.size);
+    refuse_repeats("--scale", axes.scale);
+    refuse_repeats("--polarity", axes.polarity);
+    std::vector<std::string> methods;
+    for (const SweepMethod& m : axes.method) methods.push_back(m.id);
+    refuse_repeats("--method", methods);
+}
+
+/// A wedge has friction, records, their scale and polarity to vary, and no finite elements.
+void check_wedge_axes(const SweepArguments& a, const std::vector<SweepMethod>& methods)
+{
+    for (const auto& [flag, text] :
+         {std::pair{"--level", a.level}, {"--uplift", a.uplift}, {"--reservoir", a.reservoir}, {"--size", a.size}})
+        if (!text.empty())
+            refuse_usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
+                         "--friction (of the first plane; the other keeps its share), --scale, --polarity, --record",
+                         fmt::format("delete {}", flag));
+    for (const SweepMethod& m : methods)
+        if (m.kind == SweepKind::finite_elements)
+            refuse_usage(fmt::format("--method {} cannot take a [wedge]: it has no section for finite elements.", m.id),
+                         "rigid, rigid-v and the regressions", "delete it");
+}
+
+} // namespace
+
+Axes make_axes(const SweepArguments& a, const Scene& scene)
+{
+    Axes axes = axes_of(scene);
+    axes.friction = friction_axis(a, scene);
+    if (!scene.reservoir)
+        for (const auto& [flag, text] : {std::pair{"--level", a.level}, {"--reservoir", a.reservoir}})
+            if (!text.empty())
+                refuse_usage(fmt::format("{} is given, but the scene has no [reservoir].", flag),
+                             "a scene with [reservoir]", "add [reservoir] to the scene");
+    axes.level =
+        checked_numbers(a.level, "--level", axes.level.front(), 0, scene.wedge ? 0.0 : 3 * crest_level(scene.section),
+                        "water level above the heel at size 1 [m]");
+    axes.size = checked_numbers(a.size, "--size", 1.0, 0.01, 100, "factor on all lengths of the scene, 0.01 ... 100");
+    axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
+    axes.polarity.clear();
+    for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
+        if (p != 1 && p != -1)
+            refuse_usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
+        axes.polarity.push_back(static_cast<int>(p));
+    }
+    if (!a.uplift.empty()) axes.uplift = uplift_axis(a, scene);
+    if (!a.reservoir.empty()) axes.reservoir = word_list(a.reservoir, "--reservoir", reservoir_axis_words());
+    axes.method = method_axis(a, scene);
+    if (scene.wedge) check_wedge_axes(a, axes.method);
+    check_repeats(axes);
+    look_at_axes(a, scene, axes);
+    return axes;
+}
+
+} // namespace damslip::cli

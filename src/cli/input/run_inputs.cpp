@@ -1,0 +1,144 @@
+#include "cli/input/run_inputs.hpp"
+
+#include "core/number.hpp"
+#include "core/usage_error.hpp"
+#include "scene/plausible.hpp"
+#include "scene/read.hpp"
+#include "scene/with_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iostream>
+
+namespace damslip::cli {
+
+namespace {
+
+constexpr const char* standard_input = "-";
+constexpr const char* no_vertical = "none"; ///< stands for the vertical component that a record does not have
+/// The records of the command line in place of the scene's.
+std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
+{
+    if (!inputs.verticals.empty() && inputs.verticals.size() != inputs.records.size())
+        refuse_usage(
+            fmt::format("{} --record and {} --vertical are given.", inputs.records.size(), inputs.verticals.size()),
+            "no --vertical, or one for each --record in the same order; none for a record without one",
+            "for example  --record a_h.at2 b_h.at2 --vertical a_v.at2 none");
+    std::vector<RecordFiles> files;
+    for (std::size_t i = 0; i < inputs.records.size(); ++i) {
+        RecordFiles f;
+        f.name = inputs.records[i].stem().string();
+        const auto taken = std::count_if(files.begin(), files.end(), [&](const RecordFiles& o) {
+            return o.horizontal.stem() == inputs.records[i].stem();
+        });
+        if (taken > 0) f.name += fmt::format(" ({})", taken + 1);
+        f.horizontal = inputs.records[i];
+        if (!inputs.verticals.empty() && inputs.verticals[i] != no_vertical) f.vertical = inputs.verticals[i];
+        files.push_back(std::move(f));
+    }
+    return files;
+}
+
+} // namespace
+
+namespace {
+
+/// The scene as its file, or standard input, says it.
+Scene scene_as_written(const RunInputs& inputs)
+{
+    if (inputs.scene != standard_input) return read_scene(inputs.scene);
+    constexpr std::size_t most = 4u << 20;
+    std::string text(most + 1, '\0');
+    std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(std::cin.gcount()));
+    if (text.size() > most)
+        throw InputError(Diagnostic{"standard input", 0, 0, "the scene has more than 4 MiB.", "a scene file (TOML)",
+                                    "write the scene alone to standard input"});
+    return parse_scene(text, "standard input");
+}
+
+void put_records(const RunInputs& inputs, Scene& scene)
+{
+    if (!inputs.verticals.empty() && inputs.records.empty())
+        refuse_usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
+    if (!inputs.records.empty()) scene.motion.records = command_line_records(inputs);
+    for (RecordFiles& record : scene.motion.records) {
+        if (record.unit.empty()) record.unit = inputs.unit;
+        if (!record.dt) record.dt = inputs.dt;
+        if (record.column.empty()) record.column = inputs.column;
+        if (record.vertical && record.vertical_column.empty()) record.vertical_column = inputs.vertical_column;
+    }
+}
+
+void note_arguments(const RunInputs& inputs, std::vector<Diagnostic>& notes)
+{
+    const auto look_at = [&notes](const char* flag, const char* key, const std::optional<double>& value) {
+        if (!value) return;
+        if (auto note = unusual_argument(fmt::format("{} {}", flag, shortest(*value)), key, *value))
+            notes.push_back(std::move(*note));
+    };
+    look_at("--friction", "contact.friction", inputs.friction);
+    look_at("--scale", "motion.scale", inputs.scale);
+    look_at("--dt", "motion.record.dt", inputs.dt);
+}
+
+} // namespace
+
+Scene read_run_scene(const RunInputs& inputs, const Streams& streams)
+{
+    Scene scene = scene_as_written(inputs);
+    put_records(inputs, scene);
+    if (inputs.friction) {
+        if (!(*inputs.friction >= 0 && *inputs.friction <= 10))
+            refuse_usage(fmt::format("--friction {} is not allowed.", *inputs.friction), "Coulomb mu, 0 ... 10",
+                         "for example  --friction 0.77");
+        scene = with_friction(scene, *inputs.friction);
+    }
+    if (inputs.scale) {
+        if (!(*inputs.scale >= 0 && std::isfinite(*inputs.scale)))
+            refuse_usage(fmt::format("--scale {} is not allowed.", *inputs.scale), "a factor >= 0",
+                         "for example  --scale 1.5");
+        scene.motion.scale *= *inputs.scale;
+    }
+    if (!inputs.scheme.empty()) {
+        if (inputs.scheme != "exact" && inputs.scheme != "slammer")
+            refuse_usage(fmt::format("--scheme {} is not known.", inputs.scheme), "exact or slammer",
+                         "for example  --scheme slammer");
+        scene.sliding.scheme = inputs.scheme == "slammer" ? SlidingScheme::slammer : SlidingScheme::exact;
+    }
+    note_arguments(inputs, scene.notes);
+    say(scene.notes, inputs.strict, streams);
+    return scene;
+}
+
+std::optional<Diagnostic> unusual_argument(const std::string& subject, const std::string& key, double value)
+{
+    const Key of = key_named(key);
+    return unusual(of, {subject, value, of.units.front(), false});
+}
+
+void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& streams)
+{
+    if (strict && !notes.empty()) throw InputError(notes);
+    if (streams.quiet) return;
+    for (const Diagnostic& note : notes) streams.talk << "note: " << note_text(note) << "\n";
+}
+
+void need_scene_file(const RunInputs& inputs, const std::string& flag)
+{
+    if (inputs.scene != standard_input) return;
+    refuse_usage(fmt::format("{} with a scene from standard input.", flag),
+                 "a scene file: each of the commands reads it anew", "write the scene to a file");
+}
+
+void need_section(const Scene& scene, const std::string& command, const std::string& instead)
+{
+    if (!scene.wedge) return;
+    throw InputError(
+        Diagnostic{scene.file.string(), 0, 0,
+                   fmt::format("{} cannot take a [wedge]: it has no section for finite elements.", command),
+                   "a scene with [section], [dam] and [contact]", instead});
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "cli/terminal/streams.hpp"
+#include "scene/scene.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace damslip::cli {
+
+/// What the commands that run a scene have in common on the command line.
+struct RunInputs {
+    std::filesystem::path scene;                  ///< "-": standard input
+    bool strict = false;                          ///< what would be noted is refused
+    std::vector<std::filesystem::path> records;   ///< horizontal components; given: they replace the scene's
+    std::vector<std::filesystem::path> verticals; ///< none, or one for each record in the same order; "none": without
+    std::string unit;                             ///< of record files that do not say
+    std::optional<double> dt;                     ///< of one-column files [s]
+    std::string column;                           ///< of files that hold several, horizontal components
+    std::string vertical_column;                  ///< the same, vertical components
+    std::optional<double> friction;
+    std::optional<double> scale;
+    std::string scheme; ///< "exact" or "slammer"; empty: the scene's
+};
+
+/// The scene with the command line's changes, checked. Its notes, and those of the command line's numbers, go to the talk; with
+/// --strict they are thrown. @throws InputError, UsageError
+Scene read_run_scene(const RunInputs& inputs, const Streams& streams);
+
+/// The note of a number of the command line that stands for a key. @param value  in the key's first unit
+/// @param subject  "--friction 7"; @param key  "contact.friction"
+std::optional<Diagnostic> unusual_argument(const std::string& subject, const std::string& key, double value);
+
+/// Puts notes to the talk, or throws them with --strict.
+/// @throws InputError
+void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& streams);
+
+/// A scene that comes from standard input cannot be read a second time. @param flag  that needs it again
+/// @throws UsageError
+void need_scene_file(const RunInputs& inputs, const std::string& flag);
+
+/// What the command needs of a scene is a section, not a [wedge]. @param instead  what to do with a wedge
+/// @throws InputError for a scene of a rock wedge
+void need_section(const Scene& scene, const std::string& command, const std::string& instead);
+
+} // namespace damslip::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cli/input/run_inputs.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace damslip::cli {
+
+/// Lists as typed ("0.65:1.0:0.05"); empty: the scene's own value.
+struct SweepArguments {
+    RunInputs inputs;
+    std::string friction, friction_deg, level, uplift, reservoir, size, scale, polarity;
+    std::string method;                      ///< empty: rigid, and rigid-v where a record has a vertical component
+    std::optional<int> modes;                ///< elastic modes of fe-reduced, 1 ... 1000; none: its own choice
+    std::optional<double> penalty_stiffness; ///< of fe-penalty [N/m^3], > 0; none: the scene's
+
+    std::filesystem::path out;                ///< CSV file, its journal beside it; empty: standard output, no journal
+    int jobs = 0;                             ///< threads; 0: all cores
+    bool resume = false;                      ///< go on from the journal
+    std::string shard;                        ///< "i/n": this part only, into a file of its own; empty: all rows
+    bool plan = false;                        ///< print the commands of all parts instead
+    std::filesystem::path slurm_array;        ///< write a job script for all parts here instead; empty: no
+    std::optional<int> parts;                 ///< of plan and job script; none: one for each scene variant and motion
+    std::vector<std::filesystem::path> merge; ///< part files, or folders of them, to put together instead
+};
+
+} // namespace damslip::cli

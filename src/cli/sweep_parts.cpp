@@ -1,0 +1,251 @@
+#include "cli/sweep_parts.hpp"
+
+#include "analysis/sweep/sweep_rows.hpp"
+#include "core/file.hpp"
+#include "core/input_error.hpp"
+#include "core/number.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <map>
+#include <regex>
+#include <utility>
+
+namespace damslip::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A part file as read, checked against its own checksum.
+struct Part {
+    fs::path file;
+    Shard shard;
+    std::string comments, header; ///< of the whole sweep; the row of keys
+    std::size_t rows = 0, not_converged = 0, rows_of_sweep = 0;
+    std::map<std::size_t, std::string> lines; ///< by id
+};
+
+[[noreturn]] void not_a_part(const fs::path& file)
+{
+    refuse(file, "this is not a part of a sweep.", "a file written by  damslip sweep ... --shard i/n",
+           "name the part files, or a folder that holds them");
+}
+
+/// The end of a line that starts with `start`; its text without the newline goes to `line`.
+std::size_t next_line(const fs::path& file, const std::string& content, std::size_t start, std::string& line)
+{
+    const std::size_t end = content.find('\n', start);
+    if (end == std::string::npos) not_a_part(file);
+    line = content.substr(start, end - start);
+    return end + 1;
+}
+
+void read_lines(const std::string& body, Part& part)
+{
+    std::string line;
+    std::size_t at = next_line(part.file, body, 0, part.header);
+    while (at < body.size()) {
+        at = next_line(part.file, body, at, line);
+        std::size_t id = 0;
+        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), id);
+        if (error != std::errc() || end == line.data() + line.size() || *end != ',' || id >= part.rows_of_sweep ||
+            !part.lines.emplace(id, line).second)
+            refuse(part.file, fmt::format("the row \"{}\" has no id of this sweep of its own.", line.substr(0, 40)),
+                   fmt::format("each id below {} once", part.rows_of_sweep), "run this part again");
+    }
+}
+
+Part read_part(const fs::path& file)
+{
+    static const std::regex sweep_line("# sweep [0-9a-f]{64}, ([0-9]{1,12}) rows"),
+        part_line("# part ([0-9]{1,7})/([0-9]{1,7}), ([0-9]{1,12}) rows, ([0-9]{1,12}) not converged, sha256 "
+                  "([0-9a-f]{64})");
+    const std::string content = read_file(file, std::uintmax_t{1} << 40);
+    Part part;
+    part.file = file;
+    std::string first, scene, sweep, own;
+    std::size_t at = next_line(file, content, 0, first);
+    at = next_line(file, content, at, scene);
+    at = next_line(file, content, at, sweep);
+    part.comments = content.substr(0, at);
+    at = next_line(file, content, at, own);
+    std::smatch of_sweep, of_part;
+    if (!std::regex_match(sweep, of_sweep, sweep_line) || !std::regex_match(own, of_part, part_line)) not_a_part(file);
+    part.rows_of_sweep = std::stoull(of_sweep[1]);
+    part.shard = {std::stoull(of_part[1]), std::stoull(of_part[2])};
+    part.rows = std::stoull(of_part[3]);
+    part.not_converged = std::stoull(of_part[4]);
+    const std::string body = content.substr(at);
+    if (sha256(body) != of_part[5] || part.shard.index >= part.shard.count)
+        refuse(file, "the rows are not those that were written: the checksum differs.", "a part file as written",
+               fmt::format("run the part again:  --shard {}/{}", part.shard.index, part.shard.count));
+    read_lines(body, part);
+    return part;
+}
+
+std::vector<fs::path> part_files(const std::vector<fs::path>& paths)
+{
+    static const std::regex name(R"(.*\.[0-9]+-of-[0-9]+\.csv)");
+    std::vector<fs::path> files;
+    for (const fs::path& path : paths) {
+        std::error_code error;
+        if (!fs::is_directory(path, error)) {
+            files.push_back(path);
+            continue;
+        }
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(path, error))
+            if (std::regex_match(entry.path().filename().string(), name)) found.push_back(entry.path());
+        if (error) refuse(path, "the folder cannot be read: " + error.message() + ".", "a readable folder", "");
+        if (found.empty())
+            refuse(path, "there is no part of a sweep in this folder.", "files named *.i-of-n.csv",
+                   "run the parts first:  damslip sweep ... --out results.csv --shard i/n");
+        std::sort(found.begin(), found.end());
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
+/// All of one sweep, none twice, none missing.
+void check_parts(const std::vector<Part>& parts)
+{
+    const Part& first = parts.front();
+    std::map<std::size_t, const Part*> by_index;
+    for (const Part& part : parts) {
+        if (part.comments != first.comments || part.header != first.header || part.shard.count != first.shard.count)
+            refuse(part.file,
+                   fmt::format("part {}/{} is not of the same sweep as {}.", part.shard.index, part.shard.count,
+                               first.file.string()),
+                   "parts of one sweep: the same scene, records, grid, version and number of parts",
+                   "merge the parts of each sweep by themselves");
+        const auto [there, fresh] = by_index.emplace(part.shard.index, &part);
+        if (!fresh)
+            refuse(part.file,
+                   fmt::format("part {}/{} is given twice, also as {}.", part.shard.index, part.shard.count,
+                               there->second->file.string()),
+                   "each part once", "leave one of them out");
+    }
+    std::string missing, flags;
+    for (std::size_t i = 0; i < first.shard.count; ++i)
+        if (!by_index.contains(i)) {
+            missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", i, first.shard.count);
+            flags += fmt::format("{}--shard {}/{}", flags.empty() ? "" : ", ", i, first.shard.count);
+        }
+    if (!missing.empty())
+        refuse({},
+               fmt::format("{} of {} parts are missing: {}.", first.shard.count - by_index.size(), first.shard.count,
+                           missing),
+               "all parts of the sweep", "run them:  " + flags);
+}
+
+/// Fields of a line of pages::csv.
+std::vector<std::string> fields_of(const std::string& line)
+{
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"') {
+            const bool escaped = quoted && i + 1 < line.size() && line[i + 1] == '"';
+            if (escaped)
+                fields.back() += line[++i];
+            else
+                quoted = !quoted;
+        } else if (c == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+/// A name that begins like a formula has an apostrophe in front in the file (pages::csv).
+std::string without_apostrophe(const std::string& field)
+{
+    const bool put =
+        field.size() > 1 && field[0] == '\'' && std::string_view("=+-@").find(field[1]) != std::string_view::npos;
+    return put ? field.substr(1) : field;
+}
+
+Cell cell_of(const std::string& key, const std::string& field)
+{
+    for (const char* word : {"uplift", "reservoir", "record", "method", "status"})
+        if (key == word) return without_apostrophe(field);
+    if (field.empty()) return {};
+    const std::optional<double> number = parse_number(field);
+    if (!number) return field;
+    if (key == "id" || key == "polarity") return static_cast<std::int64_t>(*number);
+    return *number;
+}
+
+} // namespace
+
+Table sweep_rows_of(const std::string& csv)
+{
+    Table table = sweep_table();
+    bool header = true;
+    for (std::size_t at = 0; at < csv.size();) {
+        const std::size_t end = std::min(csv.find('\n', at), csv.size());
+        const std::string line = csv.substr(at, end - at);
+        at = end + 1;
+        if (line.starts_with("#")) continue;
+        const std::vector<std::string> fields = fields_of(line);
+        bool fits = fields.size() == table.columns.size();
+        for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
+        if (!fits)
+            refuse({}, fmt::format("the line \"{}\" is not one of a sweep of this version.", line.substr(0, 60)),
+                   "the columns of this version", "run the parts again");
+        if (!std::exchange(header, false)) {
+            table.rows.emplace_back();
+            for (std::size_t i = 0; i < fields.size(); ++i)
+                table.rows.back().push_back(cell_of(table.columns[i].key, fields[i]));
+        }
+    }
+    return table;
+}
+
+fs::path part_file(const fs::path& csv, const Shard& shard)
+{
+    fs::path file = csv;
+    file.replace_filename(csv.stem().string() + fmt::format(".{}-of-{}.csv", shard.index, shard.count));
+    return file;
+}
+
+std::string part_text(const SweepIdentity& identity, const Shard& shard, const std::string& body, std::size_t rows,
+                      std::size_t not_converged)
+{
+    std::string text;
+    for (const std::string& comment : csv_comments(identity)) text += "# " + comment + "\n";
+    text += fmt::format("# part {}/{}, {} rows, {} not converged, sha256 {}\n", shard.index, shard.count, rows,
+                        not_converged, sha256(body));
+    return text + body;
+}
+
+MergedSweep merge_parts(const std::vector<fs::path>& paths)
+{
+    std::vector<Part> parts;
+    for (const fs::path& file : part_files(paths)) parts.push_back(read_part(file));
+    check_parts(parts);
+    MergedSweep merged;
+    merged.parts = parts.size();
+    std::map<std::size_t, std::string> lines;
+    for (Part& part : parts) {
+        merged.not_converged += part.not_converged;
+        lines.merge(part.lines);
+        if (!part.lines.empty()) // ids that were there before stay behind
+            refuse(part.file, fmt::format("row {} is also in another part.", part.lines.begin()->first),
+                   "each row in one part", "run the parts again");
+    }
+    if (lines.size() != parts.front().rows_of_sweep)
+        refuse(parts.front().file,
+               fmt::format("the parts have {} rows, the sweep {}.", lines.size(), parts.front().rows_of_sweep),
+               "all rows", "run the parts again");
+    merged.rows = lines.size();
+    merged.text = parts.front().comments + parts.front().header + "\n";
+    for (const auto& [id, line] : lines) merged.text += line + "\n";
+    return merged;
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,94 @@
+#include "cli/sweep_plan.hpp"
+
+#include "cli/sweep_parts.hpp"
+#include "core/number.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace damslip::cli {
+
+std::string shell_quoted(const std::string& word)
+{
+    const std::string_view safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:,@%=";
+    if (!word.empty() && word.find_first_not_of(safe) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string sweep_command_line(const SweepArguments& a)
+{
+    std::string line = "damslip sweep " + shell_quoted(a.inputs.scene.string());
+    const auto add = [&line](const char* flag, const std::string& value) {
+        if (!value.empty()) line += fmt::format(" {} {}", flag, shell_quoted(value));
+    };
+    for (const auto& record : a.inputs.records) add("--record", record.string());
+    for (const auto& vertical : a.inputs.verticals) add("--vertical", vertical.string());
+    add("--units", a.inputs.unit);
+    if (a.inputs.dt) add("--dt", shortest(*a.inputs.dt));
+    add("--column", a.inputs.column);
+    add("--vertical-column", a.inputs.vertical_column);
+    add("--friction", a.friction);
+    add("--friction-deg", a.friction_deg);
+    add("--level", a.level);
+    add("--uplift", a.uplift);
+    add("--reservoir", a.reservoir);
+    add("--size", a.size);
+    add("--scale", a.scale);
+    add("--polarity", a.polarity);
+    add("--method", a.method);
+    if (a.modes) add("--modes", std::to_string(*a.modes));
+    if (a.penalty_stiffness) add("--penalty-stiffness", shortest(*a.penalty_stiffness));
+    add("--scheme", a.inputs.scheme);
+    if (a.inputs.strict) line += " --strict";
+    add("--out", a.out.string());
+    return line;
+}
+
+std::string plan_text(const SweepArguments& arguments, std::size_t parts)
+{
+    const std::string command = sweep_command_line(arguments);
+    std::string text;
+    for (std::size_t i = 0; i < parts; ++i)
+        text += fmt::format("{} --jobs {} --resume --shard {}/{}\n", command, std::max(1, arguments.jobs), i, parts);
+    return text;
+}
+
+std::string merge_command_line(const SweepArguments& arguments, std::size_t parts)
+{
+    std::string line = "damslip sweep --merge";
+    if (parts <= 20)
+        for (std::size_t i = 0; i < parts; ++i)
+            line += " " + shell_quoted(part_file(arguments.out, {i, parts}).string());
+    else {
+        const auto folder = arguments.out.parent_path();
+        line += " " + shell_quoted(folder.empty() ? "." : folder.string());
+    }
+    return line + " --out " + shell_quoted(arguments.out.string());
+}
+
+std::string slurm_script(const SweepArguments& arguments, std::size_t parts)
+{
+    return fmt::format(R"(#!/bin/sh
+#SBATCH --job-name=damslip-sweep
+#SBATCH --array=0-{0}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={1}
+#SBATCH --time=04:00:00
+#SBATCH --mem-per-cpu=2G
+#SBATCH --output=damslip-sweep-%A-%a.log
+# Adjust time and memory; add partition and account. Submit in the folder the paths below start from:
+#   sbatch this-script
+# A part that was stopped goes on where it was when it is submitted again:  sbatch --array=3,7 this-script
+# Sites limit the array (scontrol show config: MaxArraySize); fewer parts: write this script again with --parts N.
+# When all parts are there:
+#   {3}
+set -eu
+exec {2} --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --resume --quiet --shard "$SLURM_ARRAY_TASK_ID/{4}"
+)",
+                       parts - 1, std::max(1, arguments.jobs), sweep_command_line(arguments),
+                       merge_command_line(arguments, parts), parts);
+}
+
+} // namespace damslip::cli

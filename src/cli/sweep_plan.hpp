@@ -1,0 +1,23 @@
+#pragma once
+
+#include "analysis/sweep/sweep_tasks.hpp"
+#include "cli/input/sweep_arguments.hpp"
+
+namespace damslip::cli {
+
+/// A word as a POSIX shell reads it back: as it is where that is safe, else in single quotes.
+std::string shell_quoted(const std::string& word);
+
+/// The command line that runs this sweep, shell-quoted, without resume and part: "damslip sweep dam.toml --friction ...".
+std::string sweep_command_line(const SweepArguments& arguments);
+
+/// One command per line, each a part of the sweep that needs nothing of the others; a part begun before goes on.
+std::string plan_text(const SweepArguments& arguments, std::size_t parts);
+
+/// The command that puts the parts together.
+std::string merge_command_line(const SweepArguments& arguments, std::size_t parts);
+
+/// A job script for Slurm's sbatch: an array with one element per part, to be adjusted at the top.
+std::string slurm_script(const SweepArguments& arguments, std::size_t parts);
+
+} // namespace damslip::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "analysis/ablation/ablation_rows.hpp"
+#include "core/status_count.hpp"
+#include "core/table.hpp"
+
+/// An ablation as tables.
+namespace damslip::pages {
+
+struct Ablations {
+    const AblationPlan& plan;
+    const std::vector<RecordPair>& records;
+    const AblationRuns& runs;
+    std::string water; ///< what reservoir.model = "auto" became, and why; empty: the scene says it
+};
+
+/// Every effect that is on: what takes its place, or why it stays.
+Table removal_table(const Ablations& in);
+/// Slip and crest motion of every scene under one record, and their changes; with the sum of the changes.
+Table change_table(const Ablations& in, std::size_t record);
+/// The same of all records, with a column that names them.
+Table change_table_of_all(const Ablations& in);
+/// Yield acceleration and critical friction of every scene, rigid block.
+Table yield_change_table(const Ablations& in);
+/// Seconds of every scene and those saved; unknowns of FE models. Differs from call to call.
+Table seconds_table(const Ablations& in);
+
+/// What has to be known to read the tables, a sentence each; the same at each call.
+std::vector<std::string> ablation_notes(const Ablations& in);
+
+/// Runs without an answer, by their status; one more where the step that all runs share misses time.slip_tolerance.
+StatusCount unanswered_runs(const AblationRuns& runs);
+
+} // namespace damslip::pages

@@ -1,0 +1,189 @@
+#include "pages/accuracy/accuracy_report.hpp"
+
+#include "analysis/accuracy/ladder.hpp"
+#include "core/units.hpp"
+#include "core/version.hpp"
+#include "pages/accuracy/accuracy_tables.hpp"
+#include "pages/accuracy/cost_figure.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "scene/write.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace damslip::pages {
+
+namespace {
+
+/// Error of rungs over a size (step, element), a curve for each model; x ascending.
+Chart convergence_chart(const AccuracyReportInput& in, const std::string& title, const Axis& x,
+                        std::vector<const RungResult*> (*rungs)(const std::vector<RungResult>&, RungWater),
+                        double (*size)(const RungResult&))
+{
+    Chart chart;
+    chart.title = title;
+    chart.x = x;
+    chart.y = {"estimated error of the slip", "mm", Scale::log, 0.1, {}, {}, {}};
+    for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic}) {
+        std::vector<const RungResult*> row = rungs(in.results, water);
+        if (row.size() < 2) continue;
+        std::reverse(row.begin(), row.end());
+        Curve curve;
+        curve.name = model_of(row.front()->rung);
+        curve.mark = Mark::line_and_points;
+        for (const RungResult* r : row) {
+            const auto& error = in.judgement.rungs[static_cast<std::size_t>(r - in.results.data())].error;
+            if (!error) continue;
+            curve.x.push_back(size(*r));
+            curve.y.push_back(*error / units::mm);
+        }
+        if (curve.x.size() > 1) chart.curves.push_back(std::move(curve));
+    }
+    return chart;
+}
+
+/// The figure once more, to zoom and read values.
+Chart cost_chart(const AccuracyReportInput& in)
+{
+    Chart chart;
+    chart.title = "The same to zoom into: deviation of every rung over its time";
+    chart.x = {"time of this rung alone", "s", Scale::log, 0.1, {}, {}, {}};
+    chart.y = {"deviation from the finest rung", "%", Scale::log, 0.1, {}, {}, {}};
+    chart.horizontal.push_back({100.0 * in.tolerance, fmt::format("tolerance {:.3g} %", 100.0 * in.tolerance)});
+    for (const RungKind kind : {RungKind::regression, RungKind::rigid, RungKind::reduced, RungKind::finite_elements,
+                                RungKind::variant, RungKind::acoustic, RungKind::quadratic}) {
+        std::vector<std::pair<double, double>> points;
+        for (std::size_t i = 0; i < in.results.size(); ++i)
+            if (const auto& deviation = in.judgement.rungs[i].deviation;
+                deviation && kind_of(in.results[i].rung) == kind)
+                points.emplace_back(in.results[i].seconds, 100.0 * *deviation);
+        if (points.empty()) continue;
+        std::sort(points.begin(), points.end());
+        Curve curve;
+        curve.name = kind_name(kind, in.results);
+        curve.mark = Mark::points;
+        curve.colour = static_cast<int>(kind);
+        for (const auto& [x, y] : points) {
+            if (!curve.x.empty() && x <= curve.x.back()) continue; // of equal times the smaller deviation
+            curve.x.push_back(x);
+            curve.y.push_back(y);
+        }
+        chart.curves.push_back(std::move(curve));
+    }
+    return chart;
+}
+
+double step_size(const RungResult& r)
+{
+    return 1e3 * r.time_step.value_or(0.0);
+}
+double element_factor(const RungResult& r)
+{
+    return r.rung.mesh;
+}
+
+Headline headline(const AccuracyReportInput& in)
+{
+    const std::string sentence = choice_sentence(in.results, in.judgement, in.tolerance);
+    if (all_fail_statically(in.results)) return {sentence, Outcome::fail, "FAIL"};
+    if (in.judgement.choice) return {sentence, Outcome::none, ""};
+    return {sentence, Outcome::unresolved, "No rung within the tolerance."};
+}
+
+std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyReportInput& in)
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    const Judgement& j = in.judgement;
+    if (!j.top) return list;
+    const RungResult& top = in.results[*j.top];
+    list.emplace_back("Slip of the finest rung", fmt::format("{:.4g} mm", top.slip[j.record] / units::mm));
+    list.emplace_back("Finest rung", rung_id(top.rung));
+    if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
+    list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
+    if (j.choice) {
+        list.emplace_back("Rung within the tolerance", rung_id(in.results[*j.choice].rung));
+        list.emplace_back("It takes", fmt::format("{:.3g} s", in.results[*j.choice].seconds));
+    }
+    return list;
+}
+
+/// Rungs that ran, or should have, and have no slip to draw, by their status.
+std::string not_drawn(const std::vector<RungResult>& results)
+{
+    std::string list;
+    for (const RungResult& r : results)
+        if (!r.done() && r.outcome != RungOutcome::skipped)
+            list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", rung_id(r.rung), word(r.status));
+    return list.empty() ? "" : " Not drawn: " + list + ".";
+}
+
+Section cost_section(const AccuracyReportInput& in)
+{
+    Section section{"What accuracy costs", {}, Fold::open};
+    const std::string svg =
+        cost_figure(in.results, in.judgement, in.tolerance, figure_title(in.scene, in.records), FigureStyle::page);
+    if (svg.empty()) {
+        section.parts.push_back(Paragraph{"No rung has a deviation to draw." + not_drawn(in.results)});
+        return section;
+    }
+    section.parts.push_back(Drawing{
+        "Deviation over time", svg,
+        "The line joins rungs that no rung as fast beats. Filled: on that line. Ring: the cheapest rung within the "
+        "tolerance." +
+            not_drawn(in.results)});
+    if (!in.command.empty()) section.parts.push_back(Paragraph{"To run that rung alone:  " + in.command});
+    section.parts.push_back(cost_chart(in));
+    return section;
+}
+
+Section convergence_section(const AccuracyReportInput& in)
+{
+    Section section{"Convergence within each model", {}, Fold::open};
+    section.parts.push_back(TablePart{model_table(in.results, in.judgement), Layout::rows, 1, Fold::open});
+    for (Chart chart : {convergence_chart(in, "Error over the time step",
+                                          {"time step", "ms", Scale::log, 0.1, {}, {}, {}}, step_row, step_size),
+                        convergence_chart(in, "Error over the element size",
+                                          {"element size over the scene's", "–", Scale::log, 0.1, {}, {}, {}},
+                                          mesh_column, element_factor)})
+        if (!chart.curves.empty()) section.parts.push_back(std::move(chart));
+    return section;
+}
+
+} // namespace
+
+std::string figure_title(const Scene& scene, const std::vector<RecordPair>& records)
+{
+    std::string title = scene.title.empty() ? scene.file.filename().string() : scene.title;
+    return title + (records.size() == 1 ? ", " + records.front().files.name
+                                        : fmt::format(", worst of {} records", records.size()));
+}
+
+Page accuracy_page(const AccuracyReportInput& in)
+{
+    Page page;
+    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
+    page.subtitle = "What accuracy costs: the ladder from regressions to the finest finite elements. " +
+                    in.scene.file.filename().string() + ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " +
+                    program_version();
+    page.headline = headline(in);
+    page.key_figures = key_figures(in);
+    page.warnings = in.messages;
+    for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
+    page.sections.push_back(cost_section(in));
+    page.sections.push_back(
+        {"Rungs", {TablePart{rung_table(in.results, in.judgement), Layout::rows, 1, Fold::open}}, Fold::open});
+    page.sections.push_back(convergence_section(in));
+    page.sections.push_back({"Scene",
+                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
+                             Fold::open});
+    page.provenance = {{"program", "damslip " + program_version()},
+                       {"scene", in.scene.file.string()},
+                       {"scene hash", scene_hash(in.scene)},
+                       {"seconds", "processor time on the machine of this report, one thread"}};
+    add_record_provenance(in.records, page.provenance);
+    return page;
+}
+
+} // namespace damslip::pages

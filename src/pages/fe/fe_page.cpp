@@ -1,0 +1,78 @@
+#include "pages/fe/fe_page.hpp"
+
+#include "core/version.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/mesh_drawing.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/section_drawing.hpp"
+#include "scene/write.hpp"
+
+#include <algorithm>
+
+namespace damslip::pages {
+
+namespace {
+
+sliding::PressureProfile profile_of(const Polyline& uplift)
+{
+    sliding::PressureProfile profile;
+    for (const Point& p : uplift) profile.points.push_back({p.x, p.y});
+    return profile;
+}
+
+} // namespace
+
+Page begin_fe_page(const FePageFrame& in)
+{
+    Page page;
+    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
+    page.subtitle = "Sliding in an earthquake: " + in.kind + ". " + in.scene.file.filename().string() + ", scene " +
+                    scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.warnings = record_warnings(in.records);
+    page.sections.push_back(
+        {"Section", {section_drawing(in.scene, profile_of(in.uplift), dam_mesh_lines(in.model.mesh))}, Fold::open});
+    return page;
+}
+
+void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions, const std::vector<Table>& tables,
+                 Page& page)
+{
+    if (!motions.empty())
+        page.sections.push_back({"Records", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
+    Section model{"Model and solution",
+                  {rows_part(effect_table(in.plan)), rows_part(count_table(in.model.counts, in.water))},
+                  Fold::open};
+    for (const Table& table : tables) model.parts.push_back(rows_part(table));
+    page.sections.push_back(std::move(model));
+    page.sections.push_back({"Scene",
+                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
+                             Fold::open});
+    page.provenance = {{"program", "damslip " + program_version()},
+                       {"scene", in.scene.file.string()},
+                       {"scene hash", scene_hash(in.scene)},
+                       {"method", in.method}};
+    add_record_provenance(in.records, page.provenance);
+}
+
+TablePart rows_part(Table table)
+{
+    return {std::move(table), Layout::rows, 1, Fold::open};
+}
+
+Table without_seconds(Table table)
+{
+    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
+                                 [&](const Column& column) { return column.key == "seconds"; });
+    if (at == table.columns.end()) return table;
+    const auto k = at - table.columns.begin();
+    table.columns.erase(at);
+    for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + k);
+    for (std::string& note : table.notes)
+        if (const auto end = note.find("; time without"); end != std::string::npos) note = note.substr(0, end) + ".";
+    std::erase_if(table.notes, [](const std::string& note) { return note.starts_with("time without"); });
+    return table;
+}
+
+} // namespace damslip::pages

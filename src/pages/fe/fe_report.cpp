@@ -1,0 +1,248 @@
+#include "pages/fe/fe_report.hpp"
+
+#include "core/units.hpp"
+#include "pages/fe/base_charts.hpp"
+#include "pages/fe/fe_charts.hpp"
+#include "pages/fe/fe_page.hpp"
+#include "pages/scene/open_records.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+constexpr std::size_t stress_records = 4; ///< whose stresses are shown
+
+const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
+{
+    const auto at = std::find_if(runs.begin(), runs.end(), condition);
+    return at == runs.end() ? nullptr : &*at;
+}
+
+struct LiftSlip {
+    double slip = 0.0;  ///< largest |slip| of the lift joints in all runs [m]
+    double error = 0.0; ///< what is open of it [m]; NaN: not known
+    std::string name;
+};
+
+LiftSlip largest_lift_slip(const std::vector<ContactRun>& runs)
+{
+    LiftSlip largest;
+    for (const ContactRun& r : runs)
+        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) {
+            const fe2d::LiftResult& lift = r.fe.lifts[k];
+            if (reported(r.fe.status, lift.largest_slip).value_or(0.0) > largest.slip)
+                largest = {lift.largest_slip, lift_error(r, k).total, lift.name.empty() ? lift.plane : lift.name};
+        }
+    return largest;
+}
+
+/// "record El Centro NS, polarity -1", and whether it was run alone.
+std::string record_of(const ContactRun& run)
+{
+    return fmt::format("record {}, polarity {:+d}{}", run.record, run.polarity, run.both ? "" : " alone");
+}
+
+/// "3 records, both polarities"
+std::string number_of(const std::vector<ContactRun>& runs)
+{
+    std::size_t records = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) records += i == 0 || runs[i].record != runs[i - 1].record;
+    const std::string each = records > 1 ? fmt::format("{} records", records) : "";
+    if (!runs.front().both) return each;
+    return each.empty() ? "both polarities" : each + " and both polarities";
+}
+
+/// Two digits, and no exponent where there are more.
+std::string two_digits(double metres)
+{
+    const double value = metres / mm;
+    return value < 100.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+/// ", ± 6.1 mm (step 0.18, mesh 5.9)"
+std::string error_text(const SlipError& e, const std::string& step)
+{
+    if (std::isnan(e.step)) return ", no error estimate (the step is fixed)";
+    if (std::isnan(e.total))
+        return fmt::format(", ± {} mm by the {}, that of the mesh is not known", two_digits(e.step), step);
+    if (std::isnan(e.mesh)) return fmt::format(", ± {} mm ({} only)", two_digits(e.total), step);
+    return fmt::format(", ± {} mm ({} {}, mesh {})", two_digits(e.total), step, two_digits(e.step), two_digits(e.mesh));
+}
+
+std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+{
+    const ContactRun& worst = worst_of(runs);
+    const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
+    if (!most) return worst.label() + ": " + worst.fe.message;
+    const double slip = std::abs(*most);
+    const std::string over = number_of(runs);
+    if (status_row(worst.fe.status).slip == SlipMeaning::lower_bound) // no error holds for what has not ended
+        return fmt::format("The {} slides at least {:.4g} mm by finite elements and had not come to rest ({}){}.",
+                           sliding_body(scene), slip / mm, record_of(worst),
+                           scene.criteria.allowable_slip
+                               ? fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm)
+                               : "");
+    std::string out =
+        slip < 1e-7 ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                  over.empty() ? record_of(worst) : "any of " + over)
+                    : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
+                                  slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
+    out += error_text(slip_error(worst), step);
+    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
+        out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
+                           std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
+    if (worst.rigid)
+        if (const auto rigid = reported(worst.rigid->status, worst.rigid->max_slip))
+            out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
+    if (scene.criteria.allowable_slip)
+        out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    return out + ".";
+}
+
+/// What a reader has to know beside the slip: runs that fail otherwise, and those without an answer.
+std::string remarks(const std::vector<ContactRun>& runs)
+{
+    std::string out;
+    for (const ContactRun& r : runs) {
+        const ContactRun* before = &r == runs.data() ? nullptr : &r - 1; // the stages are common to both polarities
+        if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
+        if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
+        const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
+        const bool said = before && before->fe.status == r.fe.status && before->fe.message == r.fe.message;
+        if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + r.fe.message;
+    }
+    return out;
+}
+
+Section statics_section(const std::vector<ContactRun>& runs)
+{
+    return {"Static stages", {rows_part(contact_stage_table(runs))}, Fold::open};
+}
+
+std::vector<std::string> after_earthquake(const std::vector<ContactRun>& runs)
+{
+    std::vector<std::string> list;
+    for (const ContactRun& r : runs)
+        if (falls_after(r) || open_after(r)) list.push_back(r.label() + ": " + r.fe.after.text());
+    return list;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene, const std::vector<ContactRun>& runs)
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    if (runs.empty()) return list;
+    const ContactRun& worst = worst_of(runs);
+    const auto millimetres = [](Status status, double slip) {
+        const std::optional<double> known = reported(status, std::abs(slip));
+        return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
+    };
+    list.emplace_back("Largest slip on the way, FE", millimetres(worst.fe.status, worst.fe.max_slip));
+    list.emplace_back("Worst run", worst.label());
+    list.emplace_back("Rigid block, same motion",
+                      worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
+    if (scene.criteria.allowable_slip)
+        list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
+    list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
+    if (!worst.fe.stages.empty())
+        list.emplace_back("Stands without earthquake from μ",
+                          fmt::format("{:.4g}", worst.fe.stages.back().friction_needed));
+    double open = 0.0;
+    for (const ContactRun& r : runs)
+        for (const double length : r.fe.history.open_length) open = std::max(open, length);
+    list.emplace_back("Largest open length", fmt::format("{:.3g} m", open));
+    return list;
+}
+
+Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+{
+    if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
+    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
+        return {"The dam has no equilibrium without any earthquake. " + r->fe.message, Outcome::fail, "FAIL"};
+    const std::optional<double>& allowable = scene.criteria.allowable_slip;
+    const std::string sentence = slip_sentence(scene, runs, step) + remarks(runs);
+    const Verdict verdict = verdict_of(runs, allowable);
+    if (verdict == Verdict::fail) return {sentence, Outcome::fail, "FAIL"};
+    if (const ContactRun* r = find(runs, [](const ContactRun& run) { return !is_answer(run.fe.status); }))
+        return {sentence, Outcome::unresolved, word(r->fe.status)};
+    if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
+    if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS"};
+    const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
+    return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
+}
+
+FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
+
+void FeReport::add(const ContactRun& run, const GroundMotion& motion)
+{
+    if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
+    const std::size_t number = sections_.size() + 1;
+    Section section{"Record " + run.label(), {}, number <= open_records ? Fold::open : Fold::folded};
+    if (!run.fe.message.empty()) section.parts.push_back(Paragraph{run.fe.message});
+    if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
+        sections_.push_back(std::move(section));
+        return;
+    }
+    std::optional<sliding::SlideResult> rigid;
+    if (in_.rigid.state == sliding::StaticState::at_rest)
+        rigid = slide_model(in_.scene, in_.rigid, motion, 1, sliding::HistoryOutput::samples);
+    const RunView view{run, rigid ? &*rigid : nullptr, in_.scene.criteria.allowable_slip,
+                       fmt::format("record{}", number), in_.records.size() * (run.both ? 2 : 1)};
+    for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
+    section.parts.emplace_back(base_states(view));
+    for (Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
+    sections_.push_back(std::move(section));
+    if (stress_records_ < stress_records) {
+        ++stress_records_;
+        stresses_.add(run.label(), run.fe);
+    }
+}
+
+Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
+                    const std::vector<std::string>& messages) const
+{
+    const FePageFrame frame{in_.scene,
+                            in_.plan,
+                            in_.records,
+                            in_.model.model(),
+                            in_.model.water() ? &in_.model.water()->water : nullptr,
+                            in_.uplift,
+                            "finite elements with contact",
+                            fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for "
+                                        "comparison with events located exactly",
+                                        in_.model.model().dofs.count, in_.model.structure().pairs())};
+    Page page = begin_fe_page(frame);
+    page.headline = fe_headline(in_.scene, runs);
+    page.key_figures = fe_key_figures(in_.scene, runs);
+    std::vector<std::string> warnings = messages;
+    for (std::string& w : after_earthquake(runs)) warnings.push_back(std::move(w));
+    page.warnings.insert(page.warnings.begin(), warnings.begin(), warnings.end());
+
+    const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
+    const Table table = contact_run_table(runs, allowable);
+    Section slip{"Slip", {rows_part(answer_part(table)), rows_part(contact_slip_table(runs))}, Fold::open};
+    if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
+    page.sections.push_back(std::move(slip));
+    page.sections.push_back(statics_section(runs));
+    if (!stresses_.empty()) {
+        MeshView view = stresses_.view();
+        if (sections_.size() > stress_records_)
+            view.note += fmt::format(" The first {} of {} runs.", stress_records_, sections_.size());
+        page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
+    }
+    for (const Section& section : sections_) page.sections.push_back(section);
+    std::vector<Table> how{without_seconds(solution_part(table))};
+    how.insert(how.end(), tables.begin(), tables.end());
+    end_fe_page(frame, motions_, how, page);
+    return page;
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "analysis/prepare/rigid_model.hpp"
+#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/mesh_drawing.hpp"
+#include "pages/report/page.hpp"
+#include "scene/effect_plan.hpp"
+
+/// An FE contact run as the report that is handed in.
+namespace damslip::pages {
+
+/// The whole answer in one sentence with its verdict (verdict_of), the worst run named. FAIL: no equilibrium before or after
+/// the earthquake, a slip of base or lift joint surely above the allowable or without end, in any of the runs. Unresolved:
+/// a run, or the state after it, without an answer, or an allowable slip within the error.
+/// @param step  what the step's part of the error holds
+Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step = "step");
+
+/// Slips, friction, opening of the worst run: for the top of the page.
+std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,
+                                                                const std::vector<ContactRun>& runs);
+
+/// Takes the runs one after the other, so that the values of the pairs over time need to be there for one at a time only.
+class FeReport {
+public:
+    /// What all runs share. References are kept.
+    struct Input {
+        const Scene& scene; ///< as the plan calls for it
+        const EffectPlan& plan;
+        const std::vector<RecordPair>& records;
+        const fe2d::EarthquakeRun& model;
+        const RigidModel& rigid;
+        const Polyline& uplift; ///< along the base before the earthquake [m, Pa]
+    };
+    explicit FeReport(const Input& input);
+
+    /// @param run  with the history of its pairs @param motion  it ran with
+    void add(const ContactRun& run, const GroundMotion& motion);
+
+    /// @param runs  all of them, in the order of add() @param tables  further ones on how the runs went
+    /// @param messages  shown as warnings
+    Page page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
+              const std::vector<std::string>& messages) const;
+
+private:
+    Input in_;
+    StressView stresses_;
+    std::size_t stress_records_ = 0;
+    std::vector<Section> sections_;
+    std::vector<GroundMotion> motions_;
+};
+
+} // namespace damslip::pages

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A chart as data: curves with names and units, drawn by the page's script (page.js).
+namespace damslip::pages {
+
+enum class Scale {
+    linear,
+    log,  ///< values of zero and below are left out
+    asinh ///< linear below Axis::linear_below, logarithmic above: for quantities that may be zero, as a slip
+};
+
+struct Axis {
+    std::string label;                   ///< "slip"
+    std::string unit;                    ///< "mm"; empty or "–": none
+    Scale scale = Scale::linear;         ///< of values; categories are evenly spaced
+    double linear_below = 0.1;           ///< asinh only, in the axis' unit, > 0
+    std::optional<double> low, high;     ///< fixed ends; default: the values'
+    std::vector<std::string> categories; ///< x axis only: names of 0, 1, 2 ...; empty: numbers
+};
+
+enum class Mark { line, dashed, points, line_and_points };
+enum class Weight {
+    normal,
+    strong, ///< the curve to look at
+    faint   ///< one of many
+};
+
+struct Curve {
+    std::string name;
+    std::vector<double> x, y;      ///< of equal length, x ascending; NaN: no value there
+    std::vector<double> low, high; ///< band (lines) or bars (points) around y; both empty or as long as y
+    Mark mark = Mark::line;
+    Weight weight = Weight::normal;
+    int colour = -1; ///< 0 ... 7 of the page's palette; -1: the next one
+};
+
+/// A straight line across the chart with a label: an allowable slip, the scene's friction.
+struct Line {
+    double at = 0.0;
+    std::string label;
+};
+
+/// One curve of a chart at many instants; a slider chooses which is drawn.
+struct Moving {
+    std::size_t curve = 0;   ///< of Chart::curves; its own values are those of at[start]
+    std::string label, unit; ///< of `at`: "time", "s"
+    std::vector<double> at;  ///< ascending
+    std::vector<std::vector<double>>
+        y;                 ///< values of the curve, one list for each `at`, over the curve's own x, which all
+                           ///< curves of the chart share
+    std::size_t start = 0; ///< drawn first
+};
+
+struct Chart {
+    std::string title;
+    Axis x, y;
+    std::vector<Curve> curves;
+    std::vector<Line> horizontal, vertical;
+    std::optional<Moving> moving; ///< fix the ends of y with it, so that the instants compare
+    std::string together;         ///< charts with the same word share cursor, zoom in x and slider; empty: alone
+    std::string note;             ///< sentence below the chart
+    int height = 330;             ///< of the drawing, legend excluded [px], >= 240
+    /// Above `thin_above` abscissae only the lowest and highest value of each curve in each of `thin_buckets` equal
+    /// parts are kept: what a screen can show. The chart then says so.
+    std::size_t thin_above = 20000;
+    std::size_t thin_buckets = 2000; ///< > 0
+};
+
+} // namespace damslip::pages

@@ -1,0 +1,182 @@
+#include "pages/report/page_html.hpp"
+
+#include "pages/report/assets.hpp"
+#include "pages/report/chart_data.hpp"
+#include "pages/report/escape.hpp"
+#include "pages/report/table_html.hpp"
+
+namespace damslip::pages {
+
+namespace {
+
+std::string note_html(const std::string& note)
+{
+    return note.empty() ? "" : "<p class=\"note\">" + html_text(note) + "</p>\n";
+}
+
+/// The chart's place, its data and what a reader without the picture gets.
+std::string chart_html(const Chart& chart)
+{
+    const ChartData data = thinned(common_abscissae(chart), chart.thin_above, chart.thin_buckets);
+    std::string note = chart.note;
+    if (data.x.size() < data.samples)
+        note += std::string(note.empty() ? "" : " ") + "Drawn from " + std::to_string(data.x.size()) + " of " +
+                std::to_string(data.samples) + " samples, extremes kept.";
+    const std::string title = html_text(chart.title);
+    std::string out = "<figure class=\"chart part\" aria-label=\"" + title + "\">\n<figcaption>" + title +
+                      "</figcaption>\n<div class=\"plot\" tabindex=\"0\" role=\"application\" aria-label=\"" + title +
+                      ". Left and right keys read values, plus and minus zoom, 0 shows all.\"></div>\n"
+                      "<p class=\"readout\" aria-live=\"polite\"></p>\n<script type=\"application/json\">";
+    out += chart_json(chart, data);
+    return out + "</script>\n" + note_html(note) + "</figure>\n";
+}
+
+/// @param kind  of the script that draws it @param data  for it, JSON
+std::string picture_html(const std::string& kind, const std::string& plain_title, const std::string& keys,
+                         const std::string& data, const std::string& note)
+{
+    const std::string title = html_text(plain_title);
+    return "<figure class=\"picture part\" data-kind=\"" + kind + "\" aria-label=\"" + title + "\">\n<figcaption>" +
+           title + "</figcaption>\n<div class=\"canvas\" tabindex=\"0\" role=\"application\" aria-label=\"" + title +
+           ". " + keys +
+           "\"></div>\n<p class=\"reading\" aria-live=\"polite\"></p>\n<script type=\"application/json\">" + data +
+           "</script>\n" + note_html(note) + "</figure>\n";
+}
+
+struct PartHtml {
+    const std::string& section;
+    std::string operator()(const Paragraph& p) const { return "<p>" + html_text(p.text) + "</p>\n"; }
+    std::string operator()(const TablePart& p) const { return table_html(p, section); }
+    std::string operator()(const Chart& p) const { return chart_html(p); }
+    std::string operator()(const StateMap& p) const
+    {
+        return picture_html("state_map", p.title, "Arrow keys read time and place.", state_map_json(p), p.note);
+    }
+    std::string operator()(const MeshView& p) const
+    {
+        return picture_html("mesh_view", p.title, "Left and right keys go through the states.", mesh_view_json(p),
+                            p.note);
+    }
+    std::string operator()(const Drawing& p) const
+    {
+        const std::string title = html_text(p.title);
+        return "<figure class=\"drawing part\">\n<figcaption>" + title +
+               "</figcaption>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + title + "\">" +
+               p.svg + "</div>\n" + note_html(p.note) + "</figure>\n";
+    }
+    std::string operator()(const Listing& p) const
+    {
+        return "<details class=\"part\"><summary>" + html_text(p.title) + "</summary>\n<pre tabindex=\"0\">" +
+               html_text(p.text) + "</pre></details>\n";
+    }
+};
+
+std::string section_html(const Section& section, std::size_t number)
+{
+    std::string body;
+    for (const Part& part : section.parts) body += std::visit(PartHtml{section.title}, part);
+    const std::string id = " id=\"s" + std::to_string(number) + "\"";
+    const std::string title = "<h2>" + html_text(section.title) + "</h2>";
+    if (section.fold == Fold::folded)
+        return "<details class=\"section\"" + id + "><summary>" + title + "</summary>\n" + body + "</details>\n";
+    return "<section" + id + ">\n" + title + "\n" + body + "</section>\n";
+}
+
+std::string pairs_html(const std::vector<std::pair<std::string, std::string>>& pairs, const std::string& css)
+{
+    std::string out = "<dl class=\"" + css + "\">\n";
+    for (const auto& [name, value] : pairs)
+        out += "<div><dt>" + html_text(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
+    return out + "</dl>\n";
+}
+
+const char* outcome_class(Outcome outcome)
+{
+    switch (outcome) {
+    case Outcome::pass:
+        return "pass";
+    case Outcome::fail:
+        return "fail";
+    case Outcome::unresolved:
+        return "unresolved";
+    case Outcome::none:
+        return "open";
+    }
+    return "";
+}
+
+std::string headline_html(const Headline& headline)
+{
+    if (headline.sentence.empty()) return "";
+    const std::string verdict =
+        headline.verdict.empty() ? "" : "<strong class=\"verdict\">" + html_text(headline.verdict) + "</strong> ";
+    return std::string("<p class=\"headline ") + outcome_class(headline.outcome) + "\">" + verdict +
+           html_text(headline.sentence) + "</p>\n";
+}
+
+std::string warnings_html(const std::vector<std::string>& warnings)
+{
+    if (warnings.empty()) return "";
+    constexpr std::size_t shown = 6; // more of them would push the answer's figures off the first page
+    std::string out = "<section class=\"warnings\" aria-label=\"Warnings\">\n<h2>Warnings</h2>\n<ul>\n";
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        if (i == shown)
+            out += "</ul>\n<details><summary>" + std::to_string(warnings.size() - shown) + " more</summary>\n<ul>\n";
+        out += "<li>" + html_text(warnings[i]) + "</li>\n";
+    }
+    return out + (warnings.size() > shown ? "</ul>\n</details>\n" : "</ul>\n") + "</section>\n";
+}
+
+std::string contents_html(const Page& page)
+{
+    std::string out = "<nav aria-label=\"Contents\"><ol>\n";
+    for (std::size_t i = 0; i < page.sections.size(); ++i)
+        out += "<li><a href=\"#s" + std::to_string(i + 1) + "\">" + html_text(page.sections[i].title) + "</a></li>\n";
+    if (!page.provenance.empty()) out += "<li><a href=\"#provenance\">Provenance</a></li>\n";
+    return out + "</ol></nav>\n";
+}
+
+std::string head_html(const Page& page)
+{
+    std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+                      // Nothing may be loaded from anywhere, whatever a later change of the page asks for.
+                      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+                      "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:\">\n<title>";
+    out += html_text(page.title) + "</title>\n<style>\n";
+    out += uplot_style();
+    out += "\n";
+    out += page_style();
+    return out + "</style>\n</head>\n";
+}
+
+} // namespace
+
+std::string page_html(const Page& page)
+{
+    std::string out = head_html(page);
+    out += "<body>\n<header>\n<div class=\"tools\"><button type=\"button\" id=\"unfold\">Open all</button>\n"
+           "<button type=\"button\" id=\"theme\">Dark or light</button></div>\n<h1>" +
+           html_text(page.title) + "</h1>\n";
+    if (!page.subtitle.empty()) out += "<p class=\"subtitle\">" + html_text(page.subtitle) + "</p>\n";
+    out += "</header>\n" + contents_html(page) + "<main>\n" + headline_html(page.headline);
+    if (!page.key_figures.empty()) out += pairs_html(page.key_figures, "figures");
+    out += warnings_html(page.warnings);
+    out += "<noscript><p class=\"note\">The charts need JavaScript; tables and drawings do not.</p></noscript>\n";
+    for (std::size_t i = 0; i < page.sections.size(); ++i) out += section_html(page.sections[i], i + 1);
+    if (!page.provenance.empty())
+        out += "<section id=\"provenance\">\n<h2>Provenance</h2>\n" + pairs_html(page.provenance, "provenance") +
+               "</section>\n";
+    out += "</main>\n<div id=\"drawn\" hidden></div>\n<script>/*! uPlot\n";
+    out += uplot_license();
+    out += "*/\n";
+    out += uplot_script();
+    out += "</script>\n<script>\n";
+    out += state_map_script();
+    out += mesh_view_script();
+    out += page_script();
+    return out + "</script>\n</body>\n</html>\n";
+}
+
+} // namespace damslip::pages

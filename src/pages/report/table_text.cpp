@@ -1,0 +1,203 @@
+#include "pages/report/table_text.hpp"
+
+#include "core/number.hpp"
+#include "pages/report/escape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+/// Characters as a terminal counts them: UTF-8 continuation bytes take no place.
+std::size_t width(const std::string& s)
+{
+    return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Fixed notation for everyday magnitudes, scientific beyond: 0.0123, 12.3, 1230, 1.23e+07.
+std::string number_text(double value, int digits)
+{
+    if (std::isnan(value)) return "–";
+    if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+    if (value == 0.0) return "0";
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    if (exponent < -5 || exponent > 7) return fmt::format("{:.{}e}", value, digits - 1);
+    return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+}
+
+std::string padded(const std::string& s, std::size_t to, bool right)
+{
+    const std::string fill(to - std::min(to, width(s)), ' ');
+    return right ? fill + s : s + fill;
+}
+
+using TextLine = std::vector<std::string>;
+
+/// Columns padded to their widest entry, a rule below the first `header` lines.
+std::string aligned(const std::vector<TextLine>& lines, std::size_t header, const std::vector<bool>& right)
+{
+    std::vector<std::size_t> widths(right.size(), 0);
+    for (const TextLine& line : lines)
+        for (std::size_t j = 0; j < line.size(); ++j) widths[j] = std::max(widths[j], width(line[j]));
+    std::string out;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::string line;
+        for (std::size_t j = 0; j < lines[i].size(); ++j)
+            line += (j ? "  " : "") + padded(lines[i][j], widths[j], right[j]);
+        while (!line.empty() && line.back() == ' ') line.pop_back();
+        out += line + "\n";
+        if (i + 1 != header) continue;
+        std::size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
+        for (const std::size_t w : widths) total += w;
+        for (std::size_t k = 0; k < total; ++k) out += "─";
+        out += "\n";
+    }
+    return out;
+}
+
+/// Title above, notes below.
+std::string framed(const Table& table, const std::string& body)
+{
+    std::string out = (table.title.empty() ? "" : visible(table.title, LineEnds::replaced) + "\n") + body;
+    for (const std::string& note : table.notes) out += "  " + visible(note, LineEnds::replaced) + "\n";
+    return out;
+}
+
+/// A spreadsheet takes a cell that begins so for a formula and runs it: an apostrophe in front says that it is text.
+std::string no_formula(const std::string& text)
+{
+    return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
+}
+
+std::string csv_field(const Cell& cell)
+{
+    struct Show {
+        std::string operator()(std::monostate) const { return ""; }
+        std::string operator()(double v) const { return std::isfinite(v) ? shortest(v) : ""; }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(const std::string& v) const
+        {
+            const std::string safe = no_formula(visible(v, LineEnds::replaced));
+            if (safe.find_first_of(",\"\n\r") == std::string::npos) return safe;
+            std::string quoted = "\"";
+            for (char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+            return quoted + "\"";
+        }
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+    };
+    return std::visit(Show{}, cell);
+}
+
+} // namespace
+
+std::string cell_text(const Cell& cell, int digits)
+{
+    struct Show {
+        int digits;
+        std::string operator()(std::monostate) const { return "–"; }
+        std::string operator()(double v) const { return number_text(v, digits); }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(const std::string& v) const { return visible(v, LineEnds::replaced); }
+        std::string operator()(bool v) const { return v ? "yes" : "no"; }
+    };
+    return std::visit(Show{digits}, cell);
+}
+
+bool is_number(const Cell& cell)
+{
+    return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell) ||
+           std::holds_alternative<std::monostate>(cell);
+}
+
+std::string text(const Table& table)
+{
+    const std::size_t n = table.columns.size();
+    std::vector<TextLine> lines(2, TextLine(n));
+    std::vector<bool> right(n, true);
+    for (std::size_t j = 0; j < n; ++j) {
+        lines[0][j] = table.columns[j].heading;
+        lines[1][j] = table.columns[j].unit;
+        right[j] =
+            std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return is_number(row[j]); });
+    }
+    if (std::all_of(lines[1].begin(), lines[1].end(), [](const auto& s) { return s.empty(); })) lines.pop_back();
+    const std::size_t header = lines.size();
+    for (const auto& row : table.rows) {
+        lines.emplace_back(n);
+        for (std::size_t j = 0; j < n; ++j) lines.back()[j] = cell_text(row[j], table.columns[j].digits);
+    }
+    return framed(table, aligned(lines, header, right));
+}
+
+std::string text_by_columns(const Table& table, std::size_t labels)
+{
+    std::vector<TextLine> lines;
+    for (std::size_t j = 0; j < table.columns.size(); ++j) {
+        const Column& column = table.columns[j];
+        TextLine line{column.heading, column.unit};
+        for (const auto& row : table.rows) line.push_back(cell_text(row[j], column.digits));
+        lines.push_back(std::move(line));
+    }
+    std::vector<bool> right(2 + table.rows.size(), true);
+    right[0] = right[1] = false;
+    return framed(table, aligned(lines, labels, right));
+}
+
+std::string csv(const Table& table, const std::vector<std::string>& comments)
+{
+    std::string out;
+    for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
+    for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j ? "," : "") + table.columns[j].key;
+    out += "\n";
+    for (const auto& row : table.rows) {
+        for (std::size_t j = 0; j < row.size(); ++j) out += (j ? "," : "") + csv_field(row[j]);
+        out += "\n";
+    }
+    return out;
+}
+
+std::string json_rows(const Table& table)
+{
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& row : table.rows) {
+        nlohmann::ordered_json object = nlohmann::ordered_json::object();
+        for (std::size_t j = 0; j < row.size(); ++j)
+            std::visit(
+                [&](const auto& v) {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
+                        object[table.columns[j].key] = nullptr;
+                    else
+                        object[table.columns[j].key] = v;
+                },
+                row[j]);
+        rows.push_back(std::move(object));
+    }
+    return rows.dump(2);
+}
+
+std::string markdown(const Table& table)
+{
+    std::string out = "|", rule = "|";
+    for (const Column& c : table.columns) {
+        out += " " + c.heading + (c.unit.empty() || c.unit == "–" ? "" : " [" + c.unit + "]") + " |";
+        rule += " --- |";
+    }
+    out += "\n" + rule + "\n";
+    for (const auto& row : table.rows) {
+        out += "|";
+        for (std::size_t j = 0; j < row.size(); ++j) {
+            std::string cell = cell_text(row[j], table.columns[j].digits);
+            for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2)
+                cell.replace(at, 1, "\\|");
+            out += " " + cell + " |";
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+} // namespace damslip::pages

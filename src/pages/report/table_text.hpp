@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace damslip::pages {
+
+/// One value for people: significant digits, "–" for nothing, "yes" and "no".
+std::string cell_text(const Cell& cell, int digits);
+
+/// A number or nothing: right-aligned.
+bool is_number(const Cell& cell);
+
+/// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
+std::string text(const Table& table);
+
+/// The same turned by a quarter, for tables of many quantities and few rows: one line per column with its unit, one column per row;
+/// a rule below the first `labels` lines.
+std::string text_by_columns(const Table& table, std::size_t labels);
+
+/// Header row of keys, one row per line, numbers as shortest exact text, RFC 4180 quoting; `comments` become "# ..." lines on top.
+/// Text that begins with = + - @ gets an apostrophe in front, so that a spreadsheet does not take it for a formula;
+/// control characters are shown as their pictures. Numbers stay as they are.
+std::string csv(const Table& table, const std::vector<std::string>& comments = {});
+
+/// A JSON array of objects, one per row, by column key; nothing and non-finite numbers are null.
+std::string json_rows(const Table& table);
+
+/// GitHub-style table, heading and unit in the header.
+std::string markdown(const Table& table);
+
+} // namespace damslip::pages

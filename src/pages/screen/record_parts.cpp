@@ -1,0 +1,158 @@
+#include "pages/screen/record_parts.hpp"
+
+#include "core/units.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "pages/screen/slip_charts.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::pages {
+
+namespace {
+
+std::vector<double> sample_times(const GroundMotion& motion)
+{
+    std::vector<double> t(motion.accel_h.size());
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<double>(i) * motion.dt;
+    return t;
+}
+
+Axis time_axis()
+{
+    return {"time", "s", Scale::linear, 0.1, {}, {}, {}};
+}
+
+Curve line(std::string name, std::vector<double> x, std::vector<double> y, int colour)
+{
+    return {std::move(name), std::move(x), std::move(y), {}, {}, Mark::line, Weight::normal, colour};
+}
+
+Chart acceleration_chart(const GroundMotion& motion)
+{
+    Chart chart;
+    chart.title = motion.name + ": ground acceleration";
+    chart.x = time_axis();
+    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.height = 260;
+    chart.curves.push_back(line("horizontal, upstream", sample_times(motion), motion.accel_h, 0));
+    if (!motion.accel_v.empty()) chart.curves.push_back(line("vertical, up", sample_times(motion), motion.accel_v, 1));
+    return chart;
+}
+
+Curve slip_curve(const sliding::SlideHistory& history, const std::string& name, int colour)
+{
+    std::vector<double> slip = history.slip;
+    for (double& v : slip) v /= units::mm;
+    return line(name, history.time, std::move(slip), colour);
+}
+
+/// Ground acceleration of the run and what the block withstands at each instant; it starts to slide where they cross.
+Chart demand_chart(const GroundMotion& motion, const sliding::SlideHistory& history, int polarity)
+{
+    Chart chart;
+    chart.title = motion.name + ": yield acceleration with vertical motion";
+    chart.x = time_axis();
+    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    std::vector<double> demand = motion.accel_h;
+    for (double& a : demand) a *= polarity;
+    chart.curves.push_back(
+        line(fmt::format("ground, polarity {:+d}", polarity), sample_times(motion), std::move(demand), 0));
+    chart.curves.push_back(line("yield acceleration", history.time, history.yield, 6));
+    // Beyond the record's end the ground rests: that part of the history says nothing here.
+    Curve& yield = chart.curves.back();
+    yield.x.resize(std::min(yield.x.size(), motion.accel_h.size()));
+    yield.y.resize(yield.x.size());
+    return chart;
+}
+
+void on_record_grid(const GroundMotion& motion, Curve& curve)
+{
+    const std::size_t n = std::min(curve.x.size(), motion.accel_h.size());
+    for (std::size_t i = 0; i < n; ++i)
+        if (std::abs(curve.x[i] - static_cast<double>(i) * motion.dt) < 1e-9 * motion.dt * static_cast<double>(n))
+            curve.x[i] = static_cast<double>(i) * motion.dt;
+}
+/// Slip of the flexible block, the polarity that is worse by the analysis that is judged.
+Chart flexible_chart(const Scene& scene, const Screening& s, const GroundMotion& motion, std::size_t number,
+                             std::size_t records)
+{
+    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
+    const sliding::SlideResult& judged = worse(a.judged(), b.judged());
+    const int polarity = &judged == &b.judged() ? -1 : 1;
+    const FlexibleSlips slips =
+        slide_flexible(scene, *s.flexible, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
+    Chart chart;
+    chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", polarity);
+    chart.x = time_axis();
+    chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    if (slips.decoupled) chart.curves.push_back(slip_curve(slips.decoupled->slide.history, "decoupled", 2));
+    if (slips.coupled) chart.curves.push_back(slip_curve(slips.coupled->slide.history, "coupled", 3));
+    if (scene.criteria.allowable_slip && judged.max_slip > 0.2 * *scene.criteria.allowable_slip)
+        chart.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
+    thin_for(chart, records);
+    return chart;
+}
+
+/// A slide that has no slip is named instead.
+void add_slip_curve(const sliding::SlideResult& slide, const std::string& name, int colour, Chart& chart)
+{
+    if (reported(slide.status, slide.max_slip))
+        chart.curves.push_back(slip_curve(slide.history, name, colour));
+    else
+        chart.note += fmt::format("{}{}: {}.", chart.note.empty() ? "" : " ", name, word(slide.status));
+}
+
+} // namespace
+
+std::vector<Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion,
+                                       std::size_t number, std::size_t records)
+{
+    const RigidModel& model = s.bases.front().model;
+    const std::string together = fmt::format("record{}", number + 1);
+    std::vector<Part> parts;
+    const auto add = [&](Chart chart) {
+        if (chart.curves.empty()) {
+            parts.emplace_back(Paragraph{chart.title + ": none. " + chart.note});
+            return;
+        }
+        chart.together = together;
+        for (Curve& curve : chart.curves) on_record_grid(motion, curve);
+        thin_for(chart, records);
+        parts.emplace_back(std::move(chart));
+    };
+    add(acceleration_chart(motion));
+
+    Chart slip;
+    slip.title = motion.name + ": slip";
+    slip.x = time_axis();
+    slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    const SlipRow& h = worse_horizontal(s, number);
+    const auto horizontal =
+        slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
+    add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);
+    if (scene.criteria.allowable_slip && !s.flexible && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
+        slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
+    const SlipRow* hv = worse_with_vertical(s, number);
+    const bool still = h.horizontal.max_slip == 0.0 && (!hv || hv->with_vertical->max_slip == 0.0);
+    if (still && is_answer(horizontal.status) && !fails_statically(horizontal.status))
+        slip.note = fmt::format("The {} does not slide in this record.", sliding_body(scene));
+    if (!hv) {
+        add(std::move(slip));
+    } else {
+        const auto both = slide_model(scene, model, motion, hv->polarity, sliding::HistoryOutput::samples);
+        add_slip_curve(both, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1, slip);
+        add(std::move(slip));
+        add(demand_chart(motion, both.history, hv->polarity));
+    }
+    if (s.flexible) parts.emplace_back(flexible_chart(scene, s, motion, number, records));
+    if (auto regressions = regressions_beside(s, number)) {
+        regressions->title = motion.name + ": " + regressions->title;
+        parts.emplace_back(std::move(*regressions));
+    }
+    return parts;
+}
+
+} // namespace damslip::pages

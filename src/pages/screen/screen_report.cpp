@@ -1,0 +1,362 @@
+#include "pages/screen/screen_report.hpp"
+
+#include "core/parallel.hpp"
+#include "core/statistics.hpp"
+#include "core/units.hpp"
+#include "core/version.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/open_records.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/section_drawing.hpp"
+#include "pages/screen/record_parts.hpp"
+#include "pages/screen/screen_tables.hpp"
+#include "pages/screen/slip_charts.hpp"
+#include "pages/screen/wedge_drawing.hpp"
+#include "pages/screen/wedge_tables.hpp"
+#include "pages/screen/yield_charts.hpp"
+#include "scene/section.hpp"
+#include "scene/write.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+using units::standard_gravity;
+
+struct CheckCount {
+    std::size_t judged = 0, failed = 0;
+};
+
+CheckCount count_checks(const Screening& s)
+{
+    CheckCount count;
+    for (const sliding::Equilibrium& e : s.combinations)
+        for (const sliding::Check& check : e.checks) {
+            count.judged += check.verdict != sliding::Verdict::no_criterion;
+            count.failed += check.verdict == sliding::Verdict::fail;
+        }
+    return count;
+}
+
+/// Of the slides that are judged by.
+StatusCount judged_statuses(const Screening& s)
+{
+    StatusCount count;
+    for (const SlipRow& row : s.slips) count.add(row.judged().status);
+    return count;
+}
+
+/// The row with the largest slip; null where none has one.
+const SlipRow* largest(const Screening& s)
+{
+    const SlipRow* worst = nullptr;
+    for (const SlipRow& row : s.slips)
+        if (reported(row.judged().status, row.judged().max_slip) &&
+            (!worst || row.judged().max_slip > worst->judged().max_slip))
+            worst = &row;
+    return worst;
+}
+
+/// The worse polarity's slip of each record that has one [m].
+std::vector<double> worse_slips(const Screening& s)
+{
+    std::vector<double> slips;
+    for (std::size_t i = 0; i + 1 < s.slips.size(); i += 2) {
+        const sliding::SlideResult& r = worse(s.slips[i].judged(), s.slips[i + 1].judged());
+        if (const auto slip = reported(r.status, r.max_slip)) slips.push_back(*slip);
+    }
+    return slips;
+}
+
+/// Runs that have no slip, by their status: "; without a slip: 2 runs away"; empty where all have one.
+std::string without_slip_words(const Screening& s)
+{
+    StatusCount count;
+    for (const SlipRow& row : s.slips)
+        if (!reported(row.judged().status, row.judged().max_slip)) count.add(row.judged().status);
+    return count.empty() ? "" : fmt::format("; without a slip: {} of {} runs", count.words(), s.slips.size());
+}
+
+/// What slides.
+std::string slip_sentence(const Scene& scene, const Screening& s)
+{
+    const SlipRow* worst = largest(s);
+    const std::size_t n = s.slips.size() / 2;
+    const double slip = worst ? worst->judged().max_slip : 0.0;
+    std::string out =
+        !worst     ? fmt::format("The {} has no slip to give", sliding_body(scene))
+        : slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{}{})",
+                                 sliding_body(scene), slip / mm, n > 1 ? fmt::format(" over {} records", n) : "",
+                                 worst->record, worst->polarity, worst->with_vertical ? ", with vertical motion" : "",
+                                 worst->flexible ? fmt::format(", flexible block, {}", worst->governing().method) : "")
+                   : fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                 n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst->record);
+    const std::string without = without_slip_words(s);
+    if (n > 1 && slip > 0 && without.empty())
+        out += fmt::format(", median {:.4g} mm", percentile(worse_slips(s), 0.5) / mm);
+    out += without;
+    if (scene.criteria.allowable_slip)
+        out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    return out + ".";
+}
+
+std::string checks_sentence(const CheckCount& checks)
+{
+    if (checks.failed > 0) return fmt::format(" {} of {} limit-equilibrium checks fail.", checks.failed, checks.judged);
+    if (checks.judged > 0) return fmt::format(" All {} limit-equilibrium checks pass.", checks.judged);
+    return "";
+}
+
+/// Combinations without an earthquake in which the shear exceeds the strength: the dam does not stand then, whether or not
+/// a required factor is given.
+std::string standing_sentence(const Screening& s)
+{
+    std::string out;
+    for (const sliding::Equilibrium& e : s.combinations)
+        if (e.k_h == 0.0 && e.k_v == 0.0 && e.sliding_factor < 1.0)
+            out += fmt::format("{}{} (crack rule {}, sliding factor {:.3g})", out.empty() ? "" : ", ", e.name,
+                               sliding::word(e.crack_rule), e.sliding_factor);
+    return out.empty() ? "" : " Without earthquake the base does not hold in: " + out + ".";
+}
+
+std::string metres_per_second2(double a)
+{
+    return fmt::format("{:.4g} m/s² ({:.3g} g)", a, a / standard_gravity);
+}
+
+Section wedge_part(const Scene& scene, const RigidModel& model)
+{
+    Section section{"Wedge", {}, Fold::open};
+    if (auto drawing = wedge_drawing(scene, *model.wedge)) section.parts.push_back(std::move(*drawing));
+    section.parts.push_back(stereonet(scene, *model.wedge));
+    section.parts.push_back(TablePart{wedge_stability_table(scene, model), Layout::rows, 1, Fold::open});
+    section.parts.push_back(TablePart{wedge_plane_table(scene, *model.wedge), Layout::rows, 1, Fold::open});
+    return section;
+}
+
+Section section_part(const Scene& scene, const Screening& s)
+{
+    if (scene.wedge) return wedge_part(scene, s.bases.front().model);
+    const Scene solved = with_solved_uplift(scene, s);
+    const sliding::BaseState state = sliding::base_state(solved, sliding::scene_static_case(solved));
+    return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
+}
+
+Section equilibrium_section(const Screening& s)
+{
+    Section section{"Limit equilibrium", {}, Fold::open};
+    section.parts.push_back(TablePart{sliding::equilibrium_table(s.combinations), Layout::columns, 3, Fold::open});
+    Table verdicts = sliding::verdict_table(s.combinations);
+    const CheckCount checks = count_checks(s);
+    if (checks.judged == 0)
+        section.parts.push_back(Paragraph{
+            "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
+            "[[combination]]."});
+    else
+        section.parts.push_back(TablePart{std::move(verdicts), Layout::rows, 1, Fold::open});
+    for (const sliding::Equilibrium& e : s.combinations) {
+        Table loads = sliding::load_table(e);
+        loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
+        section.parts.push_back(TablePart{std::move(loads), Layout::rows, 1, Fold::folded});
+    }
+    return section;
+}
+
+Section yield_section(const Scene& scene, const Screening& s)
+{
+    Section section{"Yield acceleration", {}, Fold::open};
+    if (scene.wedge) {
+        const RigidWedge& wedge = *s.bases.front().model.wedge;
+        section.parts.push_back(TablePart{wedge_yield_table(scene, wedge), Layout::rows, 1, Fold::open});
+        section.parts.push_back(wedge_yield_chart(wedge, s.largest_pga));
+        return section;
+    }
+    section.parts.push_back(TablePart{yield_table(s), Layout::rows, 1, Fold::open});
+    section.parts.push_back(yield_over_friction(scene, s));
+    if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
+    if (!s.uplifts.empty())
+        section.parts.push_back(TablePart{sliding::uplift_comparison_table(s.uplifts), Layout::rows, 1, Fold::open});
+    return section;
+}
+
+Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
+{
+    const Screening& s = in.screening;
+    Section section{"Slip", {}, Fold::open};
+    section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
+    const bool slides = !largest(s); // nothing to draw
+    if (s.flexible)
+        section.parts.push_back(
+            TablePart{flexible_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
+    if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
+    if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
+    if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
+    if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
+    if (!s.regressions.empty())
+        section.parts.push_back(
+            TablePart{regression_summary(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
+    return section;
+}
+
+std::vector<Section> record_sections(const ScreenReportInput& in, const std::vector<GroundMotion>& motions)
+{
+    std::vector<Section> sections(1);
+    sections[0] = {"Records", {}, Fold::open};
+    sections[0].parts.push_back(TablePart{record_table(motions), Layout::rows, 1, Fold::open});
+    sections[0].parts.push_back(spectra(motions, in.jobs));
+    std::vector<std::vector<Part>> parts(motions.size());
+    parallel_for(motions.size(), in.jobs, [&](std::size_t i) {
+        parts[i] = record_parts(in.scene, in.screening, motions[i], i, motions.size());
+    });
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        sections.push_back(
+            {"Record " + motions[i].name, std::move(parts[i]), i < open_records ? Fold::open : Fold::folded});
+    return sections;
+}
+
+std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
+{
+    std::vector<std::pair<std::string, std::string>> list{
+        {"program", "damslip " + program_version()},
+        {"scene", in.scene.file.string()},
+        {"scene hash", scene_hash(in.scene)},
+        {"method", in.scene.sliding.scheme == SlidingScheme::exact
+                       ? "rigid block, events located exactly, acceleration linear between samples"
+                       : "rigid block, SLAMMER's trapezoid scheme"}};
+    add_record_provenance(in.records, list);
+    return list;
+}
+
+std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene, const Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    std::vector<std::pair<std::string, std::string>> list{
+        {"Yield acceleration", metres_per_second2(model.downstream.law.constant)}};
+    if (model.wedge) {
+        list.emplace_back("Factor of safety", fmt::format("{:.4g}", model.wedge->still.factor_of_safety));
+        list.emplace_back("Slides", direction_words(model.wedge->still.direction));
+    } else {
+        list.emplace_back("Friction μ", fmt::format("{:.4g}", model.block.friction));
+        list.emplace_back("Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction));
+    }
+    if (!s.slips.empty()) {
+        list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
+        const SlipRow* worst = largest(s);
+        list.emplace_back(worst && s.flexible ? fmt::format("Largest slip, {}", worst->governing().method)
+                                              : "Largest slip",
+                          worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
+        if (!without_slip_words(s).empty()) list.emplace_back("Statuses", judged_statuses(s).words());
+    }
+    if (scene.criteria.allowable_slip)
+        list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
+    return list;
+}
+
+std::vector<std::string> all_warnings(const ScreenReportInput& in)
+{
+    std::vector<std::string> list = in.screening.warnings;
+    for (std::string& w : record_warnings(in.records)) list.push_back(std::move(w));
+    return list;
+}
+
+} // namespace
+
+Headline screen_headline(const Scene& scene, const Screening& s)
+{
+    const RigidModel& model = s.bases.front().model;
+    const CheckCount checks = count_checks(s);
+    if (model.wedge && model.state != sliding::StaticState::at_rest)
+        return {fmt::format("The wedge {} without any earthquake: factor of safety {:.4g}.",
+                            model.state == sliding::StaticState::lifts_off
+                                ? "lifts off"
+                                : "slides on " + mode_words(*scene.wedge, model.wedge->still.mode),
+                            model.wedge->still.factor_of_safety),
+                Outcome::fail, "FAIL"};
+    if (model.state == sliding::StaticState::lifts_off)
+        return {fmt::format("The uplift carries more than the weight: the {} floats without any earthquake.",
+                            sliding_body(scene)),
+                Outcome::fail, "FAIL"};
+    if (model.state != sliding::StaticState::at_rest)
+        return {fmt::format("The {} slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
+                            sliding_body(scene), model.block.friction, model.critical_friction),
+                Outcome::fail, "FAIL"};
+    if (overturns(s.bases.front()))
+        return {
+            fmt::format("The {} tips over without any earthquake: the resultant of the static loads acts outside its "
+                        "base.",
+                        sliding_body(scene)),
+            Outcome::fail, "FAIL"};
+    const std::string pass = s.dry_base ? "PASS on a dry base" : "PASS"; // there is water, and no uplift
+    if (s.slips.empty()) {
+        const std::string sentence =
+            fmt::format("The {} starts to slide at a ground acceleration of {}; no record is "
+                        "given.",
+                        sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
+            checks_sentence(checks) + standing_sentence(s);
+        if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
+        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : pass};
+    }
+    const std::string standing = standing_sentence(s);
+    const std::vector<std::string> premises = broken_premises(s);
+    const std::string sentence = slip_sentence(scene, s) +
+                                 (premises.empty() ? "" : " But it " + premises.front() + ".") +
+                                 checks_sentence(checks) + standing;
+    if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
+    const auto any = [&](Verdict verdict) {
+        return std::any_of(s.slips.begin(), s.slips.end(),
+                           [&](const SlipRow& row) { return judge(row, scene.criteria.allowable_slip) == verdict; });
+    };
+    if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
+    if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (!premises.empty())
+        return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
+    if (any(Verdict::undecided))
+        return {sentence, Outcome::unresolved,
+                s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
+                           : "Undecided: the error of SLAMMER's scheme is not known."};
+    if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
+    return {sentence, Outcome::pass, pass};
+}
+
+Page screen_page(const ScreenReportInput& in)
+{
+    std::vector<GroundMotion> motions;
+    for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
+    Page page;
+    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
+    page.subtitle = std::string("Sliding in an earthquake: screening with the rigid ") +
+                    (in.scene.wedge ? "wedge. " : "block. ") + in.scene.file.filename().string() + ", scene " +
+                    scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    page.headline = screen_headline(in.scene, in.screening);
+    page.key_figures = key_figures(in.scene, in.screening);
+    page.warnings = all_warnings(in);
+    page.sections.push_back(section_part(in.scene, in.screening));
+    if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
+    page.sections.push_back(yield_section(in.scene, in.screening));
+    if (!in.scene.wedge) page.sections.push_back(equilibrium_section(in.screening));
+    if (!motions.empty())
+        for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
+    Table effects = effect_table(in.screening.plan);
+    page.sections.push_back(
+        {"Effects taken into account", {TablePart{std::move(effects), Layout::rows, 1, Fold::open}}, Fold::open});
+    page.sections.push_back({"Scene",
+                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.given)}},
+                             Fold::open});
+    page.provenance = provenance(in);
+    return page;
+}
+
+std::string screen_report(const ScreenReportInput& in)
+{
+    return page_html(screen_page(in));
+}
+
+} // namespace damslip::pages

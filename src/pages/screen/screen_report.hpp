@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/screen/screening.hpp"
+#include "pages/report/page.hpp"
+
+#include <string>
+
+/// The screening as the report that is handed in.
+namespace damslip::pages {
+
+/// What the report is made from.
+struct ScreenReportInput {
+    const Scene& given; ///< as read, for the resolved scene
+    const Scene& scene; ///< as the plan calls for it
+    const Screening& screening;
+    const std::vector<RecordPair>& records;
+    int jobs = 0; ///< threads, 0: all cores
+};
+
+/// The whole answer in one sentence with its verdict: FAIL for a block that slides or floats without any earthquake, a
+/// slip above the allowable or without end, or a limit-equilibrium check not met; PASS when something was judged and
+/// nothing failed; neither where a run has no answer, or an error that is not known.
+Headline screen_headline(const Scene& scene, const Screening& s);
+
+/// Section, effects, limit equilibrium, yield acceleration, slip over friction and records, each record, provenance.
+Page screen_page(const ScreenReportInput& input);
+
+/// The page as one HTML file.
+std::string screen_report(const ScreenReportInput& input);
+
+} // namespace damslip::pages

@@ -1,0 +1,295 @@
+#include "pages/sweep/sweep_charts.hpp"
+
+#include "analysis/screen/screening.hpp"
+#include "core/statistics.hpp"
+#include "core/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <tuple>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t named_variants = 8;
+constexpr std::size_t drawn_points = 6000; ///< of a scatter chart in all
+
+Axis slip_axis(const std::string& label)
+{
+    return {label, "mm", Scale::asinh, 0.1, {}, {}, {}};
+}
+
+/// The worse polarity's slip [mm] of each record that has one.
+std::vector<double> slips_of(const SweepView& view, std::size_t variant, const std::string& method, double friction)
+{
+    std::map<std::string, double> worst;
+    const auto group = view.groups.find({variant, method, friction});
+    if (group == view.groups.end()) return {};
+    for (const std::size_t i : group->second) {
+        const SweepRow& r = view.rows[i];
+        if (!r.slip) continue;
+        const auto [at, first] = worst.try_emplace(r.record, std::abs(*r.slip) / mm);
+        if (!first) at->second = std::max(at->second, std::abs(*r.slip) / mm);
+    }
+    std::vector<double> slips;
+    for (const auto& [record, slip] : worst) slips.push_back(slip);
+    return slips;
+}
+
+bool many_records(const SweepView& view)
+{
+    return view.records.size() > 3;
+}
+
+enum class Band { none, least_to_largest };
+
+Curve slip_curve(const SweepView& view, std::size_t variant, const std::string& method, const std::string& name,
+                 Band band)
+{
+    Curve curve{name, view.frictions, {}, {}, {}, Mark::line_and_points, Weight::normal, -1};
+    for (const double friction : view.frictions) {
+        const std::vector<double> slips = slips_of(view, variant, method, friction);
+        curve.y.push_back(slips.empty() ? nothing : percentile(slips, many_records(view) ? 0.5 : 1.0));
+        if (band == Band::none) continue;
+        curve.low.push_back(slips.empty() ? nothing : *std::min_element(slips.begin(), slips.end()));
+        curve.high.push_back(slips.empty() ? nothing : *std::max_element(slips.begin(), slips.end()));
+    }
+    return curve;
+}
+
+bool has_value(const Curve& curve)
+{
+    return std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); });
+}
+
+/// Critical friction of a variant; that of FE runs and of the block is the same but for round-off, as statics alone decide.
+std::optional<double> critical_of(const SweepView& view, std::size_t variant)
+{
+    for (const SweepRow& r : view.rows)
+        if (r.variant == variant && r.critical_friction) return r.critical_friction;
+    return std::nullopt;
+}
+
+Chart empty_chart(const SweepView& view, const std::string& title, const std::optional<double>& allowable)
+{
+    Chart chart;
+    chart.title = title;
+    chart.x = {"friction μ", "", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = slip_axis("largest slip");
+    if (view.records.size() > 1)
+        chart.note = many_records(view) ? fmt::format("Median of {} records.", view.records.size())
+                                        : fmt::format("The largest of {} records.", view.records.size());
+    if (allowable) chart.horizontal.push_back({*allowable / mm, "allowable"});
+    return chart;
+}
+
+/// Line at the critical friction where it lies among the frictions, so that some of them fail.
+void mark_critical(Chart& chart, const SweepView& view, double critical)
+{
+    if (!(critical > view.frictions.front()) || critical > view.frictions.back() + 0.25) return;
+    chart.vertical.push_back({critical, fmt::format("slides statically below {:.4g}", critical)});
+    chart.x.low = view.frictions.front();
+    chart.x.high = std::max(view.frictions.back(), critical);
+}
+
+/// Logarithmic where no slip is near zero: more room for the curves.
+void fit_scale(Chart& chart)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const Curve& curve : chart.curves)
+        for (const std::vector<double>* values : {&curve.y, &curve.low})
+            for (const double v : *values)
+                if (std::isfinite(v)) least = std::min(least, v);
+    if (least > 0.1) chart.y.scale = Scale::log;
+}
+
+std::string with_name(const std::string& title, const std::string& name)
+{
+    return name.empty() ? title : title + ": " + name;
+}
+
+/// Points in ascending order of x, thinned evenly to a share of what a scatter chart may hold.
+Curve points(const std::string& name, std::vector<std::pair<double, double>> values, std::size_t curves)
+{
+    std::sort(values.begin(), values.end());
+    const std::size_t largest = std::max<std::size_t>(200, drawn_points / std::max<std::size_t>(1, curves)),
+                      every = (values.size() + largest - 1) / std::max<std::size_t>(1, largest);
+    Curve curve{name, {}, {}, {}, {}, Mark::points, Weight::normal, -1};
+    for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(1, every)) {
+        // Abscissae of a curve are distinct: a value at the same place moves by an invisible amount.
+        double x = values[i].first;
+        if (!curve.x.empty() && x <= curve.x.back()) x = std::nextafter(curve.x.back(), 1e300);
+        curve.x.push_back(x);
+        curve.y.push_back(values[i].second);
+    }
+    return curve;
+}
+
+} // namespace
+
+Curve history_curve(const std::string& name, const SlipHistory& history)
+{
+    Curve curve{name, {}, {}, {}, {}, Mark::line, Weight::normal, -1};
+    for (std::size_t k = 0; k < history.slip.size(); ++k) {
+        curve.x.push_back(static_cast<double>(k) * history.interval);
+        curve.y.push_back(history.slip[k] / mm);
+    }
+    return curve;
+}
+
+std::string main_method(const SweepView& view)
+{
+    const auto given = [&](const std::string& method) {
+        return std::find(view.methods.begin(), view.methods.end(), method) != view.methods.end();
+    };
+    if (given("fe")) return "fe";
+    const auto fe = std::find_if(view.methods.begin(), view.methods.end(),
+                                 [](const std::string& method) { return method.rfind("fe", 0) == 0; });
+    if (fe != view.methods.end()) return *fe;
+    return given("rigid-v") ? "rigid-v" : view.methods.front();
+}
+
+Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable)
+{
+    Chart chart = empty_chart(view, with_name("Slip over friction", view.variant_names[variant]), allowable);
+    const std::string banded = many_records(view) ? main_method(view) : "";
+    for (const std::string& method : view.methods) {
+        Curve curve = slip_curve(view, variant, method, method, method == banded ? Band::least_to_largest : Band::none);
+        if (!has_value(curve)) continue;
+        if (method.rfind("fe", 0) == 0) curve.weight = Weight::strong;
+        chart.curves.push_back(std::move(curve));
+    }
+    if (!banded.empty()) chart.note += " Band of " + banded + ": from the least to the largest.";
+    if (const auto critical = critical_of(view, variant)) mark_critical(chart, view, *critical);
+    fit_scale(chart);
+    return chart;
+}
+
+std::optional<Chart> slip_histories(const SweepView& view, std::size_t variant, const std::string& method,
+                                    const std::vector<SlipHistory>& histories)
+{
+    std::vector<std::size_t> rows; // one for each friction that has a history
+    for (const double friction : view.frictions) {
+        const auto group = view.groups.find({variant, method, friction});
+        if (group == view.groups.end()) continue;
+        const std::size_t first = group->second.front();
+        if (view.rows[first].slip && histories[first].interval > 0.0) rows.push_back(first);
+    }
+    if (rows.empty()) return std::nullopt;
+    Chart chart;
+    const SweepRow& any = view.rows[rows.front()];
+    chart.title = with_name("Slip over time by " + method, view.variant_names[variant]);
+    chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.note = fmt::format("Record {}{}.", any.record, any.polarity < 0 ? ", polarity -1" : "");
+    const std::size_t every = (rows.size() + named_variants - 1) / named_variants;
+    for (std::size_t i = 0; i < rows.size(); i += every) {
+        Curve curve = history_curve(fmt::format("μ = {:.4g}", view.rows[rows[i]].friction), histories[rows[i]]);
+        chart.curves.push_back(std::move(curve));
+    }
+    return chart;
+}
+
+Chart slip_by_variant(const SweepView& view, const std::string& method, const std::optional<double>& allowable)
+{
+    Chart chart = empty_chart(view, "Slip over friction by " + method, allowable);
+    for (std::size_t v = 0; v < view.variants.size() && chart.curves.size() < named_variants; ++v) {
+        Curve curve = slip_curve(view, v, method, view.variant_names[v], Band::none);
+        if (has_value(curve)) chart.curves.push_back(std::move(curve));
+    }
+    if (view.variants.size() > named_variants)
+        chart.note +=
+            fmt::format(" The first {} of {} variants that have values.", named_variants, view.variants.size());
+    fit_scale(chart);
+    return chart;
+}
+
+Chart slip_over_yield_ratio(const SweepView& view)
+{
+    Chart chart;
+    chart.title = "Slip over a_y/PGA";
+    chart.x = {"yield acceleration over PGA, a_y/PGA", "", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = slip_axis("largest slip");
+    chart.note = "a_y: of the rigid block, the same for all methods. Each point is a row.";
+    for (const std::string& method : view.methods) {
+        std::vector<std::pair<double, double>> values;
+        for (const SweepRow& r : view.rows)
+            if (r.method == method && r.slip && r.pga > 0.0)
+                values.emplace_back(r.yield_acceleration / r.pga, std::abs(*r.slip) / mm);
+        if (!values.empty()) chart.curves.push_back(points(method, std::move(values), view.methods.size()));
+    }
+    return chart;
+}
+
+std::optional<Chart> fe_over_rigid(const SweepView& view)
+{
+    using Key = std::tuple<std::size_t, double, int, std::string>;
+    std::map<Key, double> rigid;
+    const auto key = [](const SweepRow& r) { return Key{r.variant, r.friction, r.polarity, r.record}; };
+    for (const std::string method : {"rigid", "rigid-v"}) // the latter, where there is one, has the same motion as FE
+        for (const SweepRow& r : view.rows)
+            if (r.method == method && r.slip) rigid[key(r)] = std::abs(*r.slip) / mm;
+    Chart chart;
+    chart.title = "Slip by finite elements over the rigid block's";
+    chart.x = slip_axis("slip of the rigid block");
+    chart.y = slip_axis("slip by finite elements");
+    double largest = 0.0;
+    for (const std::string& method : view.methods) {
+        std::vector<std::pair<double, double>> values;
+        for (const SweepRow& r : view.rows) {
+            if (r.method != method || !r.finite_elements() || !r.slip) continue;
+            const auto at = rigid.find(key(r));
+            if (at != rigid.end()) values.emplace_back(at->second, std::abs(*r.slip) / mm);
+        }
+        for (const auto& [x, y] : values) largest = std::max({largest, x, y});
+        if (!values.empty()) chart.curves.push_back(points(method, std::move(values), view.methods.size()));
+    }
+    if (chart.curves.empty()) return std::nullopt;
+    Curve equal{"equal", {}, {}, {}, {}, Mark::dashed, Weight::normal, 7};
+    for (int i = 0; i <= 40; ++i) { // straight on equal asinh scales
+        const double v = 0.1 * std::sinh(std::asinh(std::max(largest, 1.0) / 0.1) * i / 40.0);
+        equal.x.push_back(v);
+        equal.y.push_back(v);
+    }
+    chart.curves.push_back(std::move(equal));
+    chart.note = "Each point is a motion with a friction. Above the dashed line the flexible dam slides farther.";
+    return chart;
+}
+
+Chart yield_over_friction(const SweepView& view)
+{
+    Chart chart;
+    chart.title = "Yield acceleration over friction";
+    chart.x = {"friction μ", "", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"yield acceleration a_y", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.horizontal.push_back({0.0, "slides statically below"});
+    for (std::size_t v = 0; v < view.variants.size() && chart.curves.size() < named_variants; ++v) {
+        Curve curve{view.variant_names[v].empty() ? "a_y" : view.variant_names[v],
+                    {},
+                    {},
+                    {},
+                    {},
+                    Mark::line_and_points,
+                    Weight::normal,
+                    -1};
+        std::map<double, double> yield;
+        for (const SweepRow& r : view.rows)
+            if (r.variant == v) yield[r.friction] = r.yield_acceleration;
+        for (const auto& [friction, a_y] : yield) {
+            curve.x.push_back(friction);
+            curve.y.push_back(a_y);
+        }
+        // Variants of the motion only have the same yield acceleration.
+        const bool new_one =
+            std::none_of(chart.curves.begin(), chart.curves.end(), [&](const Curve& c) { return c.y == curve.y; });
+        if (new_one) chart.curves.push_back(std::move(curve));
+    }
+    return chart;
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,342 @@
+#include "pages/sweep/sweep_report.hpp"
+
+#include "analysis/prepare/seepage_source.hpp"
+#include "core/units.hpp"
+#include "core/version.hpp"
+#include "pages/fe/mesh_drawing.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/section_drawing.hpp"
+#include "pages/screen/wedge_drawing.hpp"
+#include "pages/sweep/sweep_charts.hpp"
+#include "scene/effect_plan.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
+#include "sliding/uplift/uplift_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+constexpr std::size_t drawn_variants = 12, open_variants = 3; ///< with a chart of their own; of these unfolded
+constexpr std::size_t listed_rows = 400;
+
+std::string join(const std::vector<std::string>& words)
+{
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+    return out;
+}
+
+/// Rows of one method that have a slip, failed statically, or have no answer.
+Table method_table(const SweepView& view, const std::optional<double>& allowable)
+{
+    Table t;
+    t.title = "Rows by method";
+    t.columns = {{"method", "method", "", 4},         {"rows", "rows", "", 4},
+                 {"with_slip", "with a slip", "", 4}, {"static_failures", "slide statically", "", 4},
+                 {"unanswered", "no answer", "", 4},  {"median_mm", "median", "mm", 4},
+                 {"largest_mm", "largest", "mm", 4},  {"without_slip", "without a slip", "", 4}};
+    if (allowable) t.columns.push_back({"above_allowable", "above the allowable", "", 4});
+    for (const std::string& method : view.methods) {
+        std::int64_t rows = 0, with_slip = 0, failures = 0, unanswered = 0, above = 0;
+        std::vector<double> slips;
+        StatusCount without;
+        for (const SweepRow& r : view.rows) {
+            if (r.method != method) continue;
+            ++rows;
+            failures += r.fails_statically();
+            unanswered += r.unanswered();
+            if (!r.slip && r.state) without.add(*r.state);
+            if (!r.slip) continue;
+            ++with_slip;
+            above += allowable && std::abs(*r.slip) > *allowable;
+            slips.push_back(std::abs(*r.slip) / mm);
+        }
+        std::sort(slips.begin(), slips.end());
+        const auto n = slips.size();
+        t.rows.push_back({method, rows, with_slip, failures, unanswered,
+                          n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell(), n ? Cell(slips.back()) : Cell(),
+                          without.empty() ? Cell() : Cell(without.words())});
+        if (allowable) t.rows.back().push_back(above);
+    }
+    t.notes.push_back(
+        "slips: largest on the way, of rows with an answer; slide statically: there is no equilibrium without an "
+        "earthquake; without a slip: by status.");
+    return t;
+}
+
+/// The variants with the friction from which they stand.
+Table variant_table(const SweepView& view)
+{
+    Table t;
+    t.title = "Variants";
+    t.columns = {{"level_m", "level", "m", 4},  {"uplift", "uplift", "", 4},
+                 {"reservoir", "water", "", 4}, {"size", "size", "–", 4},
+                 {"scale", "motion ×", "–", 4}, {"critical_friction", "stands from μ", "–", 5}};
+    for (std::size_t v = 0; v < view.variants.size(); ++v) {
+        const SweepVariant& variant = view.variants[v];
+        const auto row = std::find_if(view.rows.begin(), view.rows.end(),
+                                      [&](const SweepRow& r) { return r.variant == v && r.critical_friction; });
+        t.rows.push_back({variant.level, variant.uplift, variant.reservoir, variant.size, variant.scale,
+                          row == view.rows.end() ? Cell() : Cell(*row->critical_friction)});
+    }
+    return t;
+}
+
+const SweepRow* worst_of(const SweepView& view)
+{
+    const SweepRow* worst = nullptr;
+    const bool fe = std::any_of(view.rows.begin(), view.rows.end(),
+                                [](const SweepRow& r) { return r.finite_elements() && r.slip; });
+    for (const SweepRow& r : view.rows) {
+        if (!r.slip || !(fe ? r.finite_elements() : r.rigid())) continue;
+        if (!worst || std::abs(*r.slip) > std::abs(*worst->slip)) worst = &r;
+    }
+    return worst;
+}
+
+Headline headline(const SweepView& view, const std::optional<double>& allowable)
+{
+    const std::string unanswered = unanswered_words(view);
+    const SweepRow* worst = worst_of(view);
+    std::string sentence =
+        worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.rows.size(),
+                            std::abs(*worst->slip) / mm, worst->method, worst->friction, worst->record)
+              : fmt::format("{} rows: none has a slip", view.rows.size());
+    double critical = 0.0;
+    std::size_t failing = 0;
+    for (const SweepRow& r : view.rows) {
+        if (!r.fails_statically()) continue;
+        ++failing;
+        if (r.critical_friction && std::isfinite(*r.critical_friction))
+            critical = std::max(critical, *r.critical_friction);
+    }
+    if (failing)
+        sentence += fmt::format("; {} rows slide without any earthquake, up to a critical friction of {:.4g}", failing,
+                                critical);
+    if (allowable && worst) {
+        std::size_t above = 0, judged = 0;
+        for (const SweepRow& r : view.rows) {
+            if (r.method != worst->method || !r.slip) continue;
+            ++judged;
+            above += std::abs(*r.slip) > *allowable;
+        }
+        sentence += fmt::format("; {} of {} slips by {} exceed the allowable {:.4g} mm", above, judged, worst->method,
+                                *allowable / mm);
+    }
+    sentence += ".";
+    if (!unanswered.empty()) return {sentence, Outcome::unresolved, unanswered + "."};
+    return {sentence, Outcome::none, ""};
+}
+
+std::vector<std::string> warnings(const SweepView& view)
+{
+    std::vector<std::string> list;
+    for (const SweepRow& r : view.rows)
+        if (r.unanswered())
+            list.push_back(
+                fmt::format("{}, μ = {:.4g}, {}{}, polarity {:+d}: {}", r.method, r.friction, r.record,
+                            view.variant_names[r.variant].empty() ? "" : ", " + view.variant_names[r.variant],
+                            r.polarity, r.status));
+    if (const std::string unknown = unknown_error_words(view); !unknown.empty()) list.push_back(unknown + ".");
+    return list;
+}
+
+Section friction_section(const SweepView& view, const std::optional<double>& allowable)
+{
+    Section section{"Slip over friction", {}, Fold::open};
+    const std::size_t n = std::min(view.variants.size(), drawn_variants);
+    for (std::size_t v = 0; v < std::min(n, open_variants); ++v) {
+        Chart chart = slip_over_friction(view, v, allowable);
+        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
+    }
+    if (section.parts.empty())
+        section.parts.push_back(Paragraph{"No row of the first variants has a slip: see the critical frictions."});
+    return section;
+}
+
+/// The variants after those that are unfolded.
+std::optional<Section> further_variants(const SweepView& view, const std::optional<double>& allowable)
+{
+    if (view.variants.size() <= open_variants) return std::nullopt;
+    Section section{"Slip over friction, further variants", {}, Fold::folded};
+    for (std::size_t v = open_variants; v < std::min(view.variants.size(), drawn_variants); ++v) {
+        Chart chart = slip_over_friction(view, v, allowable);
+        if (!chart.curves.empty()) section.parts.emplace_back(std::move(chart));
+    }
+    if (view.variants.size() > drawn_variants)
+        section.parts.push_back(Paragraph{
+            fmt::format("{} further variants are in the table of rows only.", view.variants.size() - drawn_variants)});
+    return section;
+}
+
+/// Of the unfolded variants, by the main method and by the rigid block with the same motion.
+std::optional<Section> history_section(const SweepView& view, const std::vector<SlipHistory>& histories)
+{
+    if (histories.size() != view.rows.size()) return std::nullopt;
+    Section section{"Slip over time", {}, Fold::open};
+    std::vector<std::string> methods{main_method(view)};
+    if (methods.front().rfind("rigid", 0) != 0)
+        for (const char* rigid : {"rigid-v", "rigid"})
+            if (methods.size() == 1 && std::find(view.methods.begin(), view.methods.end(), rigid) != view.methods.end())
+                methods.emplace_back(rigid);
+    for (std::size_t v = 0; v < std::min(view.variants.size(), open_variants); ++v)
+        for (const std::string& method : methods)
+            if (auto chart = slip_histories(view, v, method, histories)) section.parts.emplace_back(std::move(*chart));
+    if (section.parts.empty()) return std::nullopt;
+    return section;
+}
+
+Section variant_section(const SweepView& view, const std::optional<double>& allowable)
+{
+    Section section{"Variants", {TablePart{variant_table(view), Layout::rows, 1, Fold::open}}, Fold::open};
+    if (view.variants.size() > 1)
+        for (const std::string& method : view.methods) {
+            if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
+            Chart chart = slip_by_variant(view, method, allowable);
+            if (chart.curves.size() > 1) section.parts.emplace_back(std::move(chart));
+        }
+    section.parts.emplace_back(yield_over_friction(view));
+    return section;
+}
+
+/// Columns that no row has a value in, such as those of methods that are not there, are left out.
+Table without_empty_columns(Table table)
+{
+    for (std::size_t j = table.columns.size(); j-- > 0;) {
+        const auto empty = [j](const std::vector<Cell>& row) {
+            return std::holds_alternative<std::monostate>(row[j]) || row[j] == Cell(std::string());
+        };
+        if (!std::all_of(table.rows.begin(), table.rows.end(), empty)) continue;
+        table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(j));
+        for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+    return table;
+}
+
+Section rows_section(const SweepReportInput& in)
+{
+    Table table = without_empty_columns(in.rows);
+    table.title = "Rows";
+    if (table.rows.size() > listed_rows) {
+        table.notes.push_back(fmt::format("The first {} of {} rows{}.", listed_rows, table.rows.size(),
+                                          in.csv.empty() ? "" : "; all are in " + in.csv.filename().string()));
+        table.rows.resize(listed_rows);
+    }
+    return {"Rows", {TablePart{std::move(table), Layout::rows, 1, Fold::open}}, Fold::folded};
+}
+
+bool finite_elements(const SweepView& view)
+{
+    return std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); });
+}
+
+EffectPlan effect_plan(const Scene& scene, const SweepView& view)
+{
+    return make_effect_plan(scene, finite_elements(view) ? Method::finite_elements : Method::rigid_block);
+}
+
+/// The scene as given, before the axes change it; with the mesh where there are FE rows.
+Section section_of(const Scene& given, const SweepView& view)
+{
+    const Scene scene = called_for(effect_plan(given, view), given);
+    if (scene.wedge) {
+        const RigidWedge wedge = make_rigid_wedge(scene);
+        Section section{"Wedge", {}, Fold::open};
+        if (auto drawing = wedge_drawing(scene, wedge)) section.parts.emplace_back(std::move(*drawing));
+        section.parts.emplace_back(stereonet(scene, wedge));
+        return section;
+    }
+    SeepageSource seepage;
+    sliding::PressureProfile uplift;
+    if (scene.uplift)
+        uplift = sliding::uplift_profile(scene, sliding::scene_uplift_state(scene), {}, seepage.profile_of(scene));
+    std::vector<Polyline> mesh;
+    if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
+    return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};
+}
+
+Section record_section(const Scene& scene, const std::vector<RecordPair>& records)
+{
+    std::vector<GroundMotion> motions;
+    for (const RecordPair& pair : records) motions.push_back(ground_motion(scene, pair));
+    return {
+        "Records", {TablePart{record_table(motions), Layout::rows, 1, Fold::open}, spectra(motions, 1)}, Fold::open};
+}
+
+std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
+{
+    std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
+                                                          {"methods", join(view.methods)}};
+    if (in.scene) {
+        list.emplace_back("scene", in.scene->file.string());
+        list.emplace_back("scene hash", scene_hash(*in.scene));
+    }
+    if (!in.csv.empty()) list.emplace_back("rows", in.csv.filename().string());
+    add_record_provenance(in.records, list);
+    return list;
+}
+
+} // namespace
+
+Page sweep_page(const SweepReportInput& in)
+{
+    const SweepView view = sweep_view(in.rows);
+    const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
+    Page page;
+    page.title = "Sweep";
+    page.subtitle = "Sliding in an earthquake: sweep over friction and more. ";
+    if (in.scene) {
+        page.title = in.scene->title.empty() ? in.scene->file.filename().string() : in.scene->title;
+        page.subtitle += in.scene->file.filename().string() + ", scene " + scene_hash(*in.scene).substr(0, 12) + ", ";
+    }
+    page.subtitle += "damslip " + program_version();
+    page.headline = headline(view, allowable);
+    page.key_figures = {{"Rows", fmt::format("{}", view.rows.size())},
+                        {"Variants", fmt::format("{}", view.variants.size())},
+                        {"Frictions", fmt::format("{}", view.frictions.size())},
+                        {"Records", fmt::format("{}", view.records.size())},
+                        {"Methods", fmt::format("{}", view.methods.size())}};
+    if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
+    if (in.scene) page.warnings = note_texts(in.scene->notes);
+    for (std::string& w : warnings(view)) page.warnings.push_back(std::move(w));
+    for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
+    if (view.rows.empty()) return page;
+
+    page.sections.push_back(friction_section(view, allowable));
+    if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
+    if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
+    page.sections.push_back(variant_section(view, allowable));
+    Section methods{"Methods", {TablePart{method_table(view, allowable), Layout::rows, 1, Fold::open}}, Fold::open};
+    if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
+    if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
+    for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
+    page.sections.push_back(std::move(methods));
+    page.sections.push_back(rows_section(in));
+    if (in.scene) {
+        page.sections.push_back(section_of(*in.scene, view));
+        if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));
+        page.sections.push_back(
+            {"Scene",
+             {TablePart{effect_table(effect_plan(*in.scene, view)), Layout::rows, 1, Fold::open},
+              Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(*in.scene)}},
+             Fold::open});
+    }
+    page.provenance = provenance(in, view);
+    return page;
+}
+
+std::string sweep_report(const SweepReportInput& in)
+{
+    return page_html(sweep_page(in));
+}
+
+} // namespace damslip::pages
