@@ -1,4 +1,4 @@
-# find_package(damslip): libraries damslip::core, ::scene, ::records, ::sliding, ::fe2d, each with all that is below its folder;
+# find_package(damslip): libraries damslip::core, ::scene, ::records, ::sliding, ::fe2d, ::analysis, each with all that is below its folder;
 # the parts have their own, damslip::sliding_block and so on.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake)

@@ -21,11 +21,14 @@ function(damslip_install_package)
   add_library(damslip_sliding INTERFACE)
   target_link_libraries(damslip_sliding INTERFACE
     sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
-  foreach(target damslip_records damslip_sliding fe2d)
+  add_library(damslip_analysis INTERFACE)
+  target_link_libraries(damslip_analysis INTERFACE
+    analysis_prepare analysis_screen analysis_fe analysis_sweep analysis_accuracy analysis_ablation)
+  foreach(target damslip_records damslip_sliding fe2d damslip_analysis)
     damslip_install_library(${target})
   endforeach()
 
-  foreach(folder src/core src/scene records sliding fe2d)
+  foreach(folder src/core src/scene records sliding fe2d src/analysis)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/damslip COMPONENT development
             FILES_MATCHING PATTERN "*.hpp" PATTERN data EXCLUDE)
   endforeach()

@@ -1,6 +1,6 @@
 #include "cli/ablate_command.hpp"
 
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
@@ -20,23 +20,6 @@ namespace damslip::cli {
 using namespace pages;
 
 namespace {
-
-/// The scene whose effects are removed, and how reservoir.model = "auto" came out: the water is that of an FE run, and
-/// no removal changes it.
-struct FullScene {
-    Scene scene;
-    std::optional<ReservoirChoice> choice;
-};
-
-FullScene full_scene(const Scene& given, Method method)
-{
-    FullScene full{given, {}};
-    if (method == Method::rigid_block) return full;
-    Scene resolved = called_for(make_effect_plan(given, method), given);
-    full.choice = resolve_reservoir_model(resolved);
-    if (full.choice) full.scene.reservoir->model = resolved.reservoir->model;
-    return full;
-}
 
 void check_records(const Scene& scene, Method method)
 {
@@ -79,14 +62,16 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip explain --ablate", "damslip explain SCENE gives the effects of the wedge");
     check_records(given, method);
-    const auto [scene, choice] = full_scene(given, method);
-    const EffectPlan effects = make_effect_plan(scene, method);
-    const std::vector<RecordPair> records = read_records(scene, effects);
+    const Ready ready =
+        prepare(given, method, {.stop = streams.stop}); // the water is chosen once: no removal changes it
+    const Scene& scene = ready.given;
+    const EffectPlan& effects = ready.plan;
+    const std::vector<RecordPair>& records = ready.records();
     const AblationPlan plan = make_ablations(scene, method, seepage_points(scene));
 
     TerminalWatch watch(streams);
-    const AblationRuns runs = run_ablations(plan, records, arguments.jobs, watch);
-    const Ablations ablations{plan, records, runs, choice ? choice->reason : std::string()};
+    const AblationRuns runs = run_ablations(plan, ready.pairs, arguments.jobs, watch);
+    const Ablations ablations{plan, records, runs, ready.reservoir ? ready.reservoir->reason : std::string()};
     if (streams.form == Form::json) {
         auto j = json_header("explain");
         j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(given)}};

@@ -75,7 +75,7 @@ std::string command_of(const AccuracyArguments& a, const Rung& rung)
 
 struct Loaded {
     Scene scene;
-    std::vector<RecordPair> records;
+    Records records;
     double seconds = 0.0;
     std::size_t in_scene = 0; ///< records of the scene, whether used or not
 };
@@ -95,7 +95,7 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
         throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",
                                     "a [[motion.record]], or --record", "add  --record FILE"});
     if (!a.all_records && a.inputs.records.empty()) loaded.scene.motion.records.resize(1);
-    loaded.records = read_records(loaded.scene, make_effect_plan(loaded.scene, Method::finite_elements));
+    loaded.records = load_records(loaded.scene, Method::finite_elements);
     loaded.seconds = clock.seconds();
     return loaded;
 }
@@ -105,10 +105,10 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
 {
     std::vector<std::string> messages = note_texts(loaded.scene.notes);
     messages.insert(messages.end(), facts.left_out.begin(), facts.left_out.end());
-    if (loaded.records.size() < loaded.in_scene)
+    if (loaded.records->size() < loaded.in_scene)
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
                                        "worst counts.",
-                                       loaded.in_scene, loaded.records.front().files.name));
+                                       loaded.in_scene, loaded.records->front().files.name));
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
@@ -133,7 +133,7 @@ nlohmann::ordered_json ladder_json(const AccuracyArguments& a, const Loaded& loa
     out["scene"] = {
         {"title", loaded.scene.title}, {"file", loaded.scene.file.string()}, {"hash", scene_hash(loaded.scene)}};
     out["records"] = nlohmann::ordered_json::array();
-    for (const RecordPair& pair : loaded.records) out["records"].push_back(pair.files.name);
+    for (const RecordPair& pair : *loaded.records) out["records"].push_back(pair.files.name);
     out["tolerance"] = a.tolerance;
     out["top"] = nullptr;
     out["top_open"] = nullptr;
@@ -146,7 +146,7 @@ nlohmann::ordered_json ladder_json(const AccuracyArguments& a, const Loaded& loa
     out["rungs"] = json_of(rung_table(results, j));
     out["models"] = json_of(model_table(results, j));
     std::vector<std::string> names;
-    for (const RecordPair& pair : loaded.records) names.push_back(pair.files.name);
+    for (const RecordPair& pair : *loaded.records) names.push_back(pair.files.name);
     out["slips"] = json_of(slip_table(results, names));
     out["messages"] = messages;
     return out;
@@ -171,7 +171,7 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     t.title = "Rung " + rung_id(rung);
     t.columns = {{"record", "record", "", 4}, {"slip_mm", "slip", "mm", 6}, {"seconds", "time, all records", "s", 3}};
     for (std::size_t i = 0; i < result.slip.size(); ++i)
-        t.rows.push_back({loaded.records[i].files.name, result.slip[i] / units::mm, result.seconds});
+        t.rows.push_back({(*loaded.records)[i].files.name, result.slip[i] / units::mm, result.seconds});
     if (streams.form == Form::json) {
         auto j = json_header("accuracy");
         j["rung"] = rung_id(rung);
@@ -244,7 +244,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     check(a);
     const Loaded loaded = load(a, streams);
     TerminalWatch watch(streams);
-    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, [&] { return watch.stop_asked(); });
+    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, watch);
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
 
     const LadderFacts facts = runner.facts();
@@ -265,9 +265,9 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     }
     const auto page = [&] {
         return pages::page_html(
-            accuracy_page({loaded.scene, loaded.records, results, judgement, a.tolerance, command, messages}));
+            accuracy_page({loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages}));
     };
-    const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, loaded.records),
+    const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, *loaded.records),
                                            FigureStyle::standalone);
     if (!a.svg.empty() && !figure.empty()) write_file(a.svg, figure);
     if (!a.out.empty()) {

@@ -1,16 +1,10 @@
 #include "cli/contact_run.hpp"
 
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/contact_law.hpp"
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
-#include "analysis/prepare/rigid_model.hpp"
 #include "analysis/prepare/rock_warnings.hpp"
-#include "analysis/prepare/seepage_source.hpp"
-#include "analysis/sweep/fe_meter.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
-#include "core/parallel.hpp"
-#include "core/usage_error.hpp"
 #include "core/version.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "pages/fe/acoustic_modes.hpp"
@@ -21,7 +15,6 @@
 #include "pages/report/page_html.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
-#include "scene/exact_contact.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -92,124 +85,31 @@ void keep(const std::filesystem::path& folder, const Scene& scene, const fe2d::E
                contact_arrays(model.model().mesh, r.fe));
 }
 
-constexpr double share_of_run = 0.8; ///< of the progress of a run; the rest is that on the coarser mesh
-
-/// The models of one call, and the runs on them.
-class ContactRuns {
-public:
-    ContactRuns(const FeArguments& arguments, const Scene& scene, const std::vector<RecordPair>& records, Watch& watch)
-        : arguments_(arguments), scene_(scene), meter_(watch), watch_(watch),
-          polarities_(polarities_of(arguments, scene)), options_(contact_options(scene, records, seepage_)),
-          coarser_(
-              scene, records, arguments.mesh_error,
-              [this](const fe2d::RunProgress& p) {
-                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
-                  return answer();
-              },
-              watch.stop())
-    {
-        if (!arguments.out.empty()) options_.pair_series = fe2d::PairSeries::every_step;
-        options_.stop = watch.stop();
-        options_.progress = [this](const fe2d::RunProgress& p) {
-            meter_.reached(share_of_run * share_of(p));
-            return answer();
-        };
-        model_.emplace(scene, options_);
-        if (const std::optional<Scene> exact_scene = with_exact_contact(scene)) {
-            fe2d::RunOptions plain = options_;
-            plain.pair_series = fe2d::PairSeries::none;
-            plain.progress = [this](const fe2d::RunProgress&) { return answer(); };
-            exact_.emplace(*exact_scene, plain);
-        }
-        rigid_ = make_rigid_model(scene, seepage_.profile_of(scene));
-    }
-
-    const fe2d::EarthquakeRun& model() const { return *model_; }
-    const RigidModel& rigid() const { return rigid_; }
-    const Polyline& uplift() const { return options_.uplift; }
-    bool gives_way() const { return exact_.has_value(); }
-    std::size_t polarities() const { return polarities_.size(); }
-
-    /// One record with its polarities beside each other, in their order whatever the threads.
-    /// @param motions  gets what they ran with
-    std::vector<ContactRun> run(const RecordPair& pair, std::vector<GroundMotion>& motions)
-    {
-        std::vector<ContactRun> runs(polarities_.size());
-        motions.resize(polarities_.size());
-        parallel_for(polarities_.size(), 0, [&](std::size_t i) {
-            motions[i] = ground_motion(scene_, pair, 1.0, polarities_[i]);
-            ContactRun& r = runs[i];
-            r.record = pair.files.name;
-            r.polarity = shown_polarity(scene_, polarities_[i]);
-            r.both = polarities_.size() > 1;
-            run(motions[i], r);
-        });
-        return runs;
-    }
-
-private:
-    static double share_of(const fe2d::RunProgress& p)
-    {
-        return static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps));
-    }
-    fe2d::RunAnswer answer() const { return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on; }
-    void run(const GroundMotion& motion, ContactRun& r)
-    {
-        meter_.begin(1);
-        r.fe = model_->run(motion);
-        watch_.results_at_hand();
-        r.mesh = coarser_.error_of(*model_, r.fe, motion);
-        if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);
-        if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(scene_, rigid_, motion, 1);
-        meter_.end();
-    }
-
-    const FeArguments& arguments_;
-    const Scene& scene_;
-    FeMeter meter_;
-    Watch& watch_;
-    std::vector<int> polarities_;
-    SeepageSource seepage_;
-    fe2d::RunOptions options_;
-    CoarserMesh coarser_;
-    std::optional<fe2d::EarthquakeRun> model_, exact_;
-    RigidModel rigid_;
-};
-
 } // namespace
 
-int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
-                const std::vector<RecordPair>& records, const Streams& streams)
+int run_contact(const FeArguments& arguments, const Ready& ready, const Streams& streams)
 {
+    const Scene& scene = ready.scene;
+    const EffectPlan& plan = ready.plan;
+    const std::vector<RecordPair>& records = ready.records();
     const std::optional<double>& allowable = scene.criteria.allowable_slip;
     TerminalWatch watch(streams);
-    watch.begin("fe", static_cast<double>(records.size() * polarities_of(arguments, scene).size()));
-    watch.phase("set-up");
-    ContactRuns all(arguments, scene, records, watch);
+    ContactRuns all(ready, fe_options(arguments), watch);
     const fe2d::EarthquakeRun& model = all.model();
 
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (!arguments.out.empty()) page.emplace(FeReport::Input{scene, plan, records, model, all.rigid(), all.uplift()});
-    std::vector<ContactRun> runs;
     std::vector<std::string> of_rock;
-    for (const RecordPair& pair : records) {
-        if (watch.stop_asked()) break;
-        std::vector<GroundMotion> motions;
-        for (ContactRun& run : all.run(pair, motions)) {
-            const GroundMotion& motion = motions[runs.size() % all.polarities()];
-            runs.push_back(std::move(run));
-            ContactRun& r = runs.back();
-            for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
-                if (std::string note = r.record + ": " + warning; of_rock.empty() || of_rock.back() != note)
-                    of_rock.push_back(std::move(note));
-            keep(arguments.out, scene, model, r, fields);
-            if (page) page->add(r, motion);
-            r.fe.history.by_pair = {};
-            r.fe.history.states = {};
-        }
-    }
-    watch.end();
+    const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
+        for (const std::string& warning : rock_warnings(scene, model.model().mesh, motion))
+            if (std::string note = r.record + ": " + warning; of_rock.empty() || of_rock.back() != note)
+                of_rock.push_back(std::move(note));
+        keep(arguments.out, scene, model, r, fields);
+        if (page) page->add(r, motion);
+        r.fe.history.by_pair = {};
+        r.fe.history.states = {};
+    });
     const Table run_table = contact_run_table(runs, allowable);
     const pages::Headline headline = fe_headline(scene, runs);
     const Table counts = count_table(model.model().counts, model.water() ? &model.water()->water : nullptr);
@@ -258,7 +158,7 @@ int run_contact(const FeArguments& arguments, const Scene& scene, const EffectPl
         write_file(file, pages::page_html(page->page(runs, tables, run_messages(scene, runs, of_rock))));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
-    const bool whole = runs.size() == records.size() * all.polarities();
+    const bool whole = runs.size() == all.whole();
     return whole ? exit_code_of(runs) : exit_no_answer;
 }
 

@@ -1,7 +1,7 @@
 #include "cli/explain_command.hpp"
 
 #include "analysis/fe/contact_cost.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/tied_scheme.hpp"
 #include "cli/ablate_command.hpp"
 #include "core/usage_error.hpp"
@@ -46,32 +46,31 @@ struct ModelTables {
 };
 
 /// Counts of the FE model that a run of this scene would hold, from the assembled matrices themselves; nothing for the rigid block.
-std::optional<ModelTables> model_tables(const Scene& given, const EffectPlan& plan)
+std::optional<ModelTables> model_tables(const Ready& ready)
 {
-    if (plan.method != Method::finite_elements) return std::nullopt;
-    const Scene scene = called_for(plan, given);
-    fe2d::ModelOptions options;
-    options.added_mass = added_mass_law(scene);
-    const fe2d::Model model = fe2d::build_model(scene, options);
+    if (ready.plan.method != Method::finite_elements) return std::nullopt;
+    const fe2d::Model model = fe2d::build_model(ready.scene, ready.model_options());
     std::optional<fe2d::FluidModel> water;
-    if (plan.on(Effect::acoustic_water) && scene.reservoir->level > 0) water = fe2d::build_fluid(scene);
-    return ModelTables{count_table(model.counts, water ? &*water : nullptr), joint_table(scene, model.mesh)};
+    if (ready.plan.on(Effect::acoustic_water) && ready.scene.reservoir->level > 0)
+        water = fe2d::build_fluid(ready.scene);
+    return ModelTables{count_table(model.counts, water ? &*water : nullptr), joint_table(ready.scene, model.mesh)};
 }
 
-/// Nothing for the rigid block.
-std::optional<ContactCost> cost_of(const Scene& scene, const EffectPlan& plan)
+/// The scene's records for the estimate of seconds; none where a file is not there, which only a run has to have.
+Records records_at_hand(const Scene& scene, Method method)
 {
-    if (plan.method != Method::finite_elements) return std::nullopt;
-    return contact_cost(scene, plan);
+    for (const RecordFiles& r : scene.motion.records)
+        if (!std::filesystem::exists(r.horizontal)) return nullptr;
+    return method == Method::finite_elements ? load_records(scene, method) : nullptr;
 }
 
 /// How the water takes part, by the computed first frequency where the scene leaves it open, and what its length and end are good for.
-std::vector<std::string> water_notes(const Scene& scene, const EffectPlan& plan,
-                                     const std::optional<ReservoirChoice>& choice)
+std::vector<std::string> water_notes(const Ready& ready)
 {
+    const Scene& scene = ready.given;
     std::vector<std::string> notes;
-    if (plan.method != Method::finite_elements || !scene.reservoir || scene.reservoir->level <= 0) return notes;
-    if (choice) notes.push_back(choice->reason + "; --reduced takes added mass");
+    if (ready.plan.method != Method::finite_elements || !scene.reservoir || scene.reservoir->level <= 0) return notes;
+    if (ready.reservoir) notes.push_back(ready.reservoir->reason + "; --reduced takes added mass");
     if (scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) notes.push_back(std::move(warning));
     return notes;
@@ -106,24 +105,19 @@ std::string cost_text(const ContactCost& cost)
 int explain(const ExplainArguments& arguments, const Streams& streams)
 {
     if (arguments.ablate) return ablate(arguments, streams);
-    Scene scene = read_run_scene(arguments.inputs, streams);
+    const Scene scene = read_run_scene(arguments.inputs, streams);
     if (arguments.method == "fe")
         need_section(scene, "damslip explain --method fe", "leave --method out: the wedge is rigid");
     const std::string hash = scene_hash(scene);
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
-    EffectPlan plan = make_effect_plan(scene, method);
-    std::optional<ReservoirChoice> choice;
-    if (method == Method::finite_elements) {
-        Scene resolved = called_for(plan, scene);
-        choice = resolve_reservoir_model(resolved, streams.stop);
-        if (choice) scene.reservoir->model = resolved.reservoir->model; // the plan names what was chosen
-        plan = make_effect_plan(scene, method);
-    }
+    const Ready ready = prepare(scene, method, records_at_hand(scene, method), {.stop = streams.stop});
+    const EffectPlan& plan = ready.plan;
     const Table table = effect_table(plan);
-    const std::optional<ModelTables> model = model_tables(scene, plan);
-    const std::optional<ContactCost> cost = cost_of(scene, plan);
+    const std::optional<ModelTables> model = model_tables(ready);
+    std::optional<ContactCost> cost;
+    if (method == Method::finite_elements) cost = contact_cost(ready);
     std::vector<std::string> notes = note_texts(scene.notes);
-    for (std::string& note : water_notes(scene, plan, choice)) notes.push_back(std::move(note));
+    for (std::string& note : water_notes(ready)) notes.push_back(std::move(note));
     if (plan.method == Method::finite_elements) notes.push_back(time_scheme_note(scene));
     if (streams.form == Form::json) {
         auto j = json_header("explain");

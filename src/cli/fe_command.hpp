@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/fe/contact_runs.hpp"
 #include "cli/input/run_inputs.hpp"
 #include "cli/terminal/streams.hpp"
 
@@ -16,11 +17,7 @@ struct FeArguments {
     bool mesh_error = true;      ///< one more run on elements of twice the size tells what the mesh leaves open
 };
 
-/// What is run of each record: +1 and -1, or the one that scene or command line ask for. On top of motion.polarity.
-std::vector<int> polarities_of(const FeArguments& arguments, const Scene& scene);
-
-/// Against the record as it is: that of the scene counted in.
-int shown_polarity(const Scene& scene, int polarity);
+FeOptions fe_options(const FeArguments& arguments);
 
 /// The line that says where the files are; nothing for an empty folder.
 void say_written(const std::filesystem::path& folder, const Streams& streams);

@@ -1,6 +1,5 @@
 #include "cli/mesh_command.hpp"
 
-#include "analysis/prepare/fe_inputs.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "core/usage_error.hpp"
@@ -10,6 +9,7 @@
 #include "fe2d/mesh/quality.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
+#include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -83,7 +83,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
-    const Scene scene = fe_scene(given, make_effect_plan(given, Method::finite_elements));
+    const Scene scene = called_for(make_effect_plan(given, Method::finite_elements), given);
     fe2d::ContactExtension extension;
     if (scene.contact.sliding == JointPath::finite) extension.downstream = scene.contact.max_slip;
     const fe2d::Mesh mesh = fe2d::build_mesh(scene, extension);

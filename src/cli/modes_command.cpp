@@ -1,6 +1,6 @@
 #include "cli/modes_command.hpp"
 
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "core/version.hpp"
@@ -199,21 +199,18 @@ int modes(const ModesArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip modes", "a wedge is rigid; damslip screen SCENE gives its slip");
-    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    Scene scene = called_for(plan, given);
+    const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
+    const Scene& scene = ready.scene;
     std::vector<std::string> notes = note_texts(given.notes);
-    const auto choice = resolve_reservoir_model(scene, streams.stop);
-    if (choice) notes.push_back(choice->reason);
+    if (ready.reservoir) notes.push_back(ready.reservoir->reason);
     const bool acoustic =
         scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0;
-    if (const auto period = resolve_dam_period(scene, streams.stop))
+    if (const auto& period = ready.dam_period)
         notes.push_back(fmt::format("added_mass.period_s = \"dam\": T = {:.6g} s, f_1 = {:.5g} Hz (incompressible "
                                     "water: {:.5g} Hz), {} solutions",
                                     1 / period->frequency, period->frequency, period->incompressible_frequency,
                                     period->iterations));
-    fe2d::ModelOptions options;
-    options.added_mass = added_mass_law(scene);
-    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
+    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), ready.model_options());
     if (rock_has_mass(scene))
         notes.push_back(
             "foundation.mass = \"with-mass\": modes are those of the dam on massless rock, from which Rayleigh's "
@@ -222,9 +219,9 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     if (acoustic) water = fe2d::build_fluid(scene);
     const ModesAnswer answer =
         water ? acoustic_modes(scene, model, *water, notes) : added_mass_modes(model, arguments.count, notes);
-    if (scene.reservoir && answer.modes.frequency.size() && !choice && !acoustic)
+    if (scene.reservoir && answer.modes.frequency.size() && !ready.reservoir && !acoustic)
         notes.push_back(criterion_sentence(scene, answer.modes.frequency[0]));
-    DampingTable damping = damping_table(scene, answer.total_mass, answer.modes, read_records(scene, plan));
+    DampingTable damping = damping_table(scene, answer.total_mass, answer.modes, ready.records());
     notes.insert(notes.end(), damping.warnings.begin(), damping.warnings.end());
     std::optional<Table> transfer;
     if (arguments.frequency_response) transfer = transfer_of(scene, model, water ? &*water : nullptr, answer.modes);

@@ -1,11 +1,8 @@
 #include "cli/reduced_command.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/reducible.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
-#include "core/parallel.hpp"
-#include "core/usage_error.hpp"
 #include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "pages/fe/contact_tables.hpp"
@@ -105,48 +102,17 @@ void write_history(const std::filesystem::path& folder, const Scene& scene, cons
 
 } // namespace
 
-int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
-                const std::vector<RecordPair>& records, const Streams& streams)
+int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams& streams)
 {
-    check_reducible(scene);
-    SeepageSource seepage;
+    const Scene& scene = ready.scene;
+    const EffectPlan& plan = ready.plan;
+    const std::vector<RecordPair>& records = ready.records();
     TerminalWatch watch(streams);
-    fe2d::RunOptions options = contact_options(scene, records, seepage);
-    options.progress = [&](const fe2d::RunProgress&) {
-        return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
-    };
-    options.stop = watch.stop();
-    const std::vector<int> polarities = polarities_of(arguments, scene);
-    watch.begin("fe --reduced", static_cast<double>(records.size() * polarities.size()));
-    watch.phase("set-up");
-    const fe2d::EarthquakeRun full(scene, options);
-    const int modes = arguments.modes.value_or(fe2d::default_modes);
-    const fe2d::ReducedRun model(full, scene, options, modes);
-    CoarserMesh coarser(scene, records, arguments.mesh_error, options.progress, options.stop, modes);
-    const RigidModel rigid = make_rigid_model(scene, seepage.profile_of(scene));
-
-    std::vector<ReducedRecord> runs;
-    for (const RecordPair& pair : records) {
-        if (watch.stop_asked()) break;
-        std::vector<ReducedRecord> both(polarities.size());
-        parallel_for(polarities.size(), 0, [&](std::size_t i) {
-            ReducedRecord& run = both[i];
-            run.record = pair.files.name;
-            run.motion = ground_motion(scene, pair, 1.0, polarities[i]);
-            run.polarity = shown_polarity(scene, polarities[i]);
-            run.both = polarities.size() > 1;
-            run.result = model.run(run.motion);
-            watch.results_at_hand();
-            run.mesh = coarser.error_of(run.result, run.motion);
-            if (rigid.state == sliding::StaticState::at_rest) run.rigid = slide_model(scene, rigid, run.motion, 1);
-            watch.advance(1);
-        });
-        for (ReducedRecord& run : both) {
-            runs.push_back(std::move(run));
-            if (!arguments.out.empty()) write_history(arguments.out, scene, runs.back());
-        }
-    }
-    watch.end();
+    ReducedRuns all(ready, fe_options(arguments), watch);
+    const fe2d::EarthquakeRun& full = all.full();
+    const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
+        if (!arguments.out.empty()) write_history(arguments.out, scene, run);
+    });
     const std::vector<ContactRun> list = as_contact_runs(runs);
     const Table table = reduced_table(runs, scene.criteria.allowable_slip);
     const pages::Headline headline = fe_headline(scene, list, "step and modes");
@@ -180,12 +146,12 @@ int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPl
     say_written(arguments.out, streams);
     if (!arguments.out.empty()) {
         const std::filesystem::path file = arguments.out / "report.html";
-        write_file(file, pages::page_html(
-                             reduced_page({scene, plan, records, full, rigid, options.uplift, runs, table, messages})));
+        write_file(file, pages::page_html(reduced_page(
+                             {scene, plan, records, full, all.rigid(), all.uplift(), runs, table, messages})));
         if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
     }
-    const bool all = runs.size() == records.size() * polarities.size();
-    return all ? exit_code_of(list) : exit_no_answer;
+    const bool whole = runs.size() == all.whole();
+    return whole ? exit_code_of(list) : exit_no_answer;
 }
 
 } // namespace damslip::cli

@@ -7,7 +7,6 @@ namespace damslip::cli {
 
 /// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
 /// changes.
-int run_reduced(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
-                const std::vector<RecordPair>& records, const Streams& streams);
+int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams& streams);
 
 } // namespace damslip::cli

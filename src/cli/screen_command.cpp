@@ -127,23 +127,21 @@ void print_text(const Scene& given, const Scene& scene, const Screening& s, std:
 
 int screen(const ScreenArguments& arguments, const Streams& streams)
 {
-    Scene given = read_run_scene(arguments.inputs, streams);
-    const std::string modes = resolve_flexible_modes(given);
-    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
-    const Scene scene = called_for(plan, given);
-    const std::vector<RecordPair> records = read_records(scene, plan);
+    PrepareOptions options;
+    options.flexible_modes = true;
+    options.stop = streams.stop;
+    const Ready ready = prepare(read_run_scene(arguments.inputs, streams), Method::rigid_block, options);
+    const Scene &given = ready.given, &scene = ready.scene;
+    const std::vector<RecordPair>& records = ready.records();
     for (const RecordPair& pair : records)
         for (const Record* r : {&pair.horizontal, pair.vertical ? &*pair.vertical : nullptr})
             if (r && !streams.quiet)
                 for (const std::string& warning : r->warnings)
                     streams.talk << "note: " << pair.files.name << ": " << warning << "\n";
 
-    Screening s = run_screening(scene, plan, records, arguments.jobs);
+    Screening s = run_screening(ready, arguments.jobs);
     for (std::string& note : note_texts(given.notes)) s.warnings.push_back(std::move(note));
-    if (!modes.empty()) {
-        s.mass_ratio_words = "of the tied modes";
-        s.warnings.push_back(modes);
-    }
+    if (!ready.flexible_modes.empty()) s.warnings.push_back(ready.flexible_modes);
     if (!given.lift_joints.empty())
         s.warnings.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
                                          "[[lift_joint]] is left to `damslip fe`.",

@@ -103,11 +103,10 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const SweepArguments sweep = grid_arguments(arguments);
     const Axes axes = make_axes(sweep, scene);
     const TaskList tasks = make_tasks(axes, 1);
-    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
-    const std::vector<RecordPair> records = read_records(called_for(plan, scene), plan);
+    const Records records = load_records(scene, Method::rigid_block);
 
     // 2. its rows
-    const SweepInputs inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
+    const Sweep inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     std::filesystem::create_directories(arguments.out);
@@ -128,7 +127,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const Table table = rows_table(grid, outcome);
     const std::vector<StudyUplift> uplifts = study_uplifts(scene);
     const std::vector<ModelModes> modes = study_modes(scene);
-    const RegressionsBeside regressions = regressions_beside_block(scene, records.front());
+    const RegressionsBeside regressions = regressions_beside_block(scene, records->front());
     const double pga = grid.measured.front().pga_g * units::standard_gravity;
     const std::vector<Finding> findings = study_findings({scene, rows, uplifts, modes, regressions, pga});
 
@@ -140,7 +139,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     write_file(arguments.out / "findings.csv", pages::csv(findings_table(findings)));
     const std::filesystem::path page = arguments.out / "report.html";
     write_file(page, pages::page_html(
-                         study_page({scene, rows, table, records, uplifts, modes, regressions, findings, settings})));
+                         study_page({scene, rows, table, *records, uplifts, modes, regressions, findings, settings})));
     journal.mark_done();
     if (streams.form == Form::json)
         streams.out << json_text(scene, table, findings, modes, settings);

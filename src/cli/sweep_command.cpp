@@ -67,20 +67,19 @@ void put_merged_report(const SweepArguments& arguments, const MergedSweep& merge
 {
     if (arguments.out.empty() || merged.rows > largest_report) return;
     std::optional<Scene> scene;
-    std::vector<RecordPair> records;
+    Records records = std::make_shared<const std::vector<RecordPair>>();
     if (!arguments.inputs.scene.empty()) {
         scene = read_run_scene(arguments.inputs, streams);
         if (merged.text.find("\n# scene " + scene_hash(*scene) + "\n") == std::string::npos)
             refuse_usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
                          "the scene the parts were made from, with the same changes on the command line",
                          "leave SCENE out");
-        const EffectPlan plan = make_effect_plan(*scene, Method::rigid_block);
-        records = read_records(called_for(plan, *scene), plan);
+        records = load_records(*scene, Method::rigid_block);
     }
     std::filesystem::path page = arguments.out;
     page.replace_extension(".html");
     write_file(page,
-               sweep_report({scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, records, arguments.out, {}}));
+               sweep_report({scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, *records, arguments.out, {}}));
     if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
 }
 
@@ -238,10 +237,10 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
 
-int run(const Job& job, const std::vector<RecordPair>& records, const Streams& streams)
+int run(const Job& job, const Records& records, const Streams& streams)
 {
     const SweepArguments& a = job.arguments;
-    const SweepInputs inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness};
+    const Sweep inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness};
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     const std::vector<std::size_t> wanted = shard_rows(job.tasks, job.shard.value_or(Shard{}));
@@ -258,7 +257,7 @@ int run(const Job& job, const std::vector<RecordPair>& records, const Streams& s
                                     outcome.rows.size(), outcome.wanted);
         return exit_no_answer;
     }
-    const int code = finish(job, identity, grid, records, wanted, outcome, streams);
+    const int code = finish(job, identity, grid, *records, wanted, outcome, streams);
     if (journal) journal->mark_done();
     return code;
 }
@@ -288,8 +287,7 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
         job.shard = parse_shard(arguments.shard, "--shard");
         job.out = part_file(arguments.out, *job.shard);
     }
-    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
-    return run(job, read_records(called_for(plan, scene), plan), streams);
+    return run(job, load_records(scene, Method::rigid_block), streams);
 }
 
 } // namespace damslip::cli

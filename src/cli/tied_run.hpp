@@ -6,7 +6,6 @@
 namespace damslip::cli {
 
 /// `fe --base tied`: static stages and the linear earthquake run of a dam bonded to its base.
-int run_tied(const FeArguments& arguments, const Scene& scene, const EffectPlan& plan,
-             const std::vector<RecordPair>& records, const Streams& streams);
+int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& streams);
 
 } // namespace damslip::cli

@@ -1,7 +1,7 @@
 #include "study/study_block.hpp"
 
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "scene/with_friction.hpp"
 #include "study/study_rows.hpp"
@@ -28,8 +28,7 @@ RigidModel block_of(const Scene& scene, const std::string& uplift, double level_
 {
     Scene here = variant(scene, level_share * scene.reservoir->level, uplift, chapter_4::block_water, 1.0);
     here = with_friction(std::move(here), friction);
-    SeepageSource seepage;
-    return make_rigid_model(here, seepage.profile_of(here));
+    return prepare(std::move(here), Method::rigid_block, nullptr).rigid_model();
 }
 
 pages::Axis axis(const char* label, const char* unit)
@@ -48,12 +47,14 @@ std::vector<StudyUplift> study_uplifts(const Scene& scene)
 {
     std::vector<StudyUplift> list;
     for (const std::string& model : chapter_4::uplifts) {
-        const Scene here = variant(scene, scene.reservoir->level, model, chapter_4::block_water, 1.0);
-        SeepageSource seepage;
+        const Ready ready = prepare(variant(scene, scene.reservoir->level, model, chapter_4::block_water, 1.0),
+                                    Method::rigid_block, nullptr);
+        const Scene& here = ready.scene;
         StudyUplift u;
         u.model = model;
-        u.profile = sliding::uplift_profile(here, sliding::scene_uplift_state(here), {}, seepage.profile_of(here));
-        const RigidModel block = make_rigid_model(here, seepage.profile_of(here));
+        u.profile =
+            sliding::uplift_profile(here, sliding::scene_uplift_state(here), {}, ready.seepage->profile_of(here));
+        const RigidModel block = ready.rigid_model();
         u.force = block.block.uplift;
         u.critical_friction = block.critical_friction;
         const double heel = u.profile.points.front().pressure, curtain = scene.curtain->distance,

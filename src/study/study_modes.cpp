@@ -1,6 +1,6 @@
 #include "study/study_modes.hpp"
 
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/reservoir.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
@@ -46,7 +46,7 @@ fe2d::NaturalModes modes_of(const Scene& scene, double size)
 ModelModes beside(const Scene& given, const Printed& printed)
 {
     const Scene variant_scene = variant(given, given.reservoir->level, "seepage", printed.water, printed.size);
-    const Scene scene = fe_scene(variant_scene, make_effect_plan(variant_scene, Method::finite_elements));
+    const Scene scene = called_for(make_effect_plan(variant_scene, Method::finite_elements), variant_scene);
     const fe2d::NaturalModes modes = modes_of(scene, printed.size);
     ModelModes out{printed.water, printed.size, {}, printed.mass_coefficient, 0.0, printed.stiffness_coefficient, 0.0};
     double sum = 0.0;

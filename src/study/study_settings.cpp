@@ -55,8 +55,7 @@ Axes ladder_axes()
 
 } // namespace
 
-std::vector<SettingsStep> settings_ladder(const Scene& given, const std::vector<RecordPair>& records, int jobs,
-                                          Watch& watch)
+std::vector<SettingsStep> settings_ladder(const Scene& given, const Records& records, int jobs, Watch& watch)
 {
     std::vector<SettingsStep> steps;
     Axes axes = ladder_axes();
@@ -67,7 +66,7 @@ std::vector<SettingsStep> settings_ladder(const Scene& given, const std::vector<
     Scene scene = given;
     for (const Change& change : changes()) {
         change.apply(scene);
-        const SweepInputs inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
+        const Sweep inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
         const Grid grid = make_grid(scene, axes, tasks, records, jobs);
         const SweepOutcome outcome = run_sweep(inputs, grid, wanted, nullptr, jobs, watch);
         if (!outcome.complete()) return steps;

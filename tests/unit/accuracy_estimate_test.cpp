@@ -102,6 +102,8 @@ std::vector<RungResult> climb(const KnownScene& known, const RungRunner& runner)
     return climb(facts, options, calls);
 }
 
+const Watch nobody;
+
 class AccuracyEstimate : public testing::TestWithParam<std::size_t> {};
 
 // An observed order between 1 and 2 is what contact with moving edges shows, so the estimate is good to a factor of two
@@ -110,7 +112,8 @@ class AccuracyEstimate : public testing::TestWithParam<std::size_t> {};
 TEST_P(AccuracyEstimate, IsWithinAFactorOfTwoOfTheError)
 {
     const KnownScene known = known_scenes()[GetParam()];
-    const RungRunner runner(known.scene, burst(known.pga), 0.0, [] { return false; });
+    const RungRunner runner(known.scene, std::make_shared<const std::vector<RecordPair>>(burst(known.pga)), 0.0,
+                            nobody);
     const std::vector<RungResult> results = climb(known, runner);
     const Judgement judgement = judge(results, 0.02);
     const double truth = true_slip(known, runner);
@@ -139,7 +142,7 @@ TEST(AccuracyRun, TheNamedRungRunAgainIsWithinTheTolerance)
     Scene scene = coarse_dam(0.70);
     scene.reservoir->model = ReservoirModel::automatic;
     scene.reservoir->length = 75.0;
-    const RungRunner runner(scene, burst(1.5), 0.0, [] { return false; });
+    const RungRunner runner(scene, std::make_shared<const std::vector<RecordPair>>(burst(1.5)), 0.0, nobody);
     const LadderFacts facts = runner.facts();
     EXPECT_EQ(facts.waters, (std::vector<RungWater>{RungWater::added_mass, RungWater::acoustic}));
     EXPECT_TRUE(facts.vertical);

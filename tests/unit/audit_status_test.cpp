@@ -1,6 +1,6 @@
 // One list of statuses in all commands: what is printed, whether there is a slip, which exit code follows.
 #include "analysis/accuracy/rung_runner.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
@@ -400,9 +400,10 @@ TEST(Audit, B3_a_seepage_that_is_not_solved_is_a_rung_without_an_answer)
 {
     Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam.toml");
     scene.motion.records.resize(1);
-    const std::vector<RecordPair> records = read_records(scene, make_effect_plan(scene, Method::rigid_block));
+    const Records records = load_records(scene, Method::rigid_block);
+    const Watch nobody;
     scene.foundation->permeability = std::nan(""); // no solver finds an answer
-    const RungRunner runner(scene, records, 0.0, [] { return false; });
+    const RungRunner runner(scene, records, 0.0, nobody);
     const RungResult r = runner.run(parse_rung("rigid:h").value());
     EXPECT_EQ(r.outcome, RungOutcome::failed);
     EXPECT_EQ(r.status, Status::not_resolved);

@@ -1,6 +1,6 @@
 // Water in the rock (stages.pore_pressure) under a dam that may slide.
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
+#include "analysis/prepare/rock_water.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "pages/fe/fe_output.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
@@ -22,8 +22,8 @@ Scene sticking_dam(PorePressure form)
 
 RunResult at_rest(const Scene& scene, Eigen::Vector2d& crest)
 {
-    SeepageSource seepage;
-    RunOptions options = contact_options(scene, {}, seepage);
+    const Watch nobody;
+    RunOptions options = prepare(scene, Method::finite_elements, nullptr).run_options(nobody);
     options.halvings = 0;
     const EarthquakeRun run(scene, options);
     GroundMotion silence;

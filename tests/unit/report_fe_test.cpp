@@ -1,6 +1,5 @@
 // The report of FE contact runs: its charts say what the runs say.
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
 #include "pages/fe/fe_report.hpp"
 #include "pages/report/page_html.hpp"
@@ -28,18 +27,19 @@ struct FeReportRun {
 FeReportRun make_run()
 {
     const Scene given = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report/fe_dam.toml");
-    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    FeReportRun out{fe_scene(given, plan), {}, {}, {}};
-    out.records = read_records(out.scene, plan);
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(out.scene, out.records, seepage);
+    const Watch nobody;
+    const Ready ready = prepare(given, Method::finite_elements);
+    const EffectPlan& plan = ready.plan;
+    FeReportRun out{ready.scene, ready.records(), {}, {}};
+    fe2d::RunOptions options = ready.run_options(nobody);
     options.pair_series = fe2d::PairSeries::every_step;
     const fe2d::EarthquakeRun model(out.scene, options);
-    const RigidModel rigid = make_rigid_model(out.scene, seepage.profile_of(out.scene));
+    const RigidModel rigid = ready.rigid_model();
     FeReport report({out.scene, plan, out.records, model, rigid, options.uplift});
     for (const RecordPair& pair : out.records) {
         const GroundMotion motion = ground_motion(out.scene, pair);
-        out.runs.push_back({pair.files.name, model.run(motion), slide_model(out.scene, rigid, motion, 1), {}});
+        out.runs.push_back(
+            {pair.files.name, model.run(motion), slide_model(out.scene, rigid, motion, 1), {}, 1, false, {}});
         report.add(out.runs.back(), motion);
     }
     out.page = report.page(out.runs, {contact_energy_table(out.runs)}, {"a message"});

@@ -28,11 +28,8 @@ struct ReportRun {
 
 ReportRun report_run(const Scene& given)
 {
-    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
-    ReportRun run{called_for(plan, given), {}, {}};
-    run.records = read_records(run.scene, plan);
-    run.screening = run_screening(run.scene, plan, run.records, 1);
-    return run;
+    const Ready ready = prepare(given, Method::rigid_block);
+    return {ready.scene, ready.records(), run_screening(ready, 1)};
 }
 
 std::vector<const pages::Chart*> charts_of(const pages::Page& page)

@@ -32,11 +32,9 @@ std::vector<RegressionRow> regression_rows_of(const std::string& tables, const s
                         tables + "[[motion.record]]\nhorizontal = \"sine.csv\"\n" + of_record,
                     "block.toml", FileCheck::skip);
     const Record sine = ten_cycles();
-    const EffectPlan plan = make_effect_plan(scene, Method::rigid_block);
-    scene = called_for(plan, scene);
-    std::vector<RecordPair> records;
-    records.push_back({scene.motion.records.at(0), sine, std::nullopt});
-    return run_screening(scene, plan, records, 1).regressions;
+    const auto records = std::make_shared<const std::vector<RecordPair>>(
+        std::vector<RecordPair>{{scene.motion.records.at(0), sine, std::nullopt}});
+    return run_screening(prepare(scene, Method::rigid_block, records), 1).regressions;
 }
 
 const RegressionRow* row_named(const std::vector<RegressionRow>& rows, const std::string& model)

@@ -3,6 +3,7 @@
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "core/processor_clock.hpp"
 #include "core/status.hpp"
 
 #include <algorithm>
@@ -43,15 +44,6 @@ double difference_error(const AblationStep& step, double at_step, double at_othe
     return step.other < step.halvings ? finer : halved * finer;
 }
 
-ReadyScene ready(const Scene& scene, Method method, const std::vector<RecordPair>& records)
-{
-    const EffectPlan plan = make_effect_plan(scene, method);
-    ReadyScene ready{called_for(plan, scene), records};
-    if (!plan.on(Effect::vertical_motion))
-        for (RecordPair& pair : ready.records) pair.vertical.reset();
-    return ready;
-}
-
 std::vector<Point> seepage_points(const Scene& scene)
 {
     if (!scene.uplift || scene.uplift->model != UpliftModel::seepage || !scene.reservoir) return {};
@@ -64,13 +56,14 @@ std::vector<Point> seepage_points(const Scene& scene)
     return points;
 }
 
-AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPair>& records, int jobs, Watch& watch)
+AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int jobs, Watch& watch)
 {
     const std::vector<const Scene*> scenes = scenes_of(plan);
     AblationRuns runs;
     runs.jobs = thread_count(jobs);
     runs.scenes.resize(scenes.size());
-    if (plan.method == Method::finite_elements) runs.step = choose_step(ready(plan.full, plan.method, records), watch);
+    if (plan.method == Method::finite_elements)
+        runs.step = choose_step(prepare(plan.full, plan.method, records, {.stop = watch.stop()}), watch);
     std::vector<double> shares(scenes.size(), 0.0);
     std::mutex mutex;
     watch.begin("ablate", static_cast<double>(bar_parts * scenes.size()));
@@ -82,13 +75,16 @@ AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPai
             for (const double s : shares) sum += s;
             watch.at(bar_parts * sum);
         };
-        const ReadyScene scene = ready(*scenes[i], plan.method, records);
         try {
-            runs.scenes[i] = runs.step ? run_fe(scene, *runs.step, watch, done) : run_rigid(scene, watch);
+            const ProcessorClock clock;
+            const Ready ready = prepare(*scenes[i], plan.method, records, {.stop = watch.stop()});
+            const double seconds = clock.seconds();
+            runs.scenes[i] = runs.step ? run_fe(ready, *runs.step, watch, done) : run_rigid(ready, watch);
+            if (runs.step) runs.scenes[i].set_up_seconds += seconds; // of a dam's own period
         } catch (const NotConverged& error) {
-            runs.scenes[i] = without_model(Status::not_resolved, error.diagnostic().problem, records.size());
+            runs.scenes[i] = without_model(Status::not_resolved, error.diagnostic().problem, records->size());
         } catch (const Interrupted& stopped) { // in its set-up
-            runs.scenes[i] = without_model(Status::interrupted, stopped.what(), records.size());
+            runs.scenes[i] = without_model(Status::interrupted, stopped.what(), records->size());
         }
         watch.results_at_hand();
         done(1.0);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/ablation/ablation.hpp"
-#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
 
@@ -56,24 +56,17 @@ struct AblationRuns {
 
 /// Runs all scenes on all records. Figures other than seconds do not depend on the number of threads.
 /// @param jobs  threads, one scene each; 0: all cores
-AblationRuns run_ablations(const AblationPlan& plan, const std::vector<RecordPair>& records, int jobs, Watch& watch);
+AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int jobs, Watch& watch);
 
 /// Base profile of uplift.model = "seepage" as uplift.points_m, p over that of the heel; empty: another model, or no
 /// head at the heel. @throws InputError, NotConverged as the seepage
 std::vector<Point> seepage_points(const Scene& scene);
 
-/// What a scene's runs are made of: the scene as its own plan calls for it, and its records.
-struct ReadyScene {
-    Scene scene;
-    std::vector<RecordPair> records; ///< verticals only where the plan has vertical motion
-};
-ReadyScene ready(const Scene& scene, Method method, const std::vector<RecordPair>& records);
-
-SceneRuns run_rigid(const ReadyScene& ready, const Watch& watch);
+SceneRuns run_rigid(const Ready& ready, const Watch& watch);
 /// @param fraction  told how much of the scene's runs is done, 0 ... 1
-SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Watch& watch,
+SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watch,
                  const std::function<void(double fraction)>& done);
 /// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
-AblationStep choose_step(const ReadyScene& full, const Watch& watch);
+AblationStep choose_step(const Ready& full, const Watch& watch);
 
 } // namespace damslip

@@ -1,7 +1,5 @@
 #include "analysis/ablation/ablation_runs.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
 #include "core/processor_clock.hpp"
 
 #include <algorithm>
@@ -13,16 +11,6 @@ namespace {
 
 /// Where the step is chosen: the full scene may do with a longer one, but simpler scenes slip more, or less damped.
 constexpr int least_halvings = 3;
-
-fe2d::RunOptions options_of(Scene& scene, const std::vector<RecordPair>& records, const Watch& watch)
-{
-    const StopAsked stop = watch.stop();
-    resolve_dam_period(scene, stop);
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(scene, records, seepage);
-    options.stop = stop;
-    return options;
-}
 
 /// Largest distance of the crest from where it stood over the base [m].
 std::optional<double> crest_motion(const fe2d::RunHistory& history)
@@ -58,16 +46,17 @@ double whole_work(const AblationStep& step, std::size_t records)
 
 } // namespace
 
-SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Watch& watch,
+SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watch,
                  const std::function<void(double fraction)>& done)
 {
     SceneRuns runs;
-    Scene scene = ready.scene;
+    const Scene& scene = ready.scene;
+    const std::vector<RecordPair>& records = ready.records();
     const ProcessorClock clock;
-    fe2d::RunOptions options = options_of(scene, ready.records, watch);
+    fe2d::RunOptions options = ready.run_options(watch);
     double before = 0.0, weight = std::exp2(step.halvings);
     options.progress = [&](const fe2d::RunProgress& p) {
-        done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, ready.records.size()));
+        done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, records.size()));
         return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     options.halvings = step.halvings;
@@ -82,10 +71,10 @@ SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Watch&
         before += weight;
         return result;
     };
-    for (const RecordPair& pair : ready.records) {
+    for (const RecordPair& pair : records) {
         runs.records.emplace_back();
         if (watch.stop_asked()) continue;
-        const GroundMotion motion = ground_motion(scene, pair);
+        const GroundMotion motion = ready.motion(pair);
         const ProcessorClock run_clock;
         const fe2d::RunResult result = run(model, motion, step.halvings);
         const double seconds = run_clock.seconds();
@@ -99,23 +88,17 @@ SceneRuns run_fe(const ReadyScene& ready, const AblationStep& step, const Watch&
     return runs;
 }
 
-AblationStep choose_step(const ReadyScene& full, const Watch& watch)
+AblationStep choose_step(const Ready& full, const Watch& watch)
 {
     AblationStep step;
     step.chosen = !full.scene.time.substeps;
     double dt = 0.0;
-    for (const RecordPair& pair : full.records)
-        dt = std::max(dt, full.scene.time.dt.value_or(ground_motion(full.scene, pair).dt));
+    for (const RecordPair& pair : full.records()) dt = std::max(dt, full.scene.time.dt.value_or(full.motion(pair).dt));
     step.halvings = full.scene.time.substeps.value_or(0);
     if (step.chosen) {
-        Scene scene = full.scene;
-        fe2d::RunOptions options = options_of(scene, full.records, watch);
-        options.progress = [&](const fe2d::RunProgress&) {
-            return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
-        };
-        const fe2d::EarthquakeRun model(scene, options);
-        for (const RecordPair& pair : full.records) {
-            const fe2d::RunResult r = model.run(ground_motion(scene, pair));
+        const fe2d::EarthquakeRun model(full.scene, full.run_options(watch));
+        for (const RecordPair& pair : full.records()) {
+            const fe2d::RunResult r = model.run(full.motion(pair));
             step.halvings = std::max({step.halvings, least_halvings, r.halvings});
             step.missed = step.missed || r.status == Status::tolerance_missed;
             if (watch.stop_asked()) break;

@@ -1,7 +1,5 @@
 #include "analysis/ablation/ablation_runs.hpp"
 
-#include "analysis/prepare/rigid_model.hpp"
-#include "analysis/prepare/seepage_source.hpp"
 #include "core/processor_clock.hpp"
 
 #include <algorithm>
@@ -53,20 +51,19 @@ RecordOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)
 
 } // namespace
 
-SceneRuns run_rigid(const ReadyScene& ready, const Watch& watch)
+SceneRuns run_rigid(const Ready& ready, const Watch& watch)
 {
     SceneRuns runs;
     RigidModel model;
     runs.set_up_seconds = shortest_time([&] {
-        SeepageSource seepage; // solved anew: what a run of this scene alone costs
-        model = make_rigid_model(ready.scene, seepage.profile_of(ready.scene));
+        model = ready.with(ready.scene).rigid_model(); // seepage solved anew: what a run of this scene alone costs
     });
     runs.yield_acceleration = model.downstream.law.constant;
     runs.critical_friction = model.critical_friction;
-    for (const RecordPair& pair : ready.records) {
+    for (const RecordPair& pair : ready.records()) {
         runs.records.emplace_back();
         if (watch.stop_asked()) continue;
-        const GroundMotion motion = ground_motion(ready.scene, pair);
+        const GroundMotion motion = ready.motion(pair);
         sliding::SlideResult result;
         const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
         runs.records.back() = outcome(result, model);

@@ -1,6 +1,5 @@
 #include "analysis/accuracy/regression_rungs.hpp"
 
-#include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "sliding/empirical/ensemble.hpp"
 
@@ -22,10 +21,10 @@ double natural_sigma(const sliding::RegressionResult& r)
     return r.regression->logarithm == sliding::Logarithm::decimal ? r.sigma * std::numbers::ln10 : r.sigma;
 }
 
-std::vector<sliding::RegressionResult> results_of(const Scene& scene, const RecordPair& record, const RigidModel& model)
+std::vector<sliding::RegressionResult> results_of(const Ready& ready, const RecordPair& record, const RigidModel& model)
 {
-    const double period = scene.regressions.period;
-    return sliding::evaluate_all(regression_inputs(record, ground_motion(scene, record), model, period));
+    const double period = ready.scene.regressions.period;
+    return sliding::evaluate_all(regression_inputs(record, ready.motion(record), model, period));
 }
 
 std::optional<RegressionSlip> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
@@ -43,11 +42,11 @@ std::optional<RegressionSlip> ensemble_slip(const Scene& scene, const std::vecto
 
 } // namespace
 
-std::optional<RegressionSlip> regression_slip(const std::string& id, const Scene& scene, const RecordPair& record,
+std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
                                               const RigidModel& model)
 {
-    const std::vector<sliding::RegressionResult> results = results_of(scene, record, model);
-    if (id == "ensemble") return ensemble_slip(scene, results);
+    const std::vector<sliding::RegressionResult> results = results_of(ready, record, model);
+    if (id == "ensemble") return ensemble_slip(ready.scene, results);
     for (const sliding::RegressionResult& r : results) {
         if (r.regression->id != id || !sliding::valid(r)) continue;
         RegressionSlip slip{*r.median_cm * units::cm, {}, {}, ""};
@@ -58,17 +57,17 @@ std::optional<RegressionSlip> regression_slip(const std::string& id, const Scene
     return std::nullopt;
 }
 
-std::vector<std::string> best_regressions(const Scene& given, const std::vector<RecordPair>& records)
+std::vector<std::string> best_regressions(const Scene& scene, const Records& pairs)
 {
-    const Scene scene = called_for(make_effect_plan(given, Method::rigid_block), given);
-    SeepageSource seepage;
-    const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
+    const Ready ready = prepare(scene, Method::rigid_block, pairs);
+    const std::vector<RecordPair>& records = ready.records();
+    const RigidModel model = ready.rigid_model();
     if (model.state != sliding::StaticState::at_rest || records.empty()) return {};
     std::map<std::string_view, std::pair<std::size_t, double>> seen; // id -> records it is valid for, largest scatter
     bool ensemble = true;
     for (const RecordPair& record : records) {
-        const auto results = results_of(scene, record, model);
-        ensemble = ensemble && ensemble_slip(scene, results);
+        const auto results = results_of(ready, record, model);
+        ensemble = ensemble && ensemble_slip(ready.scene, results);
         for (const sliding::RegressionResult& r : results) {
             if (!sliding::valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
             auto& [count, scatter] = seen[r.regression->id];

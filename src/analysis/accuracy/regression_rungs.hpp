@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/ready.hpp"
 
 #include <optional>
 #include <string>
@@ -16,12 +16,12 @@ struct RegressionSlip {
 };
 
 /// @param id  of a regression, or "ensemble". Nothing where it is not valid here.
-std::optional<RegressionSlip> regression_slip(const std::string& id, const Scene& scene, const RecordPair& record,
+std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
                                               const RigidModel& model);
 
 /// The three regressions with the smallest published scatter among those that are valid for all records, and
 /// "ensemble"; best first. Scatter is chosen by, not closeness to any result. Empty: none is valid, or the block slides
 /// statically.
-std::vector<std::string> best_regressions(const Scene& scene, const std::vector<RecordPair>& records);
+std::vector<std::string> best_regressions(const Scene& scene, const Records& records);
 
 } // namespace damslip

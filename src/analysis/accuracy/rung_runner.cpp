@@ -4,10 +4,7 @@
 #include "analysis/accuracy/regression_rungs.hpp"
 #include "analysis/accuracy/variant.hpp"
 #include "analysis/fe/mesh_scale.hpp"
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "analysis/prepare/rigid_model.hpp"
 #include "core/input_error.hpp"
 #include "core/processor_clock.hpp"
 #include "core/units.hpp"
@@ -96,10 +93,8 @@ double coarsest_mesh(const Scene& scene)
 
 } // namespace
 
-RungRunner::RungRunner(Scene scene, std::vector<RecordPair> records, double read_seconds,
-                       std::function<bool()> interrupted)
-    : scene_(std::move(scene)), records_(std::move(records)), read_seconds_(read_seconds),
-      interrupted_(std::move(interrupted))
+RungRunner::RungRunner(Scene scene, Records records, double read_seconds, const Watch& watch)
+    : scene_(std::move(scene)), records_(std::move(records)), read_seconds_(read_seconds), watch_(watch)
 {
 }
 
@@ -117,7 +112,7 @@ RungResult RungRunner::run(const Rung& rung) const
             run_rigid(scene, result);
         else
             run_finite_elements(scene, result);
-        if (result.slip.size() == records_.size()) result.outcome = RungOutcome::done;
+        if (result.slip.size() == records_->size()) result.outcome = RungOutcome::done;
     } catch (const Interrupted& stop) {
         result.outcome = RungOutcome::stopped;
         result.remark = stop.what();
@@ -140,13 +135,11 @@ RungResult RungRunner::run(const Rung& rung) const
 void RungRunner::run_regression(const Rung& rung, RungResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    SeepageSource seepage;
-    const EffectPlan plan = make_effect_plan(scene_, Method::rigid_block);
-    const Scene scene = called_for(plan, scene_);
-    const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
+    const Ready ready = prepare(scene_, Method::rigid_block, records_);
+    const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : records_) {
-        const auto slip = regression_slip(rung.regression, scene, pair, model);
+    for (const RecordPair& pair : ready.records()) {
+        const auto slip = regression_slip(rung.regression, ready, pair, model);
         if (!slip) {
             result.status =
                 model.state == sliding::StaticState::at_rest ? Status::refused : sliding::status_of(model.state);
@@ -168,15 +161,11 @@ void RungRunner::run_regression(const Rung& rung, RungResult& result) const
 void RungRunner::run_rigid(const Scene& given, RungResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    SeepageSource seepage;
-    const EffectPlan plan = make_effect_plan(given, Method::rigid_block);
-    const Scene scene = called_for(plan, given);
-    const RigidModel model = make_rigid_model(scene, seepage.profile_of(scene));
+    const Ready ready = prepare(given, Method::rigid_block, records_);
+    const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : records_) {
-        GroundMotion motion = ground_motion(scene, pair);
-        if (!scene.motion.vertical) motion = horizontal_only(std::move(motion));
-        const sliding::SlideResult r = slide_model(scene, model, motion, 1);
+    for (const RecordPair& pair : ready.records()) {
+        const sliding::SlideResult r = slide_model(ready.scene, model, ready.motion(pair), 1);
         result.status = r.status;
         if (r.status != Status::at_rest) {
             result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : r.notes.front();
@@ -189,25 +178,20 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
 void RungRunner::run_finite_elements(const Scene& given, RungResult& result) const
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
-    const EffectPlan plan = make_effect_plan(given, Method::finite_elements);
-    Scene scene = fe_scene(given, plan);
-    resolve_dam_period(scene, interrupted_);
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(scene, records_, seepage);
-    options.progress = [this](const fe2d::RunProgress&) {
-        return interrupted_() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
-    };
-    options.stop = interrupted_;
-    const fe2d::EarthquakeRun full(scene, options);
+    const bool few_modes = result.rung.modes.has_value();
+    const Ready ready =
+        prepare(given, Method::finite_elements, records_, {.reduced = few_modes, .stop = watch_.stop()});
+    const fe2d::RunOptions options = ready.run_options(watch_);
+    const fe2d::EarthquakeRun full(ready.scene, options);
     std::optional<fe2d::ReducedRun> reduced;
-    if (result.rung.modes) reduced.emplace(full, scene, options, *result.rung.modes);
+    if (few_modes) reduced.emplace(full, ready.scene, options, *result.rung.modes);
     result.unknowns = full.water() ? static_cast<std::int64_t>(full.water()->size) + full.model().counts.unknowns -
                                          static_cast<std::int64_t>(full.water()->dam_unknowns)
                                    : full.model().counts.unknowns;
     if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
     result.set_up_seconds = clock.seconds();
-    for (const RecordPair& pair : records_) {
-        const GroundMotion motion = ground_motion(scene, pair);
+    for (const RecordPair& pair : ready.records()) {
+        const GroundMotion motion = ready.motion(pair);
         if (reduced ? !take(reduced->run(motion), result) : !take(full.run(motion), result)) return;
     }
 }
@@ -215,7 +199,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
 LadderFacts RungRunner::facts() const
 {
     LadderFacts facts;
-    facts.vertical = std::any_of(records_.begin(), records_.end(), [](const RecordPair& p) { return p.vertical; });
+    facts.vertical = std::any_of(records_->begin(), records_->end(), [](const RecordPair& p) { return p.vertical; });
     if (!facts.vertical) facts.left_out.push_back("No rung with vertical motion: the records have none that counts.");
     facts.slammer = scene_.sliding.scheme == SlidingScheme::slammer;
     facts.regressions = best_regressions(scene_, records_);

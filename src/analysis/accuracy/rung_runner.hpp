@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/accuracy/ladder.hpp"
-#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/ready.hpp"
 
 #include <functional>
 
@@ -11,8 +11,8 @@ namespace damslip {
 class RungRunner {
 public:
     /// @param read_seconds  that reading scene and records took: every rung pays them
-    /// @param interrupted  asked at every step of the record and between the parts of a set-up
-    RungRunner(Scene scene, std::vector<RecordPair> records, double read_seconds, std::function<bool()> interrupted);
+    /// @param watch  asked at every step of the record and between the parts of a set-up; outlives this
+    RungRunner(Scene scene, Records records, double read_seconds, const Watch& watch);
 
     /// Once, with its seconds and memory. Input that a rung does not admit (mesh, law) and runs without an answer are a
     /// failed result, never a throw.
@@ -22,7 +22,7 @@ public:
     LadderFacts facts() const;
 
     const Scene& scene() const { return scene_; }
-    const std::vector<RecordPair>& records() const { return records_; }
+    const std::vector<RecordPair>& records() const { return *records_; }
 
 private:
     void run_regression(const Rung& rung, RungResult& result) const;
@@ -30,9 +30,9 @@ private:
     void run_finite_elements(const Scene& scene, RungResult& result) const;
 
     Scene scene_;
-    std::vector<RecordPair> records_;
+    Records records_;
     double read_seconds_;
-    std::function<bool()> interrupted_;
+    const Watch& watch_;
 };
 
 } // namespace damslip

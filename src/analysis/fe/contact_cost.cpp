@@ -1,8 +1,5 @@
 #include "analysis/fe/contact_cost.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -50,7 +47,7 @@ Table part_table(const fe2d::EarthquakeRun& model, const fe2d::RunResult& trial)
     return t;
 }
 
-Table record_table(const Scene& scene, const EffectPlan& plan, double seconds_per_step)
+Table record_table(const Ready& ready, double seconds_per_step)
 {
     Table t;
     t.title = "Estimate by record";
@@ -60,11 +57,9 @@ Table record_table(const Scene& scene, const EffectPlan& plan, double seconds_pe
                  {"least_seconds", "run", "s", 2}};
     t.notes.push_back("run: two passes, whole and half steps; each halving more that the slip asks for costs twice the "
                       "one before.");
-    for (const RecordFiles& r : scene.motion.records)
-        if (!std::filesystem::exists(r.horizontal)) return t;
-    for (const RecordPair& pair : read_records(scene, plan)) {
-        const GroundMotion motion = ground_motion(scene, pair);
-        const double dt = scene.time.dt.value_or(motion.dt);
+    for (const RecordPair& pair : ready.records()) {
+        const GroundMotion motion = ready.motion(pair);
+        const double dt = ready.scene.time.dt.value_or(motion.dt);
         const auto steps = static_cast<std::int64_t>(
             std::ceil(motion.dt * static_cast<double>(motion.accel_h.size() - 1) / dt - 1e-9));
         const double pass = static_cast<double>(steps) * seconds_per_step;
@@ -75,11 +70,11 @@ Table record_table(const Scene& scene, const EffectPlan& plan, double seconds_pe
 
 } // namespace
 
-ContactCost contact_cost(const Scene& given, const EffectPlan& plan)
+ContactCost contact_cost(const Ready& ready)
 {
-    const Scene scene = called_for(plan, given);
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(scene, {}, seepage);
+    const Scene& scene = ready.scene;
+    const Watch nobody;
+    fe2d::RunOptions options = ready.run_options(nobody);
     options.halvings = 0;
     std::int64_t steps = 0;
     options.progress = [&](const fe2d::RunProgress& p) { // the run-out is of no interest
@@ -101,7 +96,7 @@ ContactCost contact_cost(const Scene& given, const EffectPlan& plan)
     cost.set_up_seconds = model.seconds();
     if (steps > 0) cost.seconds_per_step = trial.seconds.dynamics / static_cast<double>(steps);
     cost.parts = part_table(model, trial);
-    if (cost.seconds_per_step) cost.records = record_table(scene, plan, *cost.seconds_per_step);
+    if (cost.seconds_per_step) cost.records = record_table(ready, *cost.seconds_per_step);
     return cost;
 }
 

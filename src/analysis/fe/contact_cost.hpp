@@ -1,8 +1,7 @@
 #pragma once
 
+#include "analysis/prepare/ready.hpp"
 #include "core/table.hpp"
-#include "scene/effect_plan.hpp"
-#include "scene/scene.hpp"
 
 #include <optional>
 
@@ -17,7 +16,7 @@ struct ContactCost {
     std::optional<double> seconds_per_step; ///< none: the dam does not stand before the earthquake
 };
 
-/// @param plan  of the finite-element method
-ContactCost contact_cost(const Scene& scene, const EffectPlan& plan);
+/// @param ready  for finite elements
+ContactCost contact_cost(const Ready& ready);
 
 } // namespace damslip

@@ -1,7 +1,6 @@
 #include "analysis/fe/mesh_error.hpp"
 
 #include "analysis/fe/mesh_scale.hpp"
-#include "analysis/prepare/contact_options.hpp"
 #include "core/input_error.hpp"
 
 #include <cmath>
@@ -23,10 +22,8 @@ void no_answer(Status status, const std::string& message, MeshError& result)
 
 } // namespace
 
-CoarserMesh::CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
-                         StopAsked stop, int modes)
-    : scene_(scene), records_(records), wanted_(wanted), progress_(std::move(progress)), stop_(std::move(stop)),
-      modes_(modes)
+CoarserMesh::CoarserMesh(const Ready& ready, bool wanted, Answer progress, const Watch& watch, int modes)
+    : ready_(ready), wanted_(wanted), progress_(std::move(progress)), watch_(watch), modes_(modes)
 {
 }
 
@@ -42,10 +39,10 @@ bool CoarserMesh::known_to_fail(Status status, double step_error, MeshError& res
     } else if (!wanted_) {
         result.check = MeshCheck::left_out;
         result.reason = "step only: --no-mesh-error";
-    } else if (scene_.mesh.file) {
+    } else if (ready_.scene.mesh.file) {
         result.check = MeshCheck::imported;
         result.reason = "step only: the mesh is imported (mesh.file)";
-    } else if (elements_on_base(scene_) < twice * least_elements) {
+    } else if (elements_on_base(ready_.scene) < twice * least_elements) {
         result.check = MeshCheck::too_coarse;
         result.reason = fmt::format("step only: elements of twice the size would leave fewer than {:g} on the base",
                                     least_elements);
@@ -59,15 +56,14 @@ bool CoarserMesh::make(MeshError& result, bool reduced)
 {
     const std::lock_guard lock(mutex_); // others who need the same model wait for it
     if (!full_ && why_not_.empty()) {
-        coarse_ = scene_;
-        scale_mesh(twice, coarse_);
-        SeepageSource seepage;
+        Scene scene = ready_.scene;
+        scale_mesh(twice, scene);
+        const Ready coarse = ready_.with(std::move(scene));
         try {
-            fe2d::RunOptions options = contact_options(coarse_, records_, seepage);
+            fe2d::RunOptions options = coarse.run_options(watch_);
             options.progress = progress_;
-            options.stop = stop_;
-            full_ = std::make_unique<const fe2d::EarthquakeRun>(coarse_, options);
-            if (reduced) reduced_ = std::make_unique<const fe2d::ReducedRun>(*full_, coarse_, options, modes_);
+            full_ = std::make_unique<const fe2d::EarthquakeRun>(coarse.scene, options);
+            if (reduced) reduced_ = std::make_unique<const fe2d::ReducedRun>(*full_, coarse.scene, options, modes_);
         } catch (const Interrupted& stopped) { // the run it was for is finished: its slip is kept
             full_.reset();
             no_answer(Status::interrupted, stopped.what(), result);

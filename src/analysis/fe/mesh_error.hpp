@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 
@@ -37,12 +37,10 @@ class CoarserMesh {
 public:
     using Answer = std::function<fe2d::RunAnswer(const fe2d::RunProgress&)>;
 
-    /// @param scene, records  outlive this @param wanted  false: every run has MeshCheck::left_out
-    /// @param modes  of reduced runs
-    /// @param progress  of the runs on it
-    /// @param stop  asked between the parts of its set-up; stopped there, the error is not known
-    CoarserMesh(const Scene& scene, const std::vector<RecordPair>& records, bool wanted, Answer progress,
-                StopAsked stop, int modes = fe2d::default_modes);
+    /// @param ready, watch  outlive this; stopped in its set-up, the error is not known
+    /// @param wanted  false: every run has MeshCheck::left_out
+    /// @param progress  of the runs on it @param modes  of reduced runs
+    CoarserMesh(const Ready& ready, bool wanted, Answer progress, const Watch& watch, int modes = fe2d::default_modes);
 
     /// @param run  of `model` with this motion
     MeshError error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run, const GroundMotion& motion);
@@ -52,14 +50,12 @@ private:
     bool known_to_fail(Status status, double step_error, MeshError& result) const;
     bool make(MeshError& result, bool reduced);
 
-    const Scene& scene_;
-    const std::vector<RecordPair>& records_;
+    const Ready& ready_;
     bool wanted_;
     Answer progress_;
-    StopAsked stop_;
+    const Watch& watch_;
     int modes_;
     std::mutex mutex_;
-    Scene coarse_;
     std::string why_not_; ///< the coarser mesh cannot be made
     std::unique_ptr<const fe2d::EarthquakeRun> full_;
     std::unique_ptr<const fe2d::ReducedRun> reduced_;

@@ -1,8 +1,9 @@
 #include "analysis/prepare/flexible_mass.hpp"
 
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/prepare/reservoir.hpp"
 #include "core/usage_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "scene/effect_plan.hpp"
 #include "scene/section.hpp"
 #include "sliding/flexible/mode_shape.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
@@ -58,7 +59,7 @@ std::string mass_ratio_words(const Scene& scene)
 std::string resolve_flexible_modes(Scene& scene)
 {
     if (!scene.flexible_block || !scene.flexible_block->of_modes) return "";
-    Scene tied = fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
+    Scene tied = called_for(make_effect_plan(scene, Method::finite_elements), scene);
     if (tied.reservoir && tied.reservoir->model == ReservoirModel::acoustic)
         tied.reservoir->model = ReservoirModel::added_mass;
     resolve_dam_period(tied);

@@ -469,11 +469,13 @@ void add_wedge_warnings(const Scene& scene, const std::vector<RecordPair>& recor
                         std::max(0.0, model.upstream.law.constant), s.largest_pga));
 }
 
-Screening screen_wedge(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+Screening screen_wedge(const Ready& ready, int jobs)
 {
+    const Scene& scene = ready.scene;
+    const std::vector<RecordPair>& records = ready.records();
     Screening s;
-    s.plan = plan;
-    s.bases.push_back({"wedge", make_rigid_model(scene, {})});
+    s.plan = ready.plan;
+    s.bases.push_back({"wedge", ready.rigid_model()});
     add_slips(scene, records, jobs, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
@@ -484,23 +486,24 @@ Screening screen_wedge(const Scene& scene, const EffectPlan& plan, const std::ve
 
 } // namespace
 
-Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs)
+Screening run_screening(const Ready& ready, int jobs)
 {
-    if (scene.wedge) return screen_wedge(scene, plan, records, jobs);
+    const Scene& scene = ready.scene;
+    const std::vector<RecordPair>& records = ready.records();
+    if (scene.wedge) return screen_wedge(ready, jobs);
     Screening s;
-    s.plan = plan;
-    SeepageSource source;
-    const sliding::SeepageProfile seepage = source.profile_of(scene);
+    s.plan = ready.plan;
+    const sliding::SeepageProfile seepage = ready.seepage->profile_of(scene);
     const auto base = [&](const char* name, std::optional<CrackRule> crack) {
-        return BaseRow{name, make_rigid_model(scene, seepage, crack), sliding::base_limits(scene, seepage, crack)};
+        return BaseRow{name, ready.rigid_model(crack), sliding::base_limits(scene, seepage, crack)};
     };
-    const bool cracks = plan.on(Effect::base_crack);
+    const bool cracks = s.plan.on(Effect::base_crack);
     s.bases.push_back(base(cracks ? "cracked, as given" : "uncracked, as given", std::nullopt));
     s.bases.push_back(cracks ? base("uncracked", CrackRule::none)
                              : base("cracked under static loads", CrackRule::fixed_static));
     s.dry_base = base_taken_as_dry(scene);
     s.flexible = flexible_block(scene);
-    s.mass_ratio_words = mass_ratio_words(scene);
+    s.mass_ratio_words = ready.flexible_modes.empty() ? mass_ratio_words(scene) : "of the tied modes";
     add_slips(scene, records, jobs, s);
     add_equilibrium(scene, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/flexible_mass.hpp"
-#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "core/status_count.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
@@ -117,8 +117,8 @@ const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::
 /// Statuses of all slides of a screening.
 StatusCount statuses_of(const Screening& screening);
 
-/// @param scene  as the plan calls for it @param jobs  threads, 0: all cores
-Screening run_screening(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records, int jobs);
+/// @param ready  for the rigid block @param jobs  threads, 0: all cores
+Screening run_screening(const Ready& ready, int jobs = 0);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.
 bool overturns(const BaseRow& base);

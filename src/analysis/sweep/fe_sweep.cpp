@@ -1,9 +1,7 @@
 #include "analysis/sweep/fe_sweep.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/fe_inputs.hpp"
+#include "analysis/fe/fe_meter.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "analysis/sweep/fe_meter.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
@@ -75,17 +73,15 @@ void add(const FeSweepCounts& c, FeSweepCounts& sum)
     sum.failures.insert(c.failures.begin(), c.failures.end());
 }
 
-Scene scene_of(const SweepInputs& in, const GridIndex& at)
+Scene scene_of(const Sweep& in, const GridIndex& at)
 {
-    const Scene scene =
-        with_law(variant_of(in.scene, in.axes, at), in.axes.method[at.method].law, in.penalty_stiffness);
-    return fe_scene(scene, make_effect_plan(scene, Method::finite_elements));
+    return with_law(variant_of(in.scene, in.axes, at), in.axes.method[at.method].law, in.penalty_stiffness);
 }
 
 /// Groups through their models.
 class FeGroups {
 public:
-    FeGroups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, Watch& watch, const BeginRows& begin,
+    FeGroups(const Sweep& inputs, const std::vector<FeGroup>& groups, Watch& watch, const BeginRows& begin,
              const TakeSlips& take)
         : in_(inputs), meter_(watch), watch_(watch), begin_(begin), take_(take)
     {
@@ -101,7 +97,7 @@ public:
         if (!watch_.stop_asked()) {
             begin_(group.rows);
             try {
-                if (prepare(model, at, counts))
+                if (made(model, at, counts))
                     run_prepared(model, at, group, counts);
                 else {
                     FeSlip none;
@@ -132,8 +128,8 @@ private:
 
     void run_prepared(const PreparedModel& model, const GridIndex& at, const FeGroup& group, FeSweepCounts& counts)
     {
-        const GroundMotion motion =
-            ground_motion(in_.scene, in_.records[at.record], in_.axes.scale[at.scale], in_.axes.polarity[at.polarity]);
+        const GroundMotion motion = ground_motion(in_.scene, (*in_.records)[at.record], in_.axes.scale[at.scale],
+                                                  in_.axes.polarity[at.polarity]);
         if (in_.axes.method[at.method].reduced)
             run_reduced_group(model, motion, group, counts);
         else
@@ -141,7 +137,7 @@ private:
     }
 
     /// @returns false where a solver found no answer: then there is no model, for any of its rows
-    bool prepare(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
+    bool made(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
     {
         const std::lock_guard lock(model.mutex); // others who need the same model wait for it
         if (!model.why_not.empty()) return false;
@@ -157,15 +153,11 @@ private:
     void make(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
     {
         if (!model.full) {
-            model.scene = scene_of(in_, at);
-            const StopAsked stop = watch_.stop();
-            if (!in_.axes.method[at.method].reduced)
-                if (const auto choice = resolve_reservoir_model(model.scene, stop))
-                    counts.choices.insert(choice->reason);
-            resolve_dam_period(model.scene, stop);
-            SeepageSource seepage;
-            model.options = contact_options(model.scene, in_.records, seepage);
-            model.options.stop = stop;
+            const Ready ready = prepare(scene_of(in_, at), Method::finite_elements, in_.records,
+                                        {.reduced = in_.axes.method[at.method].reduced, .stop = watch_.stop()});
+            if (ready.reservoir) counts.choices.insert(ready.reservoir->reason);
+            model.scene = ready.scene;
+            model.options = ready.run_options(watch_);
             model.options.progress = [this](const fe2d::RunProgress& p) {
                 meter_.step(p);
                 return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
@@ -220,7 +212,7 @@ private:
 
     bool keep_histories() const { return in_.tasks.rows() <= most_rows_with_history; }
 
-    const SweepInputs& in_;
+    const Sweep& in_;
     FeMeter meter_;
     Watch& watch_;
     const BeginRows& begin_;
@@ -230,7 +222,14 @@ private:
 
 } // namespace
 
-void check_fe_scenes(const SweepInputs& in)
+Sweep make_sweep(Scene scene, Axes axes)
+{
+    Records records = load_records(scene, Method::rigid_block);
+    const TaskList tasks = make_tasks(axes, records->size());
+    return {std::move(scene), std::move(axes), tasks, std::move(records)};
+}
+
+void check_fe_scenes(const Sweep& in)
 {
     for (std::size_t variant = 0; variant < in.tasks.variants(); ++variant)
         for (std::size_t method = 0; method < in.axes.method.size(); ++method) {
@@ -238,11 +237,12 @@ void check_fe_scenes(const SweepInputs& in)
             GridIndex at = in.tasks.index(variant * in.tasks.motions() * in.tasks.method);
             at.method = method;
             const Scene scene = scene_of(in, at);
-            if (in.axes.method[method].reduced) check_reducible(scene);
+            const EffectPlan plan = make_effect_plan(scene, Method::finite_elements);
+            if (in.axes.method[method].reduced) check_reducible(called_for(plan, scene));
         }
 }
 
-FeSweepCounts run_fe_groups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
+FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
                             const BeginRows& begin, const TakeSlips& take)
 {
     FeGroups runner(inputs, groups, watch, begin, take);

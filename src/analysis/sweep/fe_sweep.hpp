@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/slip_history.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/status.hpp"
@@ -33,18 +33,21 @@ struct FeSweepCounts {
     std::set<std::string> failures; ///< why models could not be made, a sentence each
 };
 
-/// What FE runs need of a sweep.
-struct SweepInputs {
-    const Scene& scene; ///< as given, not yet called for by an effect plan
-    const Axes& axes;
-    const TaskList& tasks;
-    const std::vector<RecordPair>& records;
-    std::optional<int> modes;                ///< of reduced runs
-    std::optional<double> penalty_stiffness; ///< [N/m^3]
+/// A scene and all that is varied of it.
+struct Sweep {
+    Scene scene; ///< as given, not yet called for by an effect plan
+    Axes axes;
+    TaskList tasks;
+    Records records;
+    std::optional<int> modes = {};                ///< of reduced runs
+    std::optional<double> penalty_stiffness = {}; ///< of the method fe-penalty [N/m^3]; none: the scene's
 };
 
+/// Reads the records. @throws InputError
+Sweep make_sweep(Scene scene, Axes axes);
+
 /// Scenes that FE cannot take are found here, before anything is computed. @throws UsageError
-void check_fe_scenes(const SweepInputs& inputs);
+void check_fe_scenes(const Sweep& inputs);
 
 /// Takes ids and their slips as soon as they are there; called from several threads.
 using TakeSlips = std::function<void(std::span<const std::size_t> ids, std::span<const FeSlip> slips)>;
@@ -55,7 +58,7 @@ using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
 /// Runs all groups. Mesh, matrices and condensed rock of a variant and contact law are made once, when the first of its
 /// groups comes up, and given back after the last; the frictions of a group go through the earthquake together.
 /// Results do not depend on the number of threads.
-FeSweepCounts run_fe_groups(const SweepInputs& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
+FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
                             const BeginRows& begin, const TakeSlips& take);
 
 } // namespace damslip

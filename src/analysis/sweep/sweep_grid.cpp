@@ -1,6 +1,5 @@
 #include "analysis/sweep/sweep_grid.hpp"
 
-#include "analysis/prepare/seepage_source.hpp"
 #include "core/parallel.hpp"
 #include "scene/with_friction.hpp"
 
@@ -12,13 +11,13 @@ Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
                    axes.size[at.size]);
 }
 
-Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const std::vector<RecordPair>& records,
-               int jobs)
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs)
 {
     Grid grid;
     grid.axes = axes;
     grid.tasks = tasks;
-    std::vector<SeepageSource> seepage(axes.size.size()); // one profile serves one geometry
+    std::vector<std::shared_ptr<SeepageSource>> seepage; // one serves one geometry
+    for (std::size_t i = 0; i < axes.size.size(); ++i) seepage.push_back(std::make_shared<SeepageSource>());
     grid.models.resize(axes.friction.size() * tasks.variants());
     const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
     parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
@@ -26,9 +25,11 @@ Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, cons
         Scene here = variant_of(scene, axes, at);
         if (axes.friction[at.friction] != here.contact.friction)
             here = with_friction(std::move(here), axes.friction[at.friction]);
-        grid.models[i] = make_rigid_model(here, seepage[at.size].profile_of(here));
+        PrepareOptions options;
+        options.seepage = seepage[at.size];
+        grid.models[i] = prepare(std::move(here), Method::rigid_block, records, options).rigid_model();
     });
-    for (const RecordPair& pair : records) {
+    for (const RecordPair& pair : *records) {
         grid.records.push_back(pair.files.name);
         for (const double scale : axes.scale) {
             const GroundMotion motion = ground_motion(scene, pair, scale);

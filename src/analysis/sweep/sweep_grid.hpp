@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/units.hpp"
 #include "sliding/block/skipping_motion.hpp"
@@ -38,8 +38,7 @@ private:
 };
 
 /// @param scene  as given: axes may bring back what the scene itself leaves off, such as another uplift model
-Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const std::vector<RecordPair>& records,
-               int jobs);
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs);
 
 /// The scene of a variant: level, uplift, reservoir and size of `at`.
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at);

@@ -9,7 +9,7 @@
 
 namespace damslip {
 
-SweepIdentity sweep_identity(const SweepInputs& inputs)
+SweepIdentity sweep_identity(const Sweep& inputs)
 {
     const Scene& scene = inputs.scene;
     SweepIdentity identity;

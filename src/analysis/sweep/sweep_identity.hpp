@@ -16,7 +16,7 @@ struct SweepIdentity {
 };
 
 /// The record files of the scene are read.
-SweepIdentity sweep_identity(const SweepInputs& inputs);
+SweepIdentity sweep_identity(const Sweep& inputs);
 
 /// SHA-256 over all members.
 std::string hash_of(const SweepIdentity& identity);

@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace damslip {
 
@@ -59,7 +60,7 @@ private:
     std::vector<std::optional<FinishedRow>> rows_;
 };
 
-FeSweepCounts run_fe_rows(const SweepInputs& inputs, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
+FeSweepCounts run_fe_rows(const Sweep& inputs, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
                           RowStore& store)
 {
     const auto threads = static_cast<std::size_t>(thread_count(jobs));
@@ -112,8 +113,8 @@ const FinishedRow* SweepOutcome::find(std::size_t id) const
     return at != rows.end() && at->id == id ? &*at : nullptr;
 }
 
-SweepOutcome run_sweep(const SweepInputs& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
-                       Journal* journal, int jobs, Watch& watch)
+SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, Journal* journal,
+                       int jobs, Watch& watch)
 {
     RowStore store(wanted, journal, watch);
     SweepOutcome outcome;
@@ -126,6 +127,15 @@ SweepOutcome run_sweep(const SweepInputs& inputs, const Grid& grid, const std::v
     run_rigid_rows(inputs.scene, grid, missing, jobs, watch, store);
     outcome.rows = store.finished();
     return outcome;
+}
+
+SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs)
+{
+    check_fe_scenes(sweep);
+    std::vector<std::size_t> wanted(sweep.tasks.rows());
+    std::iota(wanted.begin(), wanted.end(), 0u);
+    return run_sweep(sweep, make_grid(sweep.scene, sweep.axes, sweep.tasks, sweep.records, jobs), wanted, nullptr, jobs,
+                     watch);
 }
 
 } // namespace damslip

@@ -15,11 +15,15 @@ struct SweepOutcome {
     const FinishedRow* find(std::size_t id) const; ///< nullptr: not finished
 };
 
+/// All rows of a sweep, without a journal. @param jobs  threads, 0: all cores
+/// @throws UsageError for scenes that FE cannot take, InputError, NotConverged
+SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs = 0);
+
 /// Computes the rows that are asked for: FE groups first, then the rigid block and the regressions. Rows in the journal
 /// are not computed again; what finishes goes into it at once. Ends early when interrupted.
 /// @param wanted   ids, ascending
 /// @param journal  nullptr: none
-SweepOutcome run_sweep(const SweepInputs& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
-                       Journal* journal, int jobs, Watch& watch);
+SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, Journal* journal,
+                       int jobs, Watch& watch);
 
 } // namespace damslip

@@ -44,37 +44,6 @@ std::int64_t count(std::int64_t n)
     return n;
 }
 
-bool has_slip(const ContactRun& r)
-{
-    return reported(r.fe.status, r.fe.max_slip).has_value();
-}
-
-Verdict worse(Verdict a, Verdict b)
-{
-    const auto rank = [](Verdict v) {
-        switch (v) {
-        case Verdict::fail:
-            return 3;
-        case Verdict::none:
-            return 2;
-        case Verdict::undecided:
-            return 1;
-        case Verdict::pass:
-            break;
-        }
-        return 0;
-    };
-    return rank(a) >= rank(b) ? a : b;
-}
-
-SlipError error_of(double step, double mesh, MeshCheck check)
-{
-    SlipError error{step, mesh, step};
-    if (check == MeshCheck::done) error.total = step + mesh;
-    if (check == MeshCheck::no_answer) error.total = std::numeric_limits<double>::quiet_NaN();
-    return error;
-}
-
 Table with_columns(const Table& from, std::initializer_list<std::string_view> keys)
 {
     Table t;
@@ -94,94 +63,6 @@ const Column record_column{"record", "record", "", 4};
 const Column polarity_column{"polarity", "polarity", "", 4};
 
 } // namespace
-
-std::string ContactRun::label() const
-{
-    return both ? fmt::format("{}, polarity {:+d}", record, polarity) : record;
-}
-
-std::string ContactRun::suffix() const
-{
-    return both ? fmt::format("_{:+d}", polarity) : "";
-}
-
-std::string SlipError::parts() const
-{
-    if (std::isnan(step)) return "no error estimate";
-    if (std::isnan(total)) return "step, mesh not known";
-    return std::isnan(mesh) ? "step only" : "step and mesh";
-}
-
-SlipError slip_error(const ContactRun& run)
-{
-    return error_of(run.fe.slip_error, run.mesh.base, run.mesh.check);
-}
-
-SlipError lift_error(const ContactRun& run, std::size_t lift)
-{
-    const double mesh = run.mesh.check == MeshCheck::done ? run.mesh.lifts[lift] : run.mesh.base;
-    return error_of(run.fe.lifts[lift].slip_error, mesh, run.mesh.check);
-}
-
-std::vector<std::string> error_notes(const std::vector<ContactRun>& runs)
-{
-    std::vector<std::string> list;
-    for (const ContactRun& r : runs) {
-        std::string note = r.mesh.reason;
-        if (r.mesh.check == MeshCheck::no_answer) note = r.label() + ": " + note;
-        if (has_slip(r) && std::isnan(r.fe.slip_error))
-            note = "no error estimate: the step is fixed (time.substeps), so nothing tells what it leaves open; there "
-                   "is no "
-                   "verdict by such a slip";
-        if (!note.empty() && std::find(list.begin(), list.end(), note + ".") == list.end()) list.push_back(note + ".");
-    }
-    return list;
-}
-
-bool falls_after(const ContactRun& r)
-{
-    return !r.fe.after.name.empty() && fails_statically(status_of(r.fe.after.status));
-}
-
-bool open_after(const ContactRun& r)
-{
-    return !r.fe.after.name.empty() && r.fe.after.status == fe2d::StageStatus::not_resolved;
-}
-
-Verdict verdict_of(const ContactRun& r, const std::optional<double>& allowable)
-{
-    if (status_row(r.fe.status).judging == Judging::none) return Verdict::none;
-    if (falls_after(r)) return Verdict::fail;
-    Verdict verdict = judge(r.fe.status, r.fe.max_slip, slip_error(r).total, allowable);
-    for (std::size_t k = 0; k < r.fe.lifts.size(); ++k)
-        verdict = worse(verdict, judge(r.fe.status, r.fe.lifts[k].largest_slip, lift_error(r, k).total, allowable));
-    return open_after(r) ? worse(verdict, Verdict::none) : verdict;
-}
-
-Verdict verdict_of(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
-{
-    Verdict verdict = runs.empty() ? Verdict::none : Verdict::pass;
-    for (const ContactRun& r : runs) verdict = worse(verdict, verdict_of(r, allowable));
-    return verdict;
-}
-
-const ContactRun& worst_of(const std::vector<ContactRun>& runs)
-{
-    const auto severity = [](const ContactRun& r) {
-        const int rank = status_row(r.fe.status).judging == Judging::fails && !has_slip(r) ? 2 : has_slip(r) ? 1 : 0;
-        return std::pair(rank, rank == 1 ? std::abs(r.fe.max_slip) : 0.0);
-    };
-    return *std::max_element(runs.begin(), runs.end(),
-                             [&](const ContactRun& a, const ContactRun& b) { return severity(a) < severity(b); });
-}
-
-int exit_code_of(const std::vector<ContactRun>& runs)
-{
-    int code = exit_ok;
-    for (const ContactRun& r : runs)
-        code = worse_exit_code(code, open_after(r) ? exit_no_answer : status_row(r.fe.status).exit_code);
-    return code;
-}
 
 const std::vector<EnergyTerm>& energy_terms()
 {

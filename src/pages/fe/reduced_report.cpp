@@ -10,48 +10,6 @@
 
 namespace damslip::pages {
 
-ContactRun as_contact_run(const ReducedRecord& r)
-{
-    ContactRun run;
-    run.record = r.record;
-    run.polarity = r.polarity;
-    run.both = r.both;
-    run.mesh = r.mesh;
-    run.rigid = r.rigid;
-    run.fe.status = r.result.status;
-    run.fe.message = r.result.message;
-    run.fe.stages = r.result.stages;
-    run.fe.after = r.result.after;
-    run.fe.slip = r.result.slip;
-    run.fe.max_slip = r.result.max_slip;
-    run.fe.slip_error = r.result.truncation_error + r.result.step_error;
-    run.fe.end_time = r.result.end_time;
-    fe2d::RunHistory& h = run.fe.history;
-    h.time = r.result.history.time;
-    h.slip = r.result.history.slip;
-    h.crest_x = r.result.history.crest_x;
-    h.normal_force = r.result.history.normal_force;
-    h.shear_force = r.result.history.shear_force;
-    const auto ground = [&](const std::vector<double>& accel) {
-        std::vector<double> at(h.time.size(), 0.0); // still after the record's end
-        for (std::size_t i = 0; i < h.time.size(); ++i) {
-            const auto k = static_cast<std::size_t>(std::lround(h.time[i] / r.motion.dt));
-            if (k < accel.size()) at[i] = accel[k];
-        }
-        return at;
-    };
-    h.ground_h = ground(r.motion.accel_h);
-    h.ground_v = ground(r.motion.accel_v);
-    return run;
-}
-
-std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs)
-{
-    std::vector<ContactRun> list;
-    for (const ReducedRecord& r : runs) list.push_back(as_contact_run(r));
-    return list;
-}
-
 Page reduced_page(const ReducedReportInput& in)
 {
     const int modes = in.runs.empty() ? 0 : in.runs.front().result.modes;

@@ -1,7 +1,6 @@
 #include "verification/hard/hard_scenes.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
-#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <algorithm>
@@ -37,22 +36,22 @@ Scene stiff_block(double base, double height, double friction)
 
 fe2d::RunResult fe_run(const Scene& scene, const GroundMotion& motion, std::optional<int> halvings)
 {
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(scene, {}, seepage);
+    const Watch nobody;
+    const Ready ready = prepare(scene, Method::finite_elements, nullptr);
+    fe2d::RunOptions options = ready.run_options(nobody);
     options.halvings = halvings;
-    return fe2d::EarthquakeRun(scene, options).run(motion);
+    return fe2d::EarthquakeRun(ready.scene, options).run(motion);
 }
 
 sliding::SlideResult rigid_run(const Scene& scene, const GroundMotion& motion)
 {
-    SeepageSource seepage;
-    return slide_model(scene, make_rigid_model(scene, seepage.profile_of(scene)), motion, 1);
+    const Ready ready = prepare(scene, Method::rigid_block, nullptr);
+    return slide_model(ready.scene, ready.rigid_model(), motion, 1);
 }
 
 double friction_that_holds(const Scene& scene)
 {
-    SeepageSource seepage;
-    return make_rigid_model(scene, seepage.profile_of(scene)).critical_friction;
+    return prepare(scene, Method::rigid_block, nullptr).rigid_model().critical_friction;
 }
 
 Scene with_friction_over(Scene scene, double factor)

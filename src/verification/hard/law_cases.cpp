@@ -1,6 +1,6 @@
 #include "verification/hard/hard_scenes.hpp"
 
-#include "analysis/prepare/contact_options.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/two_blocks.hpp"
@@ -68,9 +68,10 @@ HardResult five_metres()
 
 HardResult one_mode()
 {
-    const Scene scene = soft_dam(0.7);
-    SeepageSource seepage;
-    fe2d::RunOptions options = contact_options(scene, {}, seepage);
+    const Watch nobody;
+    const Ready ready = prepare(soft_dam(0.7), Method::finite_elements, nullptr);
+    const Scene& scene = ready.scene;
+    fe2d::RunOptions options = ready.run_options(nobody);
     options.halvings = 1;
     const GroundMotion motion = sines(1.0, 6.0);
     const fe2d::EarthquakeRun full(scene, options);

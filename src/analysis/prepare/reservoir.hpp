@@ -2,16 +2,12 @@
 
 #include "core/stop.hpp"
 #include "fe2d/model/model.hpp"
-#include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
 #include <string>
 
 namespace damslip {
-
-/// The scene with what the plan calls for.
-Scene fe_scene(const Scene& given, const EffectPlan& plan);
 
 /// The scene's hydrodynamic mass as the FE model takes it; empty where the reservoir is hydrostatic, acoustic or absent.
 fe2d::AddedMassLaw added_mass_law(const Scene& scene);
@@ -26,17 +22,6 @@ struct ReservoirChoice {
 /// added mass. Nothing where the scene says itself what it wants.
 /// @throws Interrupted
 std::optional<ReservoirChoice> resolve_reservoir_model(Scene& scene, const StopAsked& stop = {});
-
-/// Water in the rock as nodal forces (stages.pore_pressure = total or effective), from the seepage on the model's own mesh; zero for none.
-/// @throws NotConverged when the seepage solver loses its accuracy
-Eigen::VectorXd rock_water_load(const Scene& scene, const fe2d::Model& model);
-
-/// Does stages.pore_pressure ask for water in the rock, and is there rock?
-bool has_water_in_rock(const Scene& scene);
-
-/// The part of rock_water_load() beyond the uplift on both faces of the joint, which contact runs have by themselves. The
-/// joint's two sides must have facing nodes for stages.pore_pressure = "effective".
-Eigen::VectorXd water_in_rock(const Scene& scene, const fe2d::Model& model);
 
 /// How added_mass.period_s = "dam" came out.
 struct DamPeriod {

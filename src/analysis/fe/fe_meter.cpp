@@ -1,4 +1,4 @@
-#include "analysis/sweep/fe_meter.hpp"
+#include "analysis/fe/fe_meter.hpp"
 
 #include <algorithm>
 

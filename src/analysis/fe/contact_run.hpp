@@ -1,0 +1,81 @@
+#pragma once
+
+#include "analysis/fe/mesh_error.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/run/earthquake_run.hpp"
+#include "sliding/block/slide.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a finite-element run of one record gives, and what may be said of it.
+namespace damslip {
+
+/// The earthquake of one record, one polarity, with sliding, opening and rocking at the base.
+struct ContactRun {
+    std::string record;
+    fe2d::RunResult fe;
+    std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    std::optional<fe2d::RunResult> exact;      ///< with rigid sticking, where that of `fe` gives way
+    int polarity = 1;                          ///< -1: the record's horizontal component is flipped
+    bool both = false;                         ///< the other polarity was run, too
+    MeshError mesh;
+
+    std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
+    std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
+};
+
+/// What is known of the numerical error of a slip [m]; NaN: nothing.
+struct SlipError {
+    double step = std::numeric_limits<double>::quiet_NaN(); ///< with what reduced runs leave out, of their modes
+    double mesh = std::numeric_limits<double>::quiet_NaN();
+    double total =
+        std::numeric_limits<double>::quiet_NaN(); ///< step and mesh; step alone where no mesh part is asked for
+                                                  ///< or can be had; NaN where a part that was asked for failed
+    std::string parts() const; ///< "step and mesh", "step only", "step, mesh not known", "no error estimate"
+};
+SlipError slip_error(const ContactRun& run);
+SlipError lift_error(const ContactRun& run, std::size_t lift);
+
+/// Does its status have a slip?
+bool has_slip(const ContactRun& run);
+
+/// Why parts of the errors are not known, each reason once.
+std::vector<std::string> error_notes(const std::vector<ContactRun>& runs);
+
+/// Does what follows the earthquake fall, by its resultants?
+bool falls_after(const ContactRun& run);
+/// Did the solver find no answer for the state after the earthquake?
+bool open_after(const ContactRun& run);
+
+/// What may be said of a run: of the base, of every lift joint and of the state after the earthquake the worst. PASS and FAIL by
+/// judge(), with the total error of each slip. @param allowable  slip [m]; none: no criterion
+Verdict verdict_of(const ContactRun& run, const std::optional<double>& allowable);
+/// Of all runs: FAIL if one fails, none if one has no verdict, undecided if one is, else PASS.
+Verdict verdict_of(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+
+/// The run with the largest slip; dams that fall or run away before all others, runs without slip after them. Of equals the first.
+/// @param runs  not empty
+const ContactRun& worst_of(const std::vector<ContactRun>& runs);
+
+/// By the statuses of the runs, and of the states after the earthquake.
+int exit_code_of(const std::vector<ContactRun>& runs);
+
+/// The earthquake of one record on few modes of the dam.
+struct ReducedRecord {
+    std::string record;
+    fe2d::ReducedResult result;
+    GroundMotion motion;
+    int polarity = 1;  ///< -1: the record's horizontal component is flipped
+    bool both = false; ///< the other polarity was run, too
+    MeshError mesh;
+    std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+};
+
+/// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.
+ContactRun as_contact_run(const ReducedRecord& run);
+std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs);
+
+} // namespace damslip

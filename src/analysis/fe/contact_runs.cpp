@@ -1,0 +1,154 @@
+#include "analysis/fe/contact_runs.hpp"
+
+#include "core/parallel.hpp"
+#include "scene/exact_contact.hpp"
+
+#include <algorithm>
+
+namespace damslip {
+
+namespace {
+
+constexpr double share_of_run = 0.8; ///< of the progress of a run; the rest is that on the coarser mesh
+
+double share_of(const fe2d::RunProgress& p)
+{
+    return static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps));
+}
+
+fe2d::RunAnswer answer(const Watch& watch)
+{
+    return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+}
+
+} // namespace
+
+std::vector<int> polarities_of(const FeOptions& options, const Scene& scene)
+{
+    if (options.polarity || scene.motion.polarity) return {options.polarity.value_or(1)};
+    return {1, -1};
+}
+
+int shown_polarity(const Scene& scene, int polarity)
+{
+    return scene.motion.polarity.value_or(1) * polarity;
+}
+
+ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
+    : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(options, ready.scene)),
+      options_(ready.run_options(watch)), coarser_(
+                                              ready, options.mesh_error,
+                                              [this](const fe2d::RunProgress& p) {
+                                                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+                                                  return answer(watch_);
+                                              },
+                                              watch)
+{
+    watch.begin("fe", static_cast<double>(whole()));
+    watch.phase("set-up");
+    const fe2d::RunOptions plain = options_;
+    if (options.pair_histories) options_.pair_series = fe2d::PairSeries::every_step;
+    options_.progress = [this](const fe2d::RunProgress& p) {
+        meter_.reached(share_of_run * share_of(p));
+        return answer(watch_);
+    };
+    model_.emplace(ready.scene, options_);
+    if (const std::optional<Scene> exact = with_exact_contact(ready.scene)) exact_.emplace(*exact, plain);
+    rigid_ = ready.rigid_model();
+}
+
+std::size_t ContactRuns::whole() const
+{
+    return ready_.records().size() * polarities_.size();
+}
+
+std::vector<ContactRun> ContactRuns::run(const TakeRun& take)
+{
+    std::vector<ContactRun> runs;
+    for (const RecordPair& pair : ready_.records()) {
+        if (watch_.stop_asked()) break;
+        std::vector<GroundMotion> motions;
+        std::vector<ContactRun> both = run(pair, motions);
+        for (std::size_t i = 0; i < both.size(); ++i) {
+            runs.push_back(std::move(both[i]));
+            if (take) take(runs.back(), motions[i]);
+        }
+    }
+    watch_.end();
+    return runs;
+}
+
+/// One record with its polarities beside each other, in their order whatever the threads.
+std::vector<ContactRun> ContactRuns::run(const RecordPair& pair, std::vector<GroundMotion>& motions)
+{
+    std::vector<ContactRun> runs(polarities_.size());
+    motions.resize(polarities_.size());
+    parallel_for(polarities_.size(), 0, [&](std::size_t i) {
+        motions[i] = ready_.motion(pair, 1.0, polarities_[i]);
+        ContactRun& r = runs[i];
+        r.record = pair.files.name;
+        r.polarity = shown_polarity(ready_.scene, polarities_[i]);
+        r.both = polarities_.size() > 1;
+        run(motions[i], r);
+    });
+    return runs;
+}
+
+void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
+{
+    meter_.begin(1);
+    r.fe = model_->run(motion);
+    watch_.results_at_hand();
+    r.mesh = coarser_.error_of(*model_, r.fe, motion);
+    if (exact_ && !watch_.stop_asked()) r.exact = exact_->run(motion);
+    if (rigid_.state == sliding::StaticState::at_rest) r.rigid = slide_model(ready_.scene, rigid_, motion, 1);
+    meter_.end();
+}
+
+ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
+    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)),
+      options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
+      coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
+{
+    check_reducible(ready.scene);
+    watch.begin("fe --reduced", static_cast<double>(whole()));
+    watch.phase("set-up");
+    full_.emplace(ready.scene, options_);
+    model_.emplace(*full_, ready.scene, options_, modes_);
+    rigid_ = ready.rigid_model();
+}
+
+std::size_t ReducedRuns::whole() const
+{
+    return ready_.records().size() * polarities_.size();
+}
+
+std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
+{
+    std::vector<ReducedRecord> runs;
+    for (const RecordPair& pair : ready_.records()) {
+        if (watch_.stop_asked()) break;
+        std::vector<ReducedRecord> both(polarities_.size());
+        parallel_for(polarities_.size(), 0, [&](std::size_t i) {
+            ReducedRecord& run = both[i];
+            run.record = pair.files.name;
+            run.motion = ready_.motion(pair, 1.0, polarities_[i]);
+            run.polarity = shown_polarity(ready_.scene, polarities_[i]);
+            run.both = polarities_.size() > 1;
+            run.result = model_->run(run.motion);
+            watch_.results_at_hand();
+            run.mesh = coarser_.error_of(run.result, run.motion);
+            if (rigid_.state == sliding::StaticState::at_rest)
+                run.rigid = slide_model(ready_.scene, rigid_, run.motion, 1);
+            watch_.advance(1);
+        });
+        for (ReducedRecord& run : both) {
+            runs.push_back(std::move(run));
+            if (take) take(runs.back());
+        }
+    }
+    watch_.end();
+    return runs;
+}
+
+} // namespace damslip

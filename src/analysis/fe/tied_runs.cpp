@@ -1,0 +1,121 @@
+#include "analysis/fe/tied_runs.hpp"
+
+#include "analysis/prepare/rock_water.hpp"
+#include "analysis/prepare/tied_scheme.hpp"
+#include "core/input_error.hpp"
+#include "core/stopwatch.hpp"
+#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/time/integrate.hpp"
+#include "fe2d/time/modal_run.hpp"
+#include "fe2d/time/structure_system.hpp"
+#include "scene/rock_mass.hpp"
+
+#include <algorithm>
+
+namespace damslip {
+
+namespace {
+
+fe2d::History integrate_by(TimeScheme scheme, const fe2d::Model& model, const GroundMotion& motion,
+                           const fe2d::TiedRunOptions& options)
+{
+    if (scheme == TimeScheme::central_difference) return fe2d::integrate_explicit(model, motion, options);
+    if (scheme == TimeScheme::modal) return fe2d::integrate_modal(model, motion, options);
+    return fe2d::integrate(model, motion, options);
+}
+
+/// Static loads and where they leave the dam, on the unknowns of TiedModels::moving().
+fe2d::HeldStart start_of(const TiedModels& models, const Eigen::VectorXd& load, const fe2d::StaticSolution& statics)
+{
+    if (!models.on_free_edges) return {{}, load};
+    const Eigen::VectorXd rest =
+        statics.stages.empty() ? Eigen::VectorXd::Zero(load.size()) : statics.stages.back().elastic;
+    return fe2d::held_edges(models.still, *models.on_free_edges, rest, load);
+}
+
+fe2d::ModelOptions model_options(const Ready& ready)
+{
+    fe2d::ModelOptions options = ready.model_options();
+    if (ready.scene.time.scheme == TimeScheme::central_difference) options.mass = fe2d::MassKind::lumped;
+    return options;
+}
+
+} // namespace
+
+TiedModels::TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : still(fe2d::build_model(scene, options))
+{
+    if (!rock_has_mass(scene)) return;
+    massless = fe2d::build_model(with_massless_rock(scene), options);
+    fe2d::ModelOptions free = options;
+    free.edges = fe2d::RockEdges::free;
+    if (rock_edges_are_viscous(scene)) on_free_edges = fe2d::build_model(scene, free);
+}
+
+TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
+    : ready_(ready), watch_(watch), polarity_(options.polarity.value_or(1)), models_(ready.scene, model_options(ready))
+{
+    const Scene& scene = ready.scene;
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
+        water_ = fe2d::build_fluid(scene);
+    fe2d::StaticLoads loads = fe2d::static_loads(scene, model());
+    if (scene.stages.pore_pressure != PorePressure::none)
+        loads.impounding.push_back({"water in the rock", rock_water_load(scene, model()), Eigen::Vector2d::Zero()});
+    statics_ = fe2d::solve_static(scene, model(), loads);
+    if (!statics_.solver.ok())
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
+                                      "the static stages could not be solved: " + statics_.solver.text(),
+                                      "a model held by its foundation", "check [foundation] and the materials"});
+    const Eigen::Index unknowns = model().dofs.count;
+    start_ =
+        start_of(models_, fe2d::sum_of(loads.gravity, unknowns) + fe2d::sum_of(loads.impounding, unknowns), statics_);
+}
+
+std::vector<TiedRun> TiedRuns::run(const TakeRun& take)
+{
+    std::vector<TiedRun> runs;
+    for (const RecordPair& pair : ready_.records()) {
+        if (watch_.stop_asked()) break;
+        runs.push_back(run(ready_.motion(pair, 1.0, polarity_)));
+        watch_.results_at_hand();
+        if (take) take(runs.back());
+    }
+    return runs;
+}
+
+TiedRun TiedRuns::run(const GroundMotion& motion) const
+{
+    const Scene& scene = ready_.scene;
+    const fe2d::Model& damped = models_.damped();
+    TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
+    run.polarity = shown_polarity(scene, polarity_);
+    fe2d::TiedRunOptions options;
+    options.scheme = fe2d::scheme_of(scene.time);
+    options.dt = scene.time.dt;
+    options.damping =
+        water_ ? fe2d::damping_of(scene, damped, *water_, motion) : fe2d::damping_of(scene, damped, motion);
+    options.water = water();
+    options.static_load = start_.load;
+    options.start_displacement = start_.displacement;
+    if (!statics_.stages.empty()) options.static_resultant = statics_.stages.back().resultant;
+    watch_.begin(motion.name, 1000);
+    std::size_t shown = 0;
+    options.progress = [&](const fe2d::RunProgress& p) {
+        const auto now = static_cast<std::size_t>(1000 * p.step / std::max<std::int64_t>(1, p.steps));
+        if (now > shown) watch_.advance(static_cast<double>(now - shown));
+        shown = now;
+        return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+    };
+    const Stopwatch start;
+    const TiedScheme chosen = tied_scheme(scene, motion, options);
+    run.history = integrate_by(chosen.scheme, models_.moving(), motion, options);
+    watch_.end();
+    run.seconds = start.seconds();
+    if (!chosen.reason.empty()) run.notes.push_back(chosen.reason);
+    if (models_.on_free_edges && run.history.displacement.size() > 0)
+        run.history.displacement = fe2d::without_edges(models_.still, *models_.on_free_edges, run.history.displacement);
+    run.notes.insert(run.notes.end(), run.history.notes.begin(), run.history.notes.end());
+    return run;
+}
+
+} // namespace damslip

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "analysis/fe/contact_runs.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
+#include "fe2d/model/held_edges.hpp"
+#include "fe2d/statics/static_solution.hpp"
+#include "fe2d/time/history.hpp"
+
+/// The earthquakes of a dam that is bonded to its base: linear.
+namespace damslip {
+
+/// The earthquake of one record on a bonded base.
+struct TiedRun {
+    std::string record;
+    fe2d::History history;
+    std::vector<std::string> notes;
+    double seconds = 0.0;
+    GroundMotion motion;
+    int polarity = 1; ///< -1: the record's horizontal component is flipped
+};
+
+/// What stands still, what moves, and what its damping is taken from; the same model where the rock is massless.
+struct TiedModels {
+    fe2d::Model still;
+    std::optional<fe2d::Model> on_free_edges, massless;
+
+    TiedModels(const Scene& scene, const fe2d::ModelOptions& options);
+    const fe2d::Model& moving() const { return on_free_edges ? *on_free_edges : still; }
+    const fe2d::Model& damped() const { return massless ? *massless : still; }
+};
+
+/// The models of one scene and the runs on them; one polarity, the other turns the part of the horizontal motion round.
+class TiedRuns {
+public:
+    /// Solves the static stages. @param ready, watch  outlive this
+    /// @throws InputError; NotConverged where the static stages could not be solved
+    TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch);
+
+    const fe2d::Model& model() const { return models_.still; }
+    const fe2d::FluidModel* water() const { return water_ ? &*water_ : nullptr; } ///< acoustic; null: none
+    const fe2d::StaticSolution& statics() const { return statics_; }
+
+    using TakeRun = std::function<void(TiedRun& run)>; ///< told each run as soon as it is there
+    std::vector<TiedRun> run(const TakeRun& take = {});
+
+private:
+    TiedRun run(const GroundMotion& motion) const;
+
+    const Ready& ready_;
+    Watch& watch_;
+    int polarity_;
+    TiedModels models_;
+    std::optional<fe2d::FluidModel> water_;
+    fe2d::StaticSolution statics_;
+    fe2d::HeldStart start_;
+};
+
+} // namespace damslip

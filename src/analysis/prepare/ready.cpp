@@ -1,0 +1,124 @@
+#include "analysis/prepare/ready.hpp"
+
+#include "analysis/prepare/flexible_mass.hpp"
+#include "analysis/prepare/rock_water.hpp"
+#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/structure_system.hpp"
+#include "scene/rock_mass.hpp"
+
+namespace damslip {
+
+namespace {
+
+/// Pressure along the base for the FE joint, x = distance [m], y = pressure [Pa].
+Polyline uplift_polyline(const Scene& scene, const sliding::UpliftState& state, const sliding::SeepageProfile& seepage)
+{
+    Polyline profile;
+    if (!scene.uplift) return profile;
+    for (const sliding::ProfilePoint& p : sliding::uplift_profile(scene, state, {}, seepage).points)
+        profile.push_back({p.distance, p.pressure});
+    return profile;
+}
+
+fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
+                                          const GroundMotion& motion)
+{
+    const fe2d::Model model = fe2d::build_model(with_massless_rock(scene), options);
+    const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
+    return acoustic ? fe2d::damping_of(scene, model, fe2d::build_fluid(scene), motion).constants
+                    : fe2d::damping_of(scene, model, motion).constants;
+}
+
+/// Files of records that were read elsewhere, or made, so that the plan knows their components.
+std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
+{
+    std::vector<RecordFiles> files;
+    for (const RecordPair& pair : records) {
+        files.push_back(pair.files);
+        if (pair.vertical && !pair.files.vertical) files.back().vertical = pair.vertical->source.file;
+    }
+    return files;
+}
+
+} // namespace
+
+GroundMotion Ready::motion(const RecordPair& pair, double scale, int polarity) const
+{
+    GroundMotion motion = ground_motion(scene, pair, scale, polarity);
+    return plan.on(Effect::vertical_motion) ? motion : horizontal_only(std::move(motion));
+}
+
+RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
+{
+    return make_rigid_model(scene, seepage->profile_of(scene), crack);
+}
+
+fe2d::ModelOptions Ready::model_options() const
+{
+    fe2d::ModelOptions options;
+    options.added_mass = added_mass_law(scene);
+    return options;
+}
+
+fe2d::RunOptions Ready::run_options(const Watch& watch) const
+{
+    fe2d::RunOptions options;
+    options.added_mass = added_mass_law(scene);
+    sliding::UpliftState water = sliding::scene_uplift_state(scene);
+    options.uplift = uplift_polyline(scene, water, seepage->profile_of(scene));
+    if (has_water_in_rock(scene))
+        options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
+    water.drains = sliding::DrainState::ineffective; // after the earthquake
+    water.curtain = sliding::CurtainState::damaged;
+    options.uplift_after = uplift_polyline(scene, water, seepage->profile_of(scene));
+    if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
+        options.damping = damping_by_record(scene, model_options(), motion(records().front()));
+    options.stop = watch.stop();
+    options.progress = [&watch](const fe2d::RunProgress&) {
+        return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+    };
+    return options;
+}
+
+Ready Ready::with(Scene changed) const
+{
+    Ready other = *this;
+    other.scene = std::move(changed);
+    other.seepage = std::make_shared<SeepageSource>();
+    return other;
+}
+
+Ready prepare(Scene given, Method method, Records records, const PrepareOptions& options)
+{
+    Ready ready;
+    ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
+    if (records) given.motion.records = files_of(*records);
+    ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
+    if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
+    ready.plan = make_effect_plan(given, method);
+    ready.scene = called_for(ready.plan, given);
+    if (method == Method::finite_elements) {
+        if (!options.reduced) ready.reservoir = resolve_reservoir_model(ready.scene, options.stop);
+        if (ready.reservoir) {
+            given.reservoir->model = ready.scene.reservoir->model;
+            ready.plan = make_effect_plan(given, method); // names what was chosen
+        }
+        ready.dam_period = resolve_dam_period(ready.scene, options.stop);
+    }
+    ready.given = std::move(given);
+    return ready;
+}
+
+Ready prepare(Scene given, Method method, const PrepareOptions& options)
+{
+    Records records = load_records(given, method);
+    return prepare(std::move(given), method, std::move(records), options);
+}
+
+Records load_records(const Scene& given, Method method)
+{
+    const EffectPlan plan = make_effect_plan(given, method);
+    return std::make_shared<const std::vector<RecordPair>>(read_records(called_for(plan, given), plan));
+}
+
+} // namespace damslip

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "analysis/prepare/records.hpp"
+#include "analysis/prepare/reservoir.hpp"
+#include "analysis/prepare/rigid_model.hpp"
+#include "analysis/prepare/seepage_source.hpp"
+#include "core/watch.hpp"
+#include "fe2d/run/earthquake_run.hpp"
+
+#include <memory>
+
+namespace damslip {
+
+/// Records as read, shared by all who run them.
+using Records = std::shared_ptr<const std::vector<RecordPair>>;
+
+/// A scene that is ready to be computed: what prepare() makes, and the only way from a scene to a model. `fe`, `sweep`,
+/// `accuracy`, `explain`, `study` and other programs all start from it, so that the same scene gives the same bits in each.
+struct Ready {
+    Scene given; ///< as read, but with what became of "auto"
+    Scene scene; ///< as the plan calls for it: without what is off, and with numbers in place of "auto", "dam", "modes"
+    EffectPlan plan;
+    Records pairs;
+
+    // What was decided on the way; empty: nothing was to decide.
+    std::optional<ReservoirChoice> reservoir; ///< reservoir.model = "auto"
+    std::optional<DamPeriod> dam_period;      ///< added_mass.period_s = "dam"
+    std::string flexible_modes;               ///< flexible_block.period_s = "modes", a sentence
+
+    std::shared_ptr<SeepageSource> seepage; ///< uplift by the seepage solver, each state solved once
+
+    const std::vector<RecordPair>& records() const { return *pairs; }
+
+    /// Both components of a record on one grid, scaled as scene and record say; the vertical one where the plan has it.
+    /// @param scale, polarity  on top of the scene's
+    GroundMotion motion(const RecordPair& pair, double scale = 1.0, int polarity = 1) const;
+
+    /// @param crack  in place of the scene's uplift.crack, if given
+    /// @throws InputError, NotConverged  of the seepage
+    RigidModel rigid_model(std::optional<CrackRule> crack = std::nullopt) const;
+
+    /// For models of the dam on a bonded base.
+    fe2d::ModelOptions model_options() const;
+
+    /// What a contact run takes from the other modules: added mass, uplift before and after the earthquake (curtain
+    /// ruptured, drains ineffective), water in the rock, modified Rayleigh damping by the first record's horizontal
+    /// component. Its progress only asks whether to stop. @param watch  outlives the runs
+    fe2d::RunOptions run_options(const Watch& watch) const;
+
+    /// The same base and records with another scene of the same kind: elements of another size.
+    Ready with(Scene changed) const;
+};
+
+struct PrepareOptions {
+    bool reduced = false;                        ///< for runs on few modes of the dam: "auto" is added mass there
+    bool flexible_modes = false;                 ///< find flexible_block.period_s = "modes", which screening asks for
+    std::shared_ptr<SeepageSource> seepage = {}; ///< of scenes that it may serve together; none: one of its own
+    StopAsked stop = {};                         ///< asked between the eigenvalue problems of "auto", "dam" and "modes"
+};
+
+/// Decides what the scene leaves to the program, and leaves out what the plan does.
+/// @param records  take the place of those that the scene names; null: none are there, the plan is by their names
+/// @throws InputError where the scene cannot be computed so; NotConverged where a decision found no answer; Interrupted
+Ready prepare(Scene given, Method method, Records records, const PrepareOptions& options = {});
+
+/// With the records that the scene names, read here: verticals only where the plan has vertical motion.
+/// @throws InputError  for all unreadable files together
+Ready prepare(Scene given, Method method, const PrepareOptions& options = {});
+
+/// The records that the scene names, as prepare() reads them.
+Records load_records(const Scene& given, Method method);
+
+} // namespace damslip
