@@ -1,0 +1,175 @@
+#include "fe2d/run/contact_ledger.hpp"
+
+#include "fe2d/contact/joint_solver.hpp"
+
+#include <cmath>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+ContactLedger::ContactLedger(const StepOperators& operators, const ContactOptions& options, const StepState& start,
+                             const StepDam& dam, const StepRock& rock)
+    : structure_(operators.structure()), damping_(operators.damping()), slip_damping_(operators.slip_damping()),
+      options_(options), load_jump_(VectorXd::Zero(2 * structure_.rock_nodes()))
+{
+    if (structure_.water()) {
+        water_ledger_ = std::make_shared<const WaterLedger>(*structure_.water(), structure_.order());
+        water_ = water_before_ = water_before2_ = water_instant(start, dam);
+    }
+    stored_ = stored(start.contact.opening);
+    energy_.strain = dam.strain() + rock.strain(start) + stored_;
+    start_ = energy_;
+    gather(start, dam, rock, forces_);
+    before_ = before2_ = forces_;
+}
+
+double ContactLedger::stored(const VectorXd& opening) const
+{
+    return stored_energy(options_, structure_.planes().area(), opening);
+}
+
+WaterLedger::Instant ContactLedger::water_instant(const StepState& state, const StepDam& dam) const
+{
+    const GroundAcceleration& g = state.ground;
+    const Products& products = dam.products();
+    // the water has no part in the translations that K u leaves out
+    return water_ledger_->instant({state.u, state.v, state.a, products.stiffness_1, products.mass_1, products.mass_2},
+                                  g.velocity_h, g.velocity_v, g.displacement_v);
+}
+
+void ContactLedger::gather(const StepState& state, const StepDam& dam, const StepRock& rock, Forces& f) const
+{
+    dam.instant(state, f.dam);
+    rock.instant(state, f.rock);
+    f.contact = state.contact.force;
+    if (!slip_damping_.active()) return;
+    f.slip_rate = slip_damping_.weights.transpose() * state.rate_t;
+    f.mean_velocity = slip_damping_.momentum.transpose() * state.v;
+}
+
+/// All that passes from rock to dam at one instant: contact forces, and the slip damping that acts like them [N/m].
+VectorXd ContactLedger::across(const Forces& f) const
+{
+    VectorXd force = f.contact;
+    if (slip_damping_.active())
+        force.tail(structure_.pairs()) -= slip_damping_.weights * (slip_damping_.drag * f.slip_rate - f.mean_velocity);
+    return force;
+}
+
+void ContactLedger::add_move(const Pairing::Matrix& change, const StepState& state, const StepRock& rock)
+{
+    load_jump_ = change.transpose() * across(forces_);
+    if (rock.water_in_joint().size() > 0) load_jump_ -= change.transpose() * rock.water_in_joint();
+    before_.rock.force -= change.transpose() * across(before_);
+    rock.instant(state, forces_.rock);
+}
+
+void ContactLedger::add(const StepConstants& c, const StepState& state, const StepChange& step, const StepDam& dam,
+                        const StepRock& rock)
+{
+    const double alpha = c.scheme.alpha, gamma = c.scheme.gamma, beta = c.scheme.beta, dt = c.dt;
+    const double a_m = damping_.constants.mass, b_k = damping_.constants.stiffness;
+    const Index m = structure_.pairs();
+    const Products &products = dam.products(), &before = dam.products_before();
+    const VectorXd k_du = products.stiffness_1 - before.stiffness_1, k_dr = rock.stiffness_step();
+
+    std::swap(before2_, before_);
+    std::swap(before_, forces_);
+    gather(state, dam, rock, forces_);
+    const VectorXd &v0 = before_.dam.velocity, &v1 = forces_.dam.velocity, &a0 = before_.dam.accel,
+                   &a1 = forces_.dam.accel;
+    VectorXd du = step.dam; // of the dam
+    structure_.clear_water(du);
+    const VectorXd& dr = step.rock;
+
+    VectorXd slip, mean; // by plane
+    if (slip_damping_.active()) {
+        slip = slip_damping_.weights.transpose() * step.gap.tail(m);
+        mean = slip_damping_.momentum.transpose() * du;
+    }
+    // Work of the slip damping at the rates of one instant, or of two together.
+    const auto slip_work = [&](const VectorXd& slip_rate, const VectorXd& mean_velocity) {
+        return slip.dot(slip_damping_.drag * slip_rate - mean_velocity) - mean.dot(slip_rate);
+    };
+
+    // Over the gap step alone: the opening also changes where the dam has slid to another place on bent rock.
+    const VectorXd& opening = state.contact.opening;
+    const double to_soft_contact = stored(opening) - stored(opening - step.gap.head(m));
+    stored_ += to_soft_contact;
+
+    Energy& e = energy_;
+    e.kinetic = 0.5 * v1.dot(products.mass_1);
+    e.strain = dam.strain() + rock.strain(state) + stored_;
+    const double damping_of_dam =
+        0.5 * a_m * du.dot(products.dam_mass_1 + before.dam_mass_1) + 0.5 * b_k * k_du.dot(v1 + v0);
+    const double damping_of_rock = 0.5 * b_k * k_dr.dot(forces_.rock.velocity + before_.rock.velocity);
+    e.damping += damping_of_dam + damping_of_rock;
+    if (structure_.edge_damping().nonZeros() > 0) {
+        const VectorXd velocity = v1 + v0;
+        e.radiated += 0.5 * du.dot(structure_.edge_damping() * velocity);
+    }
+    if (slip_damping_.active())
+        e.damping +=
+            0.5 * slip_work(forces_.slip_rate + before_.slip_rate, forces_.mean_velocity + before_.mean_velocity);
+    e.external += du.dot(dam.load()) + dr.dot(rock.load()) + 0.5 * du.dot(forces_.dam.ground + before_.dam.ground);
+    const VectorXd force = 0.5 * (state.force_before + state.contact.force);
+    e.contact_normal += force.head(m).dot(step.gap.head(m)) + to_soft_contact; // of it, what is not in `strain`
+    if (structure_.slides_far()) {
+        e.contact_normal += 0.5 * (1.0 + alpha) * dr.dot(load_jump_);
+        load_jump_.setZero();
+    }
+    e.friction -= force.tail(m).dot(step.gap.tail(m));
+
+    const double du_m_da = du.dot(products.mass_2 - before.mass_2);
+    const double da_m_da = (a1 - a0).dot(products.mass_2 - before.mass_2);
+    const double half_change = 0.5 * (a1.dot(products.mass_2) - a0.dot(before.mass_2));
+    const double half_beta = beta - 0.5 * gamma;
+    double numerical =
+        -(gamma - 0.5) * du_m_da + (gamma - 0.5) * half_beta * dt * dt * da_m_da + half_beta * dt * dt * half_change;
+    if (alpha != 0.0) {
+        const auto work = [&](const Forces& f) {
+            return du.dot(f.dam.force) + b_k * (f.dam.velocity.dot(k_du) + f.rock.velocity.dot(k_dr)) +
+                   dr.dot(f.rock.force) - step.gap.dot(f.contact) +
+                   (slip_damping_.active() ? slip_work(f.slip_rate, f.mean_velocity) : 0.0);
+        };
+        numerical += 0.5 * alpha * (work(forces_) - work(before2_));
+    }
+    if (landed_) { // the velocity at the start is not the one that the equation of the last step saw
+        double work = du.dot(landed_->dam);
+        if (structure_.has_rock()) work += dr.dot(landed_->rock);
+        if (slip_damping_.active()) work += slip_work(landed_->slip_rate, landed_->mean_velocity);
+        numerical -= 0.5 * (1.0 + alpha) * work;
+        landed_.reset();
+    }
+    e.numerical += numerical;
+    if (structure_.water()) {
+        std::swap(water_before2_, water_before_);
+        std::swap(water_before_, water_);
+        water_ = water_instant(state, dam);
+        water_ledger_->add(c, water_before2_, water_before_, water_, e);
+    }
+    scale_ = std::max({scale_, e.kinetic, std::abs(e.damping), std::abs(e.friction), std::abs(e.external),
+                       std::abs(e.contact_normal), std::abs(e.numerical), std::abs(e.radiated)});
+}
+
+void ContactLedger::add_landing(LandingForces forces, const StepState& state, const StepDam& dam, const StepRock& rock)
+{
+    landed_ = std::move(forces);
+    const double before_landing = energy_.kinetic + energy_.strain;
+    VectorXd velocity = state.v;
+    structure_.clear_water(velocity);
+    energy_.kinetic = 0.5 * velocity.dot(dam.products().mass_1);
+    if (structure_.water()) {
+        WaterLedger::Instant now = water_instant(state, dam);
+        now.jolt = now.force - water_.force;
+        energy_.strain += water_ledger_->compression(now) - water_ledger_->compression(water_);
+        energy_.kinetic += water_ledger_->flow(now);
+        water_ = std::move(now);
+    }
+    energy_.numerical += before_landing - energy_.kinetic - energy_.strain;
+    gather(state, dam, rock, forces_);
+}
+
+} // namespace damslip::fe2d

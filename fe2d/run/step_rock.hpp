@@ -1,0 +1,68 @@
+#pragma once
+
+#include "fe2d/run/dynamic_operator.hpp"
+#include "fe2d/run/step_state.hpp"
+
+#include <optional>
+
+namespace damslip::fe2d {
+
+/// The massless rock below the dam in implicit steps, K_c on its contact nodes, and where on it the dam stands. A rigid base
+/// gives nothing anywhere.
+///
+/// Steps know the rock by this class and by its compliance, P A_r⁻¹ Pᵀ in DynamicOperator::contact_at(): the contact sees the
+/// free motion, the step the motion under contact forces, the ledger strain, loads and forces.
+///
+/// Where the dam slides far, the opening is what the displacements and the present slip make it at the start of each
+/// step, so the dam follows the bent surface of the rock; forces pass through the P of the last place where the
+/// operators were made, at most `update_share` of an element away, so that a step's work is exact.
+class StepRock {
+public:
+    /// @param start  displacements, and the opening that belongs to them
+    StepRock(const ContactStructure& structure, const RunDamping& damping, const SplitLoad& load,
+             const DynamicState& start);
+
+    // Where the dam stands.
+    const Pairing::Matrix& trace() const { return trace_; } ///< P
+    int place() const { return place_; }                    ///< counts the places P was made for; 0: as in the statics
+    double slip(const DynamicState& state) const;           ///< of the base, area mean [m]
+    /// What displacements and place make the opening, less what statics leave out (the slip of the static stages) [m].
+    Eigen::VectorXd opening(const DynamicState& state) const;
+    /// P follows where it is too old. @returns its change; nothing: it serves on
+    std::optional<Pairing::Matrix> follow(const DynamicState& state);
+    const Eigen::VectorXd& water_in_joint() const { return surface_.joint; } ///< SplitLoad::joint
+
+    // The step.
+    void begin_step(const StepConstants& constants, const DynamicState& state);
+    Eigen::VectorXd free_gap() const; ///< free motion as part of the gaps, P A_r⁻¹ b_r, 2m [m]; empty: rigid base
+    /// Δr. @param change  of the gaps [m] @param tilde  λ̃ [N/m], both of the step, as in DynamicOperator
+    Eigen::VectorXd step(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
+                         const Eigen::VectorXd& tilde) const;
+    /// The same by impulses: without free motion.
+    Eigen::VectorXd jump(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
+                         const Eigen::VectorXd& tilde) const;
+    void end_step(const DynamicState& state);
+    Eigen::VectorXd damping_force(const Eigen::VectorXd& velocity) const; ///< b_K K_c ṙ [N/m]; empty: rigid base
+
+    // For the ledger.
+    void instant(const DynamicState& state, BodyInstant& now) const;
+    double strain(const DynamicState& state) const { return 0.5 * state.rock.dot(force_); } ///< [J/m]
+    Eigen::VectorXd stiffness_step() const { return force_ - force_before_; }               ///< K_c Δr [N/m]
+    const Eigen::VectorXd& load() const { return load_; }                                   ///< f_r [N/m]
+
+private:
+    void find_load();
+
+    const ContactStructure& structure_;
+    double stiffness_damping_; ///< b_K [s]
+    SplitLoad surface_;        ///< `rock` and `joint` of the static load
+    Pairing::Matrix trace_;
+    double trace_slip_ = 0.0; ///< slip it was made for [m]
+    int place_ = 0;
+    Eigen::VectorXd geometric_rest_;       ///< see opening() [m]
+    Eigen::VectorXd load_, rest_;          ///< f_r [N/m], K_c⁻¹ f_r
+    Eigen::VectorXd force_, force_before_; ///< K_c r
+    Eigen::VectorXd free_;                 ///< A_r⁻¹ b_r
+};
+
+} // namespace damslip::fe2d
