@@ -10,7 +10,7 @@ using Eigen::Index;
 ContactLaw uniform_law(Index pairs, double friction, double cohesion_force)
 {
     return {Eigen::VectorXd::Constant(pairs, friction), Eigen::VectorXd::Constant(pairs, cohesion_force),
-            Separation::allowed};
+            JointOpening::allowed};
 }
 
 double violation(const ContactProblem& problem, const ContactSolution& solution, Index pair)
@@ -20,7 +20,7 @@ double violation(const ContactProblem& problem, const ContactSolution& solution,
     const double opening = solution.displacement[pair], slip = solution.displacement[m + pair];
     const double strength = problem.law.strength(pair, normal);
     const double slip_stiffness = problem.stiffness(m + pair, m + pair);
-    const bool may_open = problem.law.separation == Separation::allowed;
+    const bool may_open = problem.law.separation == JointOpening::allowed;
     switch (solution.states[static_cast<std::size_t>(pair)]) {
     case ContactState::stick:
         if (normal < 0.0) return -normal;
@@ -47,7 +47,7 @@ double complementarity_residual(const ContactProblem& problem, const ContactSolu
         const double normal = solution.force[i], shear = solution.force[m + i];
         const double opening = solution.displacement[i] * problem.stiffness(i, i);
         const double slip = solution.displacement[m + i] * problem.stiffness(m + i, m + i);
-        const bool may_open = problem.law.separation == Separation::allowed;
+        const bool may_open = problem.law.separation == JointOpening::allowed;
         const bool parted = may_open ? opening > 0.0 : normal < 0.0; // then there is no shear, cohesion or not
         const double strength = parted ? 0.0 : problem.law.strength(i, normal);
         const double normal_residual = may_open ? std::min(normal, opening) : opening;

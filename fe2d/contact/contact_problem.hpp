@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/contact/contact_state.hpp"
+#include "scene/scene.hpp"
 
 #include <Eigen/Core>
 
@@ -9,17 +10,13 @@
 /// ones.
 namespace damslip::fe2d {
 
-enum class Separation {
-    allowed, ///< g_N >= 0, λ_n >= 0: the joint opens
-    none     ///< g_N = 0, λ_n of any sign; pairs in tension carry no shear. A modelling shortcut: it lowers the slip,
-             ///< because the compressed pairs then carry more than the resultant
-};
-
-/// Strength of the pairs.
+/// Strength of the pairs, and whether the joint opens: g_N >= 0, λ_n >= 0. With JointOpening::none g_N = 0, λ_n of any sign,
+/// and pairs in tension carry no shear: a modelling shortcut that lowers the slip, because the compressed pairs then carry
+/// more than the resultant.
 struct ContactLaw {
     Eigen::VectorXd friction; ///< Coulomb mu of each pair [-], >= 0
     Eigen::VectorXd cohesion; ///< c times the pair's area [N/m], >= 0
-    Separation separation = Separation::allowed;
+    JointOpening separation = JointOpening::allowed;
 
     Eigen::Index pairs() const { return friction.size(); }
     /// c + mu λ_n, of a pair in compression [N/m].

@@ -71,7 +71,7 @@ ContactState next_state(const ContactProblem& problem, const ContactSolution& so
     if (now == ContactState::pulled)
         return std::abs(slip) * problem.stiffness(m + pair, m + pair) > friction * normal ? slipping(slip > 0.0)
                                                                                           : ContactState::stick;
-    if (normal < 0.0) return problem.law.separation == Separation::allowed ? ContactState::open : ContactState::pulled;
+    if (normal < 0.0) return problem.law.separation == JointOpening::allowed ? ContactState::open : ContactState::pulled;
     if (is_slip(now)) return ContactState::stick; // it would slip against the direction of its friction
     return slipping(shear < 0.0);
 }
@@ -167,7 +167,7 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
     // under shear has broken in this step: without its cohesion the problem is solved again.
     ContactLaw left = law;
     const ContactProblem broken{*stiffness_, stuck_force, left};
-    for (Index k = 0; k <= m && law.separation == Separation::allowed; ++k) { // one pair more each time at least
+    for (Index k = 0; k <= m && law.separation == JointOpening::allowed; ++k) { // one pair more each time at least
         int pivots = 0;
         ContactSolution last = solution;
         if (!solve_by_lemke(broken, last, pivots)) break;

@@ -21,16 +21,9 @@ enum class Landing {
     ringing  ///< what Newmark's formulas leave, to compare with plain integrators: it changes sign every step
 };
 
+/// How contact problems are solved; the law itself is the scene's Contact.
 struct ContactOptions {
-    Landing landing =
-        Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
-    double tangential_stiffness =
-        0.0; ///< k of a penalty in front of Coulomb's law (ElasticStick) [N/m³]; 0: sticking is rigid, exact
-    double slip_tolerance = 0.0; ///< F_f of elastic slip that follows the pressure (SlipTolerance) [-]; 0: none; > 0:
-                                 ///< the constant stiffness is not used
-    double pressure_at_zero_clearance = 0.0;  ///< p0 of soft normal contact (ExponentialNormal) [Pa]; 0: hard contact;
-                                              ///< > 0: not with slip_tolerance, and without the joint pulling
-    double clearance_at_zero_pressure = 1e-3; ///< c0 of it, > 0 [m]
+    Landing landing = Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
     double tolerance = 1e-11;     ///< violations below this share of the largest stuck force are round-off [-]
     int newton_iterations = 15;   ///< 1 ... ; more only when the states cycle, which is detected
     int switches_per_pair = 8;    ///< limit of the one-at-a-time search

@@ -35,7 +35,6 @@ ExponentialNormal::ExponentialNormal(MatrixXd stiffness, VectorXd area, const Ex
                                      const ContactOptions& options)
     : stiffness_(std::move(stiffness)), area_(std::move(area)), pressure_(pressure), options_(options)
 {
-    options_.tangential_stiffness = options_.slip_tolerance = options_.pressure_at_zero_clearance = 0.0;
     assert(stiffness_.rows() == 2 * area_.size());
 }
 
@@ -180,7 +179,7 @@ bool ExponentialNormal::friction_solution(const Step& step, Iterate& it, Contact
     const VectorXd held = llt.solve(VectorXd(step.stuck_force.head(m) - law.constant));
     const VectorXd stuck = step.stuck_force - to_normal.transpose() * held;
     ContactLaw friction = step.law;
-    friction.separation = Separation::none;
+    friction.separation = JointOpening::none;
     ContactSolution solution{it.at.states, {}, {}};
     for (Index i = 0; i < m; ++i) {
         if (it.point[i] < pressure_.range()) continue;

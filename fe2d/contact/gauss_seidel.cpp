@@ -30,14 +30,14 @@ bool slips(const Pair& p, double direction, PairResult& result)
     return true;
 }
 
-PairResult solve_pair(const Pair& p, Separation separation)
+PairResult solve_pair(const Pair& p, JointOpening separation)
 {
     const bool in_tension = p.q_n < 0.0;
     const double strength = p.cohesion + p.friction * std::max(0.0, p.q_n);
     if (!in_tension && std::abs(p.q_t) <= strength) return {ContactState::stick, 0.0, 0.0};
     PairResult result{};
     if (slips(p, p.q_t < 0.0 ? 1.0 : -1.0, result) || slips(p, p.q_t < 0.0 ? -1.0 : 1.0, result)) return result;
-    if (separation == Separation::none) return {ContactState::pulled, 0.0, -p.q_t / p.tt};
+    if (separation == JointOpening::none) return {ContactState::pulled, 0.0, -p.q_t / p.tt};
     const double determinant = p.nn * p.tt - p.nt * p.nt;
     return {ContactState::open, (p.nt * p.q_t - p.tt * p.q_n) / determinant,
             (p.nt * p.q_n - p.nn * p.q_t) / determinant};

@@ -19,33 +19,34 @@ VectorXd elastic_slip(const VectorXd& area, double slip_tolerance)
 
 } // namespace
 
-double stored_energy(const ContactOptions& options, const VectorXd& area, const VectorXd& opening)
+double stored_energy(const Contact& law, const VectorXd& area, const VectorXd& opening)
 {
-    if (!(options.pressure_at_zero_clearance > 0.0)) return 0.0;
-    const ExponentialPressure law(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure);
+    if (law.normal == NormalContact::hard) return 0.0;
+    const ExponentialPressure pressure(law.pressure_at_zero_clearance, law.clearance_at_zero_pressure);
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < area.size(); ++i) sum += area[i] * law.energy(opening[i]);
+    for (Eigen::Index i = 0; i < area.size(); ++i) sum += area[i] * pressure.energy(opening[i]);
     return sum;
 }
 
-JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const VectorXd& area, const ContactOptions& options)
+JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const VectorXd& area, const Contact& law,
+                         const ContactOptions& options)
     : stiffness_(std::move(stiffness))
 {
-    assert(!(options.slip_tolerance > 0.0 && options.pressure_at_zero_clearance > 0.0));
-    if (options.slip_tolerance > 0.0) {
-        slip_tolerance_ =
-            std::make_unique<SlipTolerance>(*stiffness_, elastic_slip(area, options.slip_tolerance), options);
+    const bool soft = law.normal == NormalContact::exponential;
+    assert(!(soft && law.enforcement == ContactEnforcement::slip_tolerance));
+    if (law.enforcement == ContactEnforcement::slip_tolerance) {
+        slip_tolerance_ = std::make_unique<SlipTolerance>(*stiffness_, elastic_slip(area, law.slip_tolerance), options);
         return;
     }
     std::shared_ptr<const MatrixXd> seen = stiffness_;
-    if (options.tangential_stiffness > 0.0) {
+    if (law.enforcement == ContactEnforcement::penalty) {
         MatrixXd softened = *stiffness_;
-        elastic_stick_ = ElasticStick(softened, (options.tangential_stiffness * area).cwiseInverse());
+        elastic_stick_ = ElasticStick(softened, (law.tangential_stiffness.value() * area).cwiseInverse());
         seen = std::make_shared<const MatrixXd>(std::move(softened));
     }
-    if (options.pressure_at_zero_clearance > 0.0)
+    if (soft)
         soft_normal_ = std::make_unique<ExponentialNormal>(
-            *seen, area, ExponentialPressure(options.pressure_at_zero_clearance, options.clearance_at_zero_pressure),
+            *seen, area, ExponentialPressure(law.pressure_at_zero_clearance, law.clearance_at_zero_pressure),
             options);
     else
         rigid_ = std::make_unique<ContactSolver>(std::move(seen), options);
@@ -99,8 +100,8 @@ bool JointSolver::hold(const ContactLaw& law, const VectorXd& values, ContactSol
     return rigid_->land(law, held, jumps);
 }
 
-JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const ContactOptions& options)
-    : JointSolver(std::make_shared<const MatrixXd>(std::move(stiffness)), area, options)
+JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const Contact& law, const ContactOptions& options)
+    : JointSolver(std::make_shared<const MatrixXd>(std::move(stiffness)), area, law, options)
 {
 }
 

@@ -8,16 +8,18 @@
 
 namespace damslip::fe2d {
 
-/// Contact of one plane by the law the options choose: sticking is rigid (ContactSolver), gives way by a constant
-/// stiffness (ElasticStick) or by elastic slip that follows the pressure (SlipTolerance). Across the plane contact is
-/// hard or, with the first two, soft (ExponentialNormal).
+/// Contact by the scene's law: sticking is rigid (ContactSolver), gives way by a constant stiffness (ElasticStick) or by
+/// elastic slip that follows the pressure (SlipTolerance), as Contact::enforcement says. Across the plane contact is hard
+/// or, with the first two, soft (ExponentialNormal), as Contact::normal says.
 class JointSolver {
 public:
     /// @param stiffness  V of rigid sticking; solvers of one V may share it
     /// @param area       length of the base that belongs to each pair [m]
-    JointSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const Eigen::VectorXd& area,
-                const ContactOptions& options);
-    JointSolver(Eigen::MatrixXd stiffness, const Eigen::VectorXd& area, const ContactOptions& options);
+    /// @param law        enforcement and normal contact; its strength is the ContactLaw of each solution
+    JointSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const Eigen::VectorXd& area, const Contact& law,
+                const ContactOptions& options = {});
+    JointSolver(Eigen::MatrixXd stiffness, const Eigen::VectorXd& area, const Contact& law,
+                const ContactOptions& options = {});
     JointSolver(const JointSolver&) = delete;
     JointSolver& operator=(const JointSolver&) = delete;
 
@@ -31,7 +33,7 @@ public:
                         ContactSolution& solution);
 
     /// Do gaps come to be held between two sets of states, so that land() has to bring them to rest? Never where
-    /// sticking or shutting is elastic, or by the options.
+    /// sticking or shutting is elastic, or with Landing::ringing.
     bool lands(const ContactStates& before, const ContactStates& now) const;
     /// Does a body that flew, every pair open, shut some pair between two sets of states? False where lands() is.
     bool shuts(const ContactStates& before, const ContactStates& now) const;
@@ -55,6 +57,6 @@ private:
 bool holds(const ContactStates& states, Eigen::Index gap);
 
 /// Energy that soft normal contact stores at these openings, Σ A w(g) [J/m]; zero where contact is hard.
-double stored_energy(const ContactOptions& options, const Eigen::VectorXd& area, const Eigen::VectorXd& opening);
+double stored_energy(const Contact& law, const Eigen::VectorXd& area, const Eigen::VectorXd& opening);
 
 } // namespace damslip::fe2d

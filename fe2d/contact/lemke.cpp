@@ -101,7 +101,7 @@ LcpResult lemke(const MatrixXd& matrix, const VectorXd& q, int pivot_limit)
 
 bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, int& pivots)
 {
-    assert(problem.law.separation == Separation::allowed);
+    assert(problem.law.separation == JointOpening::allowed);
     const Index m = problem.law.pairs();
     const double force = problem.stuck_force.cwiseAbs().maxCoeff();
     const Eigen::LDLT<MatrixXd> factor(problem.stiffness);

@@ -81,7 +81,7 @@ ContactState SlipTolerance::next(const Step& step, const Iterate& it, Index pair
 {
     const ContactState now = it.states[static_cast<std::size_t>(pair)];
     const double normal = it.force[pair];
-    const bool may_open = step.law.separation == Separation::allowed;
+    const bool may_open = step.law.separation == JointOpening::allowed;
     if (now == ContactState::open && it.displacement[pair] * stiffness_(pair, pair) >= -step.tolerance) return now;
     if (now == ContactState::pulled && normal <= step.tolerance) return now;
     if (is_closed(now) && normal < -step.tolerance) return may_open ? ContactState::open : ContactState::pulled;
@@ -97,7 +97,7 @@ double SlipTolerance::residual(const Step& step, const Iterate& it) const
     double largest = 0.0;
     for (Index i = 0; i < m; ++i) {
         const double normal = it.force[i], opening = it.displacement[i] * stiffness_(i, i);
-        const double normal_residual = step.law.separation == Separation::allowed ? std::min(normal, opening) : opening;
+        const double normal_residual = step.law.separation == JointOpening::allowed ? std::min(normal, opening) : opening;
         const bool closed = is_closed(it.states[static_cast<std::size_t>(i)]);
         const double share = std::clamp((step.elastic[i] + it.displacement[m + i]) / limit_[i], -1.0, 1.0);
         const double shear_residual = it.force[m + i] + (closed ? share * step.law.strength(i, normal) : 0.0);
@@ -143,9 +143,7 @@ bool SlipTolerance::renewed_stiffness(const Step& step, Iterate& it, ContactRepo
         const ElasticStick soft(softened, limit_.cwiseQuotient(strength));
         VectorXd stuck = step.stuck_force;
         soft.soften(stuck, step.elastic);
-        ContactOptions exact = options_;
-        exact.tangential_stiffness = exact.slip_tolerance = 0.0;
-        ContactSolver solver(std::move(softened), exact);
+        ContactSolver solver(std::move(softened), options_);
         ContactSolution solution{it.states, {}, {}};
         const ContactReport inner = solver.solve(stuck, step.law, solution);
         report.iterations += inner.iterations;

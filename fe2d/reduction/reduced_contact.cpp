@@ -10,8 +10,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 ReducedContact::ReducedContact(const Plane& plane, const ReducedSystem& system, const Scheme& scheme,
-                               const ContactMemory& rest, const ContactOptions& options)
-    : plane_(plane), system_(system), scheme_(scheme), options_(options), rest_force_(rest.force),
+                               const ContactMemory& rest, const Contact& joint, const ContactOptions& options)
+    : plane_(plane), system_(system), scheme_(scheme), joint_(joint), options_(options), rest_force_(rest.force),
       rest_slip_(rest.slip), normal_force_(rest.force.head(plane.pairs()).sum())
 {
     state_.q = state_.q_v = state_.q_a = VectorXd::Zero(system.modes.count());
@@ -23,7 +23,7 @@ ReducedOperator& ReducedContact::operator_of(double dt)
 {
     auto& slot = operators_[dt];
     if (!slot) {
-        slot = std::make_unique<ReducedOperator>(plane_, system_, step_constants(scheme_, dt), options_);
+        slot = std::make_unique<ReducedOperator>(plane_, system_, step_constants(scheme_, dt), joint_, options_);
         ++counts_.factorisations;
     }
     return *slot;

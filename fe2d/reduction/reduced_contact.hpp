@@ -23,7 +23,7 @@ public:
     /// @param system  kept by reference
     /// @param rest  contact in static equilibrium; the motion starts there, at rest
     ReducedContact(const Plane& plane, const ReducedSystem& system, const Scheme& scheme, const ContactMemory& rest,
-                   const ContactOptions& options = {});
+                   const Contact& joint = {}, const ContactOptions& options = {});
 
     /// One step to the given ground acceleration, as DynamicContact::advance.
     ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law);
@@ -43,6 +43,7 @@ private:
     const Plane& plane_;
     const ReducedSystem& system_;
     Scheme scheme_;
+    Contact joint_;
     ContactOptions options_;
     std::map<double, std::unique_ptr<ReducedOperator>> operators_;
     Eigen::VectorXd rest_force_, rest_slip_;

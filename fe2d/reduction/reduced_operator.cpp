@@ -20,7 +20,7 @@ ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, c
 }
 
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
-                                 const ContactOptions& options)
+                                 const Contact& joint, const ContactOptions& options)
     : system_(system), constants_(constants)
 {
     const double w = 1.0 + constants.scheme.alpha, a_m = system.damping.constants.mass,
@@ -52,7 +52,7 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
-    contact_ = std::make_unique<JointSolver>(std::move(stiffness), plane.area, options);
+    contact_ = std::make_unique<JointSolver>(std::move(stiffness), plane.area, joint, options);
 }
 
 void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known,

@@ -33,7 +33,7 @@ struct ReducedSystem {
 class ReducedOperator {
 public:
     ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
-                    const ContactOptions& options);
+                    const Contact& joint, const ContactOptions& options);
 
     const StepConstants& constants() const { return constants_; }
     JointSolver& contact() { return *contact_; }

@@ -70,7 +70,7 @@ struct ReducedRun::Motion {
 };
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
-    : full_(full), scene_(scene), options_(completed(std::move(options), scene)), stages_(full.stages()),
+    : full_(full), scene_(scene), options_(std::move(options)), stages_(full.stages()),
       coarse_(full.structure().plane(), coarse_pairs)
 {
     const Stopwatch start;
@@ -105,7 +105,7 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     const double dt = motion.dt;
     const int parts = motion.parts;
     const GroundInput& ground = motion.ground;
-    ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, motion.contact);
+    ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, scene_.contact, motion.contact);
     result.history = {};
     record(dynamics, result.history);
     result.dt = dt / parts;
@@ -157,7 +157,6 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
     bool interrupted = false;
     const auto slips = [&](const ReducedSystem& system) {
         Strength strength(contact, coarse_.plane());
-        strength.set_separation(*options_.separation);
         strength.follow(memory);
         ReducedResult result;
         shake(coarse_motion, coarse_.plane(), system, strength, memory, result);
@@ -212,9 +211,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.highest_frequency = std::sqrt(system_->modes.omega2.tail(1)[0]) / (2.0 * std::numbers::pi);
     const ContactStructure& structure = full_.structure();
     Stopwatch clock;
-    StaticContact statics(structure, options_.contact);
+    StaticContact statics(structure, scene_.contact, options_.contact);
     Strength strength(contact.value_or(scene_.contact), structure.plane());
-    strength.set_separation(*options_.separation);
     ContactMemory memory(structure.plane().pairs());
     result.stages = full_.statics(statics, strength, memory);
     result.seconds.statics = clock.seconds();
@@ -235,9 +233,9 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         result.halvings = pass;
     };
     const auto wanted = [&] {
-        return *options_.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip);
+        return scene_.time.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip);
     };
-    const std::optional<int> fixed = halvings ? halvings : options_.halvings;
+    const std::optional<int> fixed = halvings ? halvings : scene_.time.substeps;
     const int first = fixed.value_or(0);
     shake_with(first);
     for (int k = first + 1; !fixed && k <= options_.largest_halvings; ++k) {

@@ -9,10 +9,10 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-ContactLedger::ContactLedger(const StepOperators& operators, const ContactOptions& options, const StepState& start,
+ContactLedger::ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start,
                              const StepDam& dam, const StepRock& rock)
     : structure_(operators.structure()), damping_(operators.damping()), slip_damping_(operators.slip_damping()),
-      options_(options), load_jump_(VectorXd::Zero(2 * structure_.rock_nodes()))
+      joint_(joint), load_jump_(VectorXd::Zero(2 * structure_.rock_nodes()))
 {
     if (structure_.water()) {
         water_ledger_ = std::make_shared<const WaterLedger>(*structure_.water(), structure_.order());
@@ -27,7 +27,7 @@ ContactLedger::ContactLedger(const StepOperators& operators, const ContactOption
 
 double ContactLedger::stored(const VectorXd& opening) const
 {
-    return stored_energy(options_, structure_.planes().area(), opening);
+    return stored_energy(joint_, structure_.planes().area(), opening);
 }
 
 WaterLedger::Instant ContactLedger::water_instant(const StepState& state, const StepDam& dam) const

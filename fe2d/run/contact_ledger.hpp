@@ -22,7 +22,7 @@ struct LandingForces {
 /// StepRock does, the planes contact, friction and slip damping, the water what WaterLedger finds.
 class ContactLedger {
 public:
-    ContactLedger(const StepOperators& operators, const ContactOptions& options, const StepState& start,
+    ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start,
                   const StepDam& dam, const StepRock& rock);
 
     /// A step has been made. @param state, dam, rock  at its end
@@ -55,7 +55,7 @@ private:
     const ContactStructure& structure_;
     RunDamping damping_;
     const SlipDamping& slip_damping_;
-    ContactOptions options_;
+    Contact joint_;
     Energy energy_, start_;
     double scale_ = 0.0;
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]

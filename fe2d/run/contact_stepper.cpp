@@ -10,9 +10,9 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-ContactStepper::ContactStepper(StepOperators& operators, const ContactOptions& options)
+ContactStepper::ContactStepper(StepOperators& operators, const Contact& joint, const ContactOptions& options)
     : operators_(operators), structure_(operators.structure()), slip_damping_(operators.slip_damping()),
-      options_(options)
+      joint_(joint), options_(options)
 {
 }
 
@@ -31,7 +31,7 @@ const StepContact& ContactStepper::contact_at(const StepRock& rock)
         problem.place = rock.place();
         if (own) problem.own = op_->contact_at(rock.trace());
         problem.solver = std::make_unique<JointSolver>((own ? problem.own : op_->contact()).stiffness,
-                                                       structure_.planes().area(), options_);
+                                                       structure_.planes().area(), joint_, options_);
     }
     return own ? problem.own : op_->contact();
 }

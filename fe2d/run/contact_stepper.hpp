@@ -18,7 +18,7 @@ namespace damslip::fe2d {
 class ContactStepper {
 public:
     /// @param operators  kept by reference, shared with other runs
-    ContactStepper(StepOperators& operators, const ContactOptions& options);
+    ContactStepper(StepOperators& operators, const Contact& joint, const ContactOptions& options);
 
     const DynamicOperator& take(double dt); ///< the step size of the steps from here on [s]
     const DynamicOperator& op() const { return *op_; }
@@ -49,6 +49,7 @@ private:
     StepOperators& operators_;
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;
+    Contact joint_;
     ContactOptions options_;
     std::map<const DynamicOperator*, PairProblem> problems_;
 

@@ -53,7 +53,7 @@ SparseMatrix by_node(const Model& model, const SparseMatrix& matrix, double alon
 
 } // namespace
 
-ContactStructure::ContactStructure(const Model& model, SlidingRange range, const WaterBody* water, RockBody rock)
+ContactStructure::ContactStructure(const Model& model, JointPath range, const WaterBody* water, RockBody rock)
     : model_(model), water_(water), planes_(model.mesh, rock == RockBody::moving ? BelowBase::block : BelowBase::apart),
       rock_moves_(rock == RockBody::moving)
 {
@@ -107,7 +107,7 @@ ContactStructure::ContactStructure(const Model& model, SlidingRange range, const
     static_factor_.emplace(water_ ? order_.to_new(at_rest(stiffness, water_->size)) : stiffness_, order_.inner);
     if (mesh.has_rock()) {
         const ContactPlane& contact = mesh.contact;
-        slides_far_ = range == SlidingRange::finite;
+        slides_far_ = range == JointPath::finite;
         if (slides_far_)
             pairing_.emplace(contact.distance, contact.rock_distance);
         else if (!contact.matching)

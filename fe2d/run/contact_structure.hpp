@@ -18,12 +18,6 @@ struct SplitLoad {
                            ///< that slides far; empty: none, or part of `rock`
 };
 
-/// What the sliding changes.
-enum class SlidingRange {
-    small, ///< nothing: each dam node stays opposite its rock node
-    finite ///< the rock a dam node faces (Pairing)
-};
-
 /// What becomes of the rock.
 enum class RockBody {
     condensed, ///< a massless body of its own, reduced exactly to its contact nodes
@@ -40,8 +34,9 @@ enum class RockBody {
 class ContactStructure {
 public:
     /// @param model  built with Base::separate; kept by reference
+    /// @param range  finite: sliding changes the rock a dam node faces (Pairing)
     /// @param water  moves with the dam, kept by reference; its unknowns stand among the dam's inner ones. Null: none
-    explicit ContactStructure(const Model& model, SlidingRange range = SlidingRange::small,
+    explicit ContactStructure(const Model& model, JointPath range = JointPath::small,
                               const WaterBody* water = nullptr, RockBody rock = RockBody::condensed);
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose

@@ -40,16 +40,17 @@ GroundAcceleration middle_of(const GroundAcceleration& from, const GroundAcceler
 
 DynamicContact::DynamicContact(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                                const SplitLoad& load, const StaticState& start, const ContactMemory& memory,
-                               const ContactOptions& options)
-    : DynamicContact(std::make_shared<StepOperators>(structure, damping, scheme), load, start, memory, options)
+                               const Contact& joint, const ContactOptions& options)
+    : DynamicContact(std::make_shared<StepOperators>(structure, damping, scheme), load, start, memory, joint, options)
 {
 }
 
 DynamicContact::DynamicContact(std::shared_ptr<StepOperators> operators, const SplitLoad& load,
-                               const StaticState& start, const ContactMemory& memory, const ContactOptions& options)
+                               const StaticState& start, const ContactMemory& memory, const Contact& joint,
+                               const ContactOptions& options)
     : operators_(std::move(operators)), state_(at_rest(structure(), start, memory)),
       dam_(*operators_, load.dam, state_), rock_(structure(), operators_->damping(), load, state_),
-      stepper_(*operators_, options), landing_(*operators_), ledger_(*operators_, options, state_, dam_, rock_),
+      stepper_(*operators_, joint, options), landing_(*operators_), ledger_(*operators_, joint, state_, dam_, rock_),
       normal_force_(memory.force.head(structure().plane().pairs()).sum()),
       largest_slips_(structure().planes(), memory.slip)
 {

@@ -17,11 +17,12 @@ public:
     /// @param operators  shared with the other runs of this structure, damping and scheme
     /// @param load  static loads, constant during the motion
     /// @param start  in equilibrium under them; u, contact and rock are taken over, v = a = 0
+    /// @param joint  law of the joints, see JointSolver
     DynamicContact(std::shared_ptr<StepOperators> operators, const SplitLoad& load, const StaticState& start,
-                   const ContactMemory& memory, const ContactOptions& options = {});
+                   const ContactMemory& memory, const Contact& joint = {}, const ContactOptions& options = {});
     DynamicContact(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
                    const SplitLoad& load, const StaticState& start, const ContactMemory& memory,
-                   const ContactOptions& options = {});
+                   const Contact& joint = {}, const ContactOptions& options = {});
 
     /// One step to the given ground acceleration. @returns how the contact was solved; when unresolved the step has
     /// been made with the best state found.

@@ -57,7 +57,7 @@ void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
 {
     const Stopwatch clock;
     RunResult& result = lane.result;
-    StaticContact contact_statics(statics_, options_.contact);
+    StaticContact contact_statics(statics_, scene_.contact, options_.contact);
     lane.strength = strength_of(contact);
     lane.memory = ContactMemory(structure_->pairs());
     result.zero_displacement = zero_displacement(contact_statics, lane.strength);
@@ -130,14 +130,14 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
     const double dt = scene_.time.dt.value_or(motion.dt),
                  duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
     const bool adaptive =
-        options_.stepping == Stepping::adaptive && !options_.halvings && !lanes.front()->steps.has_value();
+        scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !lanes.front()->steps.has_value();
     const int parts = adaptive ? 1 : 1 << halvings;
     const double step = dt / parts;
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
     for (const Lane* lane : lanes) {
         const Rest at_rest = rest(*lane);
-        DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, options_.contact);
+        DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series));
         RunResult& result = passes.back()->result;
@@ -235,9 +235,9 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     ContactMemory memory = end.contact;
     std::optional<StaticContact> statics;
     if (structure_->slides_far())
-        statics.emplace(*structure_, options_.contact, planes.mean(0, end.contact.slip));
+        statics.emplace(*structure_, scene_.contact, options_.contact, planes.mean(0, end.contact.slip));
     else
-        statics.emplace(statics_, options_.contact);
+        statics.emplace(statics_, scene_.contact, options_.contact);
     SplitLoad load = structure_->split(after);
     let_water_ride(*structure_, options_.uplift_after.empty() ? options_.uplift : options_.uplift_after, load);
     result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory);
@@ -264,7 +264,7 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
         double excess = 0.0; // error over what is wanted, the largest of all planes
         for (const std::vector<SlipAtStep>& plane : lane.slips)
             excess =
-                std::max(excess, step_error(plane) / (*options_.slip_tolerance *
+                std::max(excess, step_error(plane) / (scene_.time.slip_tolerance *
                                                       std::max(std::abs(plane.back().slip), options_.smallest_slip)));
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
         lane.next = next_halvings(lane.slips.front(), excess);
@@ -278,8 +278,8 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     std::vector<RunResult> results(contacts.size());
     std::vector<std::unique_ptr<Lane>> lanes;
     std::vector<Lane*> going;
-    const int first = steps ? steps->halvings : options_.halvings.value_or(0);
-    const bool chosen = !steps && !options_.halvings; // by the slip tolerance
+    const int first = steps ? steps->halvings : scene_.time.substeps.value_or(0);
+    const bool chosen = !steps && !scene_.time.substeps; // by the slip tolerance
     const double step = scene_.time.dt.value_or(motion.dt) / (1 << first);
     const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
     for (const Contact& contact : contacts) {

@@ -20,18 +20,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-ModelOptions model_options(const RunOptions& options, Base base)
+ModelOptions model_options(const Scene& scene, const RunOptions& options, Base base)
 {
     ModelOptions result;
     result.base = base;
-    if (options.range == SlidingRange::finite) result.extension.downstream = *options.max_slip;
+    if (scene.contact.sliding == JointPath::finite) result.extension.downstream = scene.contact.max_slip;
     result.added_mass = options.added_mass;
     return result;
 }
-
-} // namespace
-
-namespace {
 
 InputError wrong_scheme(const Scene& scene, std::string problem, std::string expected, std::string fix)
 {
@@ -87,36 +83,15 @@ void check_scheme(const Scene& scene)
 
 } // namespace
 
-RunOptions completed(RunOptions options, const Scene& scene)
-{
-    if (!options.separation)
-        options.separation = scene.contact.separation == JointOpening::none ? Separation::none : Separation::allowed;
-    if (!options.range)
-        options.range = scene.contact.sliding == JointPath::finite ? SlidingRange::finite : SlidingRange::small;
-    if (!options.max_slip) options.max_slip = scene.contact.max_slip;
-    if (!options.slip_tolerance) options.slip_tolerance = scene.time.slip_tolerance;
-    if (!options.halvings) options.halvings = scene.time.substeps;
-    if (!options.stepping) options.stepping = scene.time.stepping;
-    if (scene.contact.enforcement == ContactEnforcement::penalty && options.contact.tangential_stiffness == 0.0)
-        options.contact.tangential_stiffness = scene.contact.tangential_stiffness.value();
-    if (scene.contact.enforcement == ContactEnforcement::slip_tolerance && options.contact.slip_tolerance == 0.0)
-        options.contact.slip_tolerance = scene.contact.slip_tolerance;
-    if (scene.contact.normal == NormalContact::exponential && options.contact.pressure_at_zero_clearance == 0.0) {
-        options.contact.pressure_at_zero_clearance = scene.contact.pressure_at_zero_clearance;
-        options.contact.clearance_at_zero_pressure = scene.contact.clearance_at_zero_pressure;
-    }
-    return options;
-}
-
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
-    : scene_(scene), options_(completed(std::move(options), scene))
+    : scene_(scene), options_(std::move(options))
 {
     check_scheme(scene_);
     const Stopwatch start;
     const auto part_done = [this] { stop_if_asked(options_.stop, "the set-up of the finite elements"); };
     part_done();
     const bool explicit_steps = scene_.time.scheme == TimeScheme::central_difference;
-    ModelOptions parts = model_options(options_, Base::separate);
+    ModelOptions parts = model_options(scene_, options_, Base::separate);
     if (explicit_steps) parts.mass = MassKind::lumped;
     model_ = std::make_unique<Model>(build_model(scene_, parts));
     if (explicit_steps) check_explicit(scene_, *model_);
@@ -126,15 +101,15 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
                                              rock_has_mass(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
     part_done();
     if (rock_has_mass(scene_)) {
-        ModelOptions moving = model_options(options_, Base::separate);
+        ModelOptions moving = model_options(scene_, options_, Base::separate);
         if (rock_edges_are_viscous(scene_)) moving.edges = RockEdges::free;
         moving_model_ = std::make_unique<Model>(build_model(scene_, moving));
         part_done();
         moving_ =
-            std::make_unique<ContactStructure>(*moving_model_, SlidingRange::small, water_.get(), RockBody::moving);
+            std::make_unique<ContactStructure>(*moving_model_, JointPath::small, water_.get(), RockBody::moving);
     }
     part_done();
-    structure_ = std::make_unique<ContactStructure>(*model_, *options_.range, moving_ ? nullptr : water_.get());
+    structure_ = std::make_unique<ContactStructure>(*model_, scene_.contact.sliding, moving_ ? nullptr : water_.get());
     part_done();
     stages_ = load_stages(scene_, *model_, options_.uplift,
                           options_.water_in_rock ? options_.water_in_rock(*model_) : Eigen::VectorXd());
@@ -168,7 +143,7 @@ void EarthquakeRun::find_damping()
         return;
     }
     // Of massless rock in any case: modes of a box of rock with mass are the box's, and waves that leave have none.
-    const Model tied = build_model(with_massless_rock(scene_), model_options(options_, Base::tied));
+    const Model tied = build_model(with_massless_rock(scene_), model_options(scene_, options_, Base::tied));
     if (water_) { // the leading modes, without those of the water alone
         damping_.constants = damping_of(scene_, tied, water_->water, {}).constants;
         return;
@@ -214,8 +189,8 @@ std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength
 /// passes that are left out count as made.
 RunProgress EarthquakeRun::progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const
 {
-    const bool chosen = !lane.steps && !options_.halvings;
-    const int first = lane.steps ? lane.steps->halvings : options_.halvings.value_or(0);
+    const bool chosen = !lane.steps && !scene_.time.substeps;
+    const int first = lane.steps ? lane.steps->halvings : scene_.time.substeps.value_or(0);
     const long before = record_steps * ((1L << halvings) - (1L << first)), now = record_steps << halvings;
     const long more = chosen && halvings == first ? 2 * now : 0;
     return {static_cast<double>(step) * dt, static_cast<double>(record_steps) * dt,
@@ -256,7 +231,7 @@ std::string EarthquakeRun::missed_tolerance(const RunResult& result) const
         }
     return fmt::format("{}slip {:.4g} mm ± {:.3g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} "
                        "allows. Give a smaller time.dt_s, or a larger slip_tolerance.",
-                       where, 1e3 * slip, 1e3 * error, result.dt, *options_.slip_tolerance);
+                       where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance);
 }
 
 void EarthquakeRun::judge(RunResult& result) const
@@ -278,8 +253,8 @@ void EarthquakeRun::judge(RunResult& result) const
     case Status::sliding_at_end:
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
                                      1e3 * result.slip, scene_.sliding.run_out_max);
-        if (!result.stages.empty() && result.stages.back().sliding_factor > 1.0 && !scene_.contact.residual_friction &&
-            scene_.contact.friction_table.empty() && scene_.contact.cohesion == 0.0)
+        if (!result.stages.empty() && result.stages.back().sliding_factor > 1.0 &&
+            FrictionOverSlip(scene_.contact).constant() && scene_.contact.cohesion == 0.0)
             result.message +=
                 fmt::format(" Without the earthquake it stands, FS {:.3g}: what walks on may be the model, "
                             "not the dam (docs/fe-contact.md, A dam that goes on sliding).",
@@ -296,7 +271,7 @@ void EarthquakeRun::judge(RunResult& result) const
         break;
     case Status::left_plane:
         result.message = fmt::format("Stopped at {:.2f} s: slipped {:.4g} m, beyond contact.max_slip_m = {:g} m.",
-                                     result.end_time, result.slip, *options_.max_slip);
+                                     result.end_time, result.slip, scene_.contact.max_slip);
         break;
     case Status::diverged: {
         const Energy& energy = result.history.energy.back();
@@ -328,9 +303,7 @@ Strength EarthquakeRun::strength_of(const Contact& base) const
 {
     std::vector<Contact> contacts{base};
     for (const LiftJoint& joint : scene_.lift_joints) contacts.push_back(joint.strength);
-    Strength strength(std::move(contacts), structure_->planes());
-    strength.set_separation(*options_.separation);
-    return strength;
+    return Strength(contacts, structure_->planes());
 }
 
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const

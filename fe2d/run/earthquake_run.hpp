@@ -17,36 +17,24 @@
 /// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
 namespace damslip::fe2d {
 
-/// What the caller brings from other modules, and what only a run needs.
+/// What the caller brings from other modules, and what only a run needs. All else is the scene's.
 struct RunOptions {
     AddedMassLaw added_mass; ///< of the upstream face (ModelOptions::added_mass); empty: none
     Polyline uplift;         ///< x = distance from the heel [m], y = pressure [Pa]; empty: none
     Polyline uplift_after;   ///< the same after the earthquake; empty: as before
     /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.
     std::function<Eigen::VectorXd(const Model&)> water_in_rock;
-    std::optional<RayleighConstants> damping; ///< instead of Rayleigh's on the scene's two modes
-    std::optional<Separation> separation;     ///< default: the scene's
-    std::optional<SlidingRange> range;        ///< default: the scene's
-    std::optional<double> max_slip;           ///< with a finite range the rock's plane is meshed this far past the toe,
-                                              ///< > 0 [m]; default: the scene's
-    std::optional<double> slip_tolerance;     ///< of the time step: wanted error of the slip over its size, > 0 [-];
-                                              ///< default: the scene's
-    std::optional<int> halvings;      ///< sub-steps Δt/2^k with this k, 0 ... 10; default: the scene's, else chosen by
-                                      ///< slip_tolerance
-    int largest_halvings = 5;         ///< when chosen
-    std::optional<Stepping> stepping; ///< of chosen sub-steps; default: the scene's
-    double smallest_slip = 1e-6;      ///< errors below this share of slip_tolerance do not matter [m]
-    double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
-    ContactOptions contact;           ///< tangential stiffness and slip tolerance, where zero: the scene's
+    std::optional<RayleighConstants> damping; ///< in place of the scene's
+    int largest_halvings = 5;                 ///< of sub-steps that are chosen
+    double smallest_slip = 1e-6;              ///< errors below time.slip_tolerance of this do not matter [m]
+    double rest_time = 0.5;                   ///< the run-out ends when the dam has not slid for this long [s]
+    ContactOptions contact;
     PairSeries pair_series = PairSeries::none;
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
     StopAsked stop; ///< asked between the parts of the set-up
 };
-
-/// What the options leave open, from the scene: separation, contact law, sub-steps.
-RunOptions completed(RunOptions options, const Scene& scene);
 
 /// Seconds of each part.
 struct RunSeconds {

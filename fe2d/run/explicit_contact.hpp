@@ -20,7 +20,7 @@ struct ExplicitImpulse {
 /// @param target  rate that shuts the pair at the end of the step: -opening/Δt, <= 0 [m/s]
 /// @param cohesion  times the pair's area and Δt [N s/m]
 ExplicitImpulse solve_pair(const ExplicitPair& pair, double free_normal, double free_tangential, double target,
-                           double friction, double cohesion, Separation separation);
+                           double friction, double cohesion, JointOpening separation);
 
 /// What explicit steps of one structure share, at any step size: rigid base, lumped mass.
 class ExplicitOperators {

@@ -13,15 +13,15 @@ using Eigen::VectorXd;
 /// There is one solution for mu |nt| < nn; only a cohesive shear may lift its own pair where W couples the directions, and then acts
 /// with P_n = 0.
 ExplicitImpulse solve_pair(const ExplicitPair& w, double free_normal, double free_tangential, double target,
-                           double friction, double cohesion, Separation separation)
+                           double friction, double cohesion, JointOpening separation)
 {
-    if (separation == Separation::allowed && free_normal >= target) return {};
+    if (separation == JointOpening::allowed && free_normal >= target) return {};
     const double normal = target - free_normal, tangential = -free_tangential;
     const double det = w.nn * w.tt - w.nt * w.nt;
     ExplicitImpulse p;
     p.normal = (w.tt * normal - w.nt * tangential) / det;
     p.tangential = (w.nn * tangential - w.nt * normal) / det;
-    if (separation == Separation::none && p.normal < 0.0) return {normal / w.nn, 0.0, ContactState::pulled};
+    if (separation == JointOpening::none && p.normal < 0.0) return {normal / w.nn, 0.0, ContactState::pulled};
     const double strength = cohesion + friction * std::max(p.normal, 0.0);
     p.state = ContactState::stick;
     if (p.normal >= 0.0 && std::abs(p.tangential) <= strength) return p;

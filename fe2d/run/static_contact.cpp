@@ -96,13 +96,15 @@ StaticState StaticOperator::displacements(const SplitLoad& load, const VectorXd&
     return state;
 }
 
-StaticContact::StaticContact(std::shared_ptr<const StaticOperator> linear, const ContactOptions& options)
-    : linear_(std::move(linear)), solver_(linear_->stiffness(), linear_->structure().planes().area(), options)
+StaticContact::StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint,
+                             const ContactOptions& options)
+    : linear_(std::move(linear)), solver_(linear_->stiffness(), linear_->structure().planes().area(), joint, options)
 {
 }
 
-StaticContact::StaticContact(const ContactStructure& structure, const ContactOptions& options, double slip)
-    : StaticContact(std::make_shared<const StaticOperator>(structure, slip), options)
+StaticContact::StaticContact(const ContactStructure& structure, const Contact& joint, const ContactOptions& options,
+                             double slip)
+    : StaticContact(std::make_shared<const StaticOperator>(structure, slip), joint, options)
 {
 }
 

@@ -72,9 +72,11 @@ private:
 /// Static equilibrium of dam, contact and rock: the contact problem of StaticOperator.
 class StaticContact {
 public:
-    StaticContact(std::shared_ptr<const StaticOperator> linear, const ContactOptions& options);
+    /// @param joint  law of the joints, see JointSolver
+    StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint, const ContactOptions& options = {});
     /// @param slip  how far the dam has slid, of a structure that slides far [m]
-    explicit StaticContact(const ContactStructure& structure, const ContactOptions& options = {}, double slip = 0.0);
+    explicit StaticContact(const ContactStructure& structure, const Contact& joint = {},
+                           const ContactOptions& options = {}, double slip = 0.0);
 
     /// From the memory of the last stage to equilibrium under the whole load: friction is followed in one step.
     ContactReport solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory);

@@ -1,14 +1,11 @@
 #pragma once
 
 #include "fe2d/run/static_contact.hpp"
-#include "scene/scene.hpp"
+#include "scene/friction_over_slip.hpp"
 
 #include <vector>
 
 namespace damslip::fe2d {
-
-/// Friction of a base or joint after a slip [-]. @param slip  accumulated, both directions [m]
-double friction_at(const Contact& contact, double slip);
 
 /// Strength of the pairs during a run: friction that depends on the slip of each pair, cohesion that is lost.
 ///
@@ -17,16 +14,16 @@ class Strength {
 public:
     Strength(const Contact& contact, const Plane& plane); ///< of one plane
     /// @param contacts  of the base and of each lift joint
-    Strength(std::vector<Contact> contacts, const ContactPlanes& planes);
+    Strength(const std::vector<Contact>& contacts, const ContactPlanes& planes);
 
     const ContactLaw& law() const { return law_; }
-    void set_separation(Separation separation) { law_.separation = separation; }
     bool constant() const { return constant_; }
     void follow(const ContactMemory& memory); ///< after a step
 
 private:
     struct Part {
-        Contact contact;
+        FrictionOverSlip friction;
+        bool cohesion_lost_at_slip;
         Eigen::Index first, pairs;
     };
     void add(const Contact& contact, Eigen::Index first, const Eigen::VectorXd& area);

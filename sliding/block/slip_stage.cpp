@@ -2,6 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "core/number.hpp"
+#include "scene/friction_over_slip.hpp"
 #include "sliding/block/base_equations.hpp"
 
 #include <algorithm>
@@ -9,28 +10,6 @@
 
 namespace damslip::sliding {
 namespace {
-
-/// Friction over the path as points; a repeated path is a step.
-std::vector<Point> friction_points(const Contact& contact)
-{
-    if (!contact.friction_table.empty()) return contact.friction_table;
-    if (!contact.residual_friction) return {{0.0, contact.friction}};
-    return {{0.0, contact.friction}, {contact.residual_slip, *contact.residual_friction}};
-}
-
-SlipStages friction_stages(const RigidBlock& block, const std::vector<Point>& points, Interpolation interpolation)
-{
-    SlipStages stages;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        SlipStage stage{i == 0 ? 0.0 : points[i].x, block, 0.0};
-        stage.block.friction = points[i].y;
-        const bool last = i + 1 == points.size();
-        if (interpolation == Interpolation::linear && !last && points[i + 1].x > points[i].x)
-            stage.friction_slope = (points[i + 1].y - points[i].y) / (points[i + 1].x - points[i].x);
-        stages.push_back(stage);
-    }
-    return stages;
-}
 
 void lose_cohesion_at_slip(SlipStages& stages)
 {
@@ -55,7 +34,11 @@ void lose_cohesion_at_slip(SlipStages& stages)
 
 SlipStages strength_stages(RigidBlock block, const Contact& contact)
 {
-    SlipStages stages = friction_stages(block, friction_points(contact), contact.residual_path);
+    SlipStages stages;
+    for (const FrictionOverSlip::Piece& piece : FrictionOverSlip(contact).pieces()) {
+        block.friction = piece.friction;
+        stages.push_back({piece.from_slip, block, piece.slope});
+    }
     if (contact.cohesion_lost_at_slip) lose_cohesion_at_slip(stages);
     return stages;
 }

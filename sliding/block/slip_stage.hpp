@@ -20,8 +20,7 @@ struct SlipStage {
 /// Stages by ascending from_slip, at least one.
 using SlipStages = std::vector<SlipStage>;
 
-/// The stages of one block with the strength of the scene's contact: friction and its residual value or table, cohesion
-/// lost at first slip. `block.cohesion_force` is c A'; `block.friction` is overwritten by the contact's.
+/// The stages of one block with the strength of the scene's contact: FrictionOverSlip, cohesion lost at first slip. `block.cohesion_force` is c A'; `block.friction` is overwritten by the contact's.
 SlipStages strength_stages(RigidBlock block, const Contact& contact);
 
 /// Other static forces and masses from a path on, the strength staying as it is: drains lost at slip (a higher uplift).

@@ -1,17 +1,9 @@
 #include "sliding/equilibrium/base_state.hpp"
 
+#include "scene/friction_over_slip.hpp"
 #include "scene/section.hpp"
 
 namespace damslip::sliding {
-
-namespace {
-
-double peak_friction(const Contact& contact)
-{
-    return contact.friction_table.empty() ? contact.friction : contact.friction_table.front().y;
-}
-
-} // namespace
 
 BaseFrame base_frame(const Scene& scene)
 {
@@ -93,7 +85,7 @@ RigidBlock make_rigid_block(const Scene& scene, const BaseState& state, std::opt
     }
     block.uplift = state.base.uplift.force;
     block.cohesion_force = options.cohesion.value_or(scene.contact.cohesion) * state.cohesive_length();
-    block.friction = options.friction.value_or(peak_friction(scene.contact));
+    block.friction = options.friction.value_or(FrictionOverSlip(scene.contact).peak());
     block.base_inclination = state.frame.inclination;
     return block;
 }

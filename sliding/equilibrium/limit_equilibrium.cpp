@@ -1,6 +1,7 @@
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include "core/units.hpp"
+#include "scene/friction_over_slip.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
@@ -64,8 +65,7 @@ struct Strength {
 Strength peak(const Scene& scene, const Combination& c)
 {
     const Contact& contact = scene.contact;
-    const double friction = contact.friction_table.empty() ? contact.friction : contact.friction_table.front().y;
-    return {c.friction.value_or(friction), c.cohesion.value_or(contact.cohesion)};
+    return {c.friction.value_or(FrictionOverSlip(contact).peak()), c.cohesion.value_or(contact.cohesion)};
 }
 
 Strength residual(const Scene& scene, const Combination& c)
@@ -73,8 +73,7 @@ Strength residual(const Scene& scene, const Combination& c)
     const Contact& contact = scene.contact;
     const Strength from = peak(scene, c);
     Strength out{from.friction, contact.cohesion_lost_at_slip || c.residual_strength ? 0.0 : from.cohesion};
-    if (contact.residual_friction) out.friction = *contact.residual_friction;
-    if (!contact.friction_table.empty()) out.friction = contact.friction_table.back().y;
+    if (const FrictionOverSlip friction(contact); !friction.constant()) out.friction = friction.residual();
     if (c.residual_strength && c.friction) out.friction = *c.friction;
     return out;
 }

@@ -1,4 +1,5 @@
 #include "scene/effect_row.hpp"
+#include "scene/friction_over_slip.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ Decision decide_strength_loss(const Scene& s, Method)
 RemovalAnswer without_strength_loss(Scene s, const SeepagePoints&)
 {
     Contact& c = s.contact;
-    if (!c.friction_table.empty()) c.friction = c.friction_table.front().y;
+    c.friction = FrictionOverSlip(c).peak();
     c.friction_table.clear();
     c.residual_friction.reset();
     c.residual_slip = 0.0;

@@ -28,7 +28,7 @@ void run_case(const char* name, double contact_size, double dam_size, double gro
     scene.mesh.size = dam_size;
     scene.mesh.growth = growth;
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = halvings;
+    scene.time.substeps = halvings;
     const GroundMotion motion = fe2d::test::sines(1.0);
     const double start = processor_seconds();
     const fe2d::EarthquakeRun run(scene, options);
@@ -51,7 +51,7 @@ void reduced_case(const char* name, double contact_size, double dam_size, double
     scene.mesh.size = dam_size;
     scene.mesh.growth = growth;
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const GroundMotion motion = fe2d::test::sines(1.0);
     const double start = processor_seconds();
     const fe2d::EarthquakeRun run(scene, options);
@@ -82,7 +82,7 @@ void default_case(double friction)
     const fe2d::RunResult chosen = fe2d::EarthquakeRun(scene, options).run(motion);
     const double end = processor_seconds();
     const auto with = [&](int halvings) {
-        options.halvings = halvings;
+        scene.time.substeps = halvings;
         return fe2d::EarthquakeRun(scene, options).run(motion).slip;
     };
     const double eighth = with(3), finest = with(5);
@@ -94,14 +94,14 @@ void default_case(double friction)
 /// Frictions of one motion in lockstep, beside the same runs one by one.
 void lockstep_case(int lanes)
 {
-    const Scene scene = [] {
+    Scene scene = [] {
         Scene s = fe2d::test::sliding_dam(0.77, 1.0, 0.5);
         s.mesh.size = 2.0;
         s.mesh.growth = 1.3;
         return s;
     }();
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const GroundMotion motion = fe2d::test::sines(1.0);
     std::vector<Contact> contacts;
     for (int i = 0; i < lanes; ++i) {
@@ -126,10 +126,10 @@ struct Measured {
     fe2d::RunResult result;
 };
 
-Measured measure(const Scene& scene, const GroundMotion& motion)
+Measured measure(Scene scene, const GroundMotion& motion)
 {
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     Measured best;
     for (int repeat = 0; repeat < 3; ++repeat) {
         const double start = processor_seconds();
@@ -203,14 +203,14 @@ void stepping_case(const GroundMotion& motion, double friction)
     scene.mesh.size = 2.0;
     scene.mesh.growth = 1.3;
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 6;
+    scene.time.substeps = 6;
     const double exact = fe2d::EarthquakeRun(scene, options).run(motion).slip;
-    options.halvings.reset();
+    scene.time.substeps.reset();
     for (int level = 1; level <= 4; ++level) {
         options.largest_halvings = level;
-        options.slip_tolerance = 1e-12; // never satisfied: all passes up to the level
+        scene.time.slip_tolerance = 1e-12; // never satisfied: all passes up to the level
         for (const Stepping stepping : {Stepping::uniform, Stepping::adaptive}) {
-            options.stepping = stepping;
+            scene.time.stepping = stepping;
             const fe2d::EarthquakeRun run(scene, options);
             const double start = processor_seconds();
             const fe2d::RunResult r = run.run(motion);
@@ -250,7 +250,7 @@ void element_table(double friction)
         scene.mesh.size = 1.6 * row.contact;
         scene.mesh.element = row.kind;
         fe2d::RunOptions options = fe2d::test::options_of(scene);
-        options.halvings = 2;
+        scene.time.substeps = 2;
         Measure best;
         for (int repeat = 0; repeat < (row.contact > 2.0 ? 3 : 1); ++repeat) {
             const double start = processor_seconds();

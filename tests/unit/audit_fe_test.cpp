@@ -274,9 +274,9 @@ TEST(Audit, A17_the_largest_slip_is_that_of_all_steps)
         fine.*component = all;
     }
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 3;
+    scene.time.substeps = 3;
     const fe2d::RunResult in_parts = fe2d::EarthquakeRun(scene, options).run(coarse);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const fe2d::RunResult whole = fe2d::EarthquakeRun(scene, options).run(fine);
     const auto largest = [](const std::vector<double>& slip) {
         double most = 0.0;

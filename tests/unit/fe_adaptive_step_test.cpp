@@ -19,11 +19,10 @@ GroundMotion with_coda()
     return motion;
 }
 
-RunOptions adaptive(const Scene& scene)
+Scene adaptive(Scene scene)
 {
-    RunOptions options = options_of(scene);
-    options.stepping = Stepping::adaptive;
-    return options;
+    scene.time.stepping = Stepping::adaptive;
+    return scene;
 }
 
 // The estimate holds: the slip is within the wanted 1 % of that of steps of dt/64, which err by a tenth of it at most.
@@ -33,10 +32,11 @@ TEST(FeAdaptiveStep, CostsFewerStepsAndKeepsTheAccuracy)
 {
     const Scene scene = sliding_dam(0.75);
     const GroundMotion motion = with_coda();
-    RunOptions fine = options_of(scene);
-    fine.halvings = 6;
-    const double exact = EarthquakeRun(scene, fine).run(motion).slip;
-    const RunResult r = EarthquakeRun(scene, adaptive(scene)).run(motion);
+    Scene fine = scene;
+    fine.time.substeps = 6;
+    const RunOptions options = options_of(scene);
+    const double exact = EarthquakeRun(fine, options).run(motion).slip;
+    const RunResult r = EarthquakeRun(adaptive(scene), options).run(motion);
     ASSERT_EQ(r.status, Status::at_rest) << r.message;
     EXPECT_GT(exact, 0.01);
     EXPECT_GT(r.halvings, 1);
@@ -54,7 +54,7 @@ TEST(FeAdaptiveStep, LockstepGivesTheBitsOfSingleRuns)
 {
     const Scene scene = sliding_dam(0.75, 1.0, 5.0);
     const GroundMotion motion = sines(1.2, 4.0);
-    const EarthquakeRun run(scene, adaptive(scene));
+    const EarthquakeRun run(adaptive(scene), options_of(scene));
     std::vector<Contact> contacts(2, scene.contact);
     contacts[1].friction = 0.9;
     const std::vector<RunResult> together = run.run_all(motion, contacts);

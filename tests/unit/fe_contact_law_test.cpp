@@ -96,9 +96,10 @@ TEST(FeSlipToleranceCoupled, stiffness_follows_the_pressure_within_a_step)
 // The constant stiffness, by hand: V_t = 1, k A = 4: -0.3 + y = -4 y, slip from 0.5 on: -0.9 + y = -0.5, 0.125 elastic.
 TEST(FeElasticStick, one_pair)
 {
-    ContactOptions options;
-    options.tangential_stiffness = 2.0;
-    JointSolver joint(Vector2d(2.0, 1.0).asDiagonal().toDenseMatrix(), VectorXd::Constant(1, 2.0), options);
+    Contact penalty;
+    penalty.enforcement = ContactEnforcement::penalty;
+    penalty.tangential_stiffness = 2.0;
+    JointSolver joint(Vector2d(2.0, 1.0).asDiagonal().toDenseMatrix(), VectorXd::Constant(1, 2.0), penalty);
     VectorXd elastic = VectorXd::Zero(1);
     ContactSolution solution;
     joint.solve(Vector2d(1.0, -0.3), uniform_law(1, 0.5), elastic, solution);
@@ -129,7 +130,7 @@ TEST(FeSlipToleranceRandom, is_resolved_and_tends_to_the_exact_law)
         for (double& x : stuck) x = uniform();
         stuck.head(m).array() += 0.8;
         ContactLaw law = uniform_law(m, 0.3, 0.02);
-        for (const Separation separation : {Separation::allowed, Separation::none}) {
+        for (const JointOpening separation : {JointOpening::allowed, JointOpening::none}) {
             law.separation = separation;
             SlipTolerance soft(v, VectorXd::Constant(m, 0.2), {});
             VectorXd elastic = VectorXd::Zero(m);
@@ -138,7 +139,7 @@ TEST(FeSlipToleranceRandom, is_resolved_and_tends_to_the_exact_law)
             EXPECT_TRUE(report.resolved()) << trial;
             EXPECT_LT(report.residual, 1e-9) << trial;
         }
-        law.separation = Separation::allowed;
+        law.separation = JointOpening::allowed;
         ContactSolver rigid(v);
         ContactSolution exact, near;
         ASSERT_TRUE(rigid.solve(stuck, law, exact).resolved());

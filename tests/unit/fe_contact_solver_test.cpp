@@ -67,7 +67,7 @@ TEST(FeContactSolver, one_pair_in_each_state_by_hand)
     EXPECT_NEAR(s.displacement[1], -0.8, 1e-15);
     // without separation it stays shut and carries no shear
     ContactLaw glued = law;
-    glued.separation = Separation::none;
+    glued.separation = JointOpening::none;
     solver.solve(Eigen::Vector2d(-1.0, 0.8), glued, s);
     EXPECT_EQ(s.states[0], ContactState::pulled);
     EXPECT_EQ(s.displacement[0], 0.0);
@@ -185,7 +185,7 @@ TEST(FeContactSolver, cohesion_does_not_count_where_the_joint_has_parted)
 {
     const MatrixXd stiffness = Eigen::Vector2d(4.0, 1.0).asDiagonal().toDenseMatrix();
     const VectorXd stuck = Eigen::Vector2d(-2.0, 1.0);
-    for (const Separation separation : {Separation::allowed, Separation::none}) {
+    for (const JointOpening separation : {JointOpening::allowed, JointOpening::none}) {
         ContactLaw law = uniform_law(1, 0.5, 10.0);
         law.separation = separation;
         ContactSolver solver(stiffness);

@@ -161,10 +161,11 @@ TEST(FeExponentialNormalRandom, is_resolved_and_tends_to_hard_contact)
         ASSERT_TRUE(rigid.solve(base.stuck, law, exact).resolved());
         ContactSolution last;
         for (const double range : {1.0, 1e-2, 1e-4, 1e-6}) {
-            ContactOptions options;
-            options.pressure_at_zero_clearance = 0.3;
-            options.clearance_at_zero_pressure = range;
-            JointSolver soft(base.stiffness, VectorXd::Ones(m), options);
+            Contact exponential;
+            exponential.normal = NormalContact::exponential;
+            exponential.pressure_at_zero_clearance = 0.3;
+            exponential.clearance_at_zero_pressure = range;
+            JointSolver soft(base.stiffness, VectorXd::Ones(m), exponential);
             VectorXd elastic = VectorXd::Zero(m);
             const ContactReport report = soft.solve(base.stuck, law, elastic, last);
             EXPECT_TRUE(report.resolved()) << trial << ", c0 = " << range;
@@ -189,10 +190,11 @@ TEST(FeExponentialNormalRandom, much_friction_on_a_loose_base_is_resolved)
     for (int trial = 0; trial < 400; ++trial) {
         RandomBase base = random_base(random);
         base.stiffness.diagonal().array() -= 0.98;
-        ContactOptions options;
-        options.pressure_at_zero_clearance = 0.3;
-        options.clearance_at_zero_pressure = 0.05;
-        JointSolver soft(base.stiffness, VectorXd::Ones(m), options);
+        Contact exponential;
+        exponential.normal = NormalContact::exponential;
+        exponential.pressure_at_zero_clearance = 0.3;
+        exponential.clearance_at_zero_pressure = 0.05;
+        JointSolver soft(base.stiffness, VectorXd::Ones(m), exponential);
         VectorXd elastic = VectorXd::Zero(m);
         ContactSolution solution;
         const ContactReport report = soft.solve(base.stuck, uniform_law(m, 0.9), elastic, solution);
@@ -207,17 +209,19 @@ TEST(FeExponentialNormalRandom, much_friction_on_a_loose_base_is_resolved)
 // -0.3 + y = -4 y; across nothing holds but the law, p(g) A = 2 with p0 = 1, A = 2.
 TEST(FeExponentialNormal, gives_way_along_the_plane_too)
 {
-    ContactOptions options;
-    options.tangential_stiffness = 2.0;
-    options.pressure_at_zero_clearance = 1.0;
-    options.clearance_at_zero_pressure = 0.1;
-    JointSolver joint(Vector2d(0.0, 1.0).asDiagonal().toDenseMatrix(), VectorXd::Constant(1, 2.0), options);
+    Contact law;
+    law.enforcement = ContactEnforcement::penalty;
+    law.tangential_stiffness = 2.0;
+    law.normal = NormalContact::exponential;
+    law.pressure_at_zero_clearance = 1.0;
+    law.clearance_at_zero_pressure = 0.1;
+    JointSolver joint(Vector2d(0.0, 1.0).asDiagonal().toDenseMatrix(), VectorXd::Constant(1, 2.0), law);
     VectorXd elastic = VectorXd::Zero(1);
     ContactSolution solution;
     ASSERT_TRUE(joint.solve(Vector2d(2.0, -0.3), uniform_law(1, 0.5), elastic, solution).resolved());
     EXPECT_NEAR(elastic[0], 0.06, 1e-15);
     EXPECT_NEAR(solution.displacement[0], 0.0, 1e-12);
-    EXPECT_NEAR(stored_energy(options, VectorXd::Constant(1, 2.0), VectorXd::Zero(1)),
+    EXPECT_NEAR(stored_energy(law, VectorXd::Constant(1, 2.0), VectorXd::Zero(1)),
                 2.0 * 0.1 * 0.5 / (std::numbers::e - 1.0), 1e-16);
 }
 

@@ -17,12 +17,12 @@ using fe2d::test::options_of;
 using fe2d::test::sines;
 using fe2d::test::sliding_dam;
 
-ContactOptions soft(double range = 1e-3)
+Contact soft(double range = 1e-3)
 {
-    ContactOptions options;
-    options.pressure_at_zero_clearance = 1e6;
-    options.clearance_at_zero_pressure = range;
-    return options;
+    Contact law;
+    law.normal = NormalContact::exponential;
+    law.clearance_at_zero_pressure = range;
+    return law;
 }
 
 // 8 m x 4 m on a rigid plane: p = rho g H everywhere (nu = 0), so one clearance everywhere, p(g) = rho g H. The forces

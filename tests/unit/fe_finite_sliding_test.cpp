@@ -114,12 +114,12 @@ GroundMotion push(double acceleration, double seconds, double duration)
 // matters: the slip is that of the small-sliding run to 1e-4 (the box ends 5 m of 150 m nearer, the curtain is 1 m thin).
 TEST(FeFiniteSliding, slides_metres_over_flexible_rock)
 {
-    const Scene scene = sliding_dam(0.70);
+    Scene scene = sliding_dam(0.70);
     RunOptions options = options_of(scene);
-    options.halvings = 1;
+    scene.time.substeps = 1;
     const EarthquakeRun small(scene, options);
-    options.range = SlidingRange::finite;
-    options.max_slip = 8.0;
+    scene.contact.sliding = JointPath::finite;
+    scene.contact.max_slip = 8.0;
     const EarthquakeRun finite(scene, options);
     const double pushes[][2] = {{1.5, 0.12}, {1.5, 0.36}, {1.5, 1.2}};
     for (const auto& [acceleration, seconds] : pushes) {
@@ -147,11 +147,11 @@ TEST(FeFiniteSliding, slides_metres_over_flexible_rock)
 
 TEST(FeFiniteSliding, leaving_the_meshed_plane_is_a_status)
 {
-    const Scene scene = sliding_dam(0.70);
+    Scene scene = sliding_dam(0.70);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
-    options.range = SlidingRange::finite;
-    options.max_slip = 0.1;
+    scene.time.substeps = 0;
+    scene.contact.sliding = JointPath::finite;
+    scene.contact.max_slip = 0.1;
     const RunResult result = EarthquakeRun(scene, options).run(push(3.0, 2.4, 8.0));
     EXPECT_EQ(result.status, Status::left_plane);
     EXPECT_NE(result.message.find("max_slip"), std::string::npos) << result.message;
@@ -174,10 +174,10 @@ TEST(FeFiniteSliding, is_asked_for_in_the_scene)
 // Without motion nothing happens, whatever the rock it stands on.
 TEST(FeFiniteSliding, start_is_in_equilibrium)
 {
-    const Scene scene = sliding_dam(0.70);
+    Scene scene = sliding_dam(0.70);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
-    options.range = SlidingRange::finite;
+    scene.time.substeps = 0;
+    scene.contact.sliding = JointPath::finite;
     const RunResult result = EarthquakeRun(scene, options).run(push(0.0, 0.1, 10.0));
     EXPECT_LT(result.max_slip, 1e-12);
 }

@@ -26,10 +26,10 @@ GroundMotion sine_pulses()
     return motion;
 }
 
-double contact_slip_of(const Scene& scene)
+double contact_slip_of(Scene scene)
 {
     RunOptions options;
-    options.halvings = 1;
+    scene.time.substeps = 1;
     const RunResult result = EarthquakeRun(scene, options).run(sine_pulses());
     EXPECT_EQ(result.status, Status::at_rest) << result.message;
     return result.slip;

@@ -35,9 +35,9 @@ void expect_same(const RunResult& a, const RunResult& b)
 // Seven frictions are groups of four, two and one in the factor; one fails statically and leaves the others in step.
 TEST(FeLanes, RunsInStepHaveTheBitsOfSingleRuns)
 {
-    const Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const EarthquakeRun run(scene, options);
     const GroundMotion motion = sines(1.0, 6.0);
     const std::vector<Contact> contacts = frictions({0.9, 0.84, 0.77, 0.40, 0.74, 0.70, 0.68, 0.66});
@@ -69,10 +69,10 @@ TEST(FeLanes, StepSizesAreSharedByAllFrictions)
 
 TEST(FeLanes, FarSlidingLanesKeepTheirOwnPlaces)
 {
-    const Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
-    options.range = SlidingRange::finite;
+    scene.time.substeps = 0;
+    scene.contact.sliding = JointPath::finite;
     const EarthquakeRun run(scene, options);
     const GroundMotion motion = sines(2.0, 4.0);
     const std::vector<Contact> contacts = frictions({0.77, 0.66});
@@ -87,13 +87,14 @@ DynamicContact shaken(const EarthquakeRun& run, const Scene& scene, const RunOpt
 {
     const ContactStructure& structure = run.structure();
     StaticContact statics(structure);
-    Strength strength(scene.contact, structure.plane());
-    strength.set_separation(Separation::none); // Lemke's method, which always ends, is for joints that open
+    Contact shut = scene.contact;
+    shut.separation = JointOpening::none; // Lemke's method, which always ends, is for joints that open
+    Strength strength(shut, structure.plane());
     ContactMemory memory(structure.pairs());
     run.statics(statics, strength, memory);
     const SplitLoad load = structure.split(load_stages(scene, run.model(), options.uplift).last());
     DynamicContact dynamics(structure, {run.damping(), scene.damping.mass}, scheme_of(scene.time), load,
-                            statics.displacements(load, memory), memory, contact);
+                            statics.displacements(load, memory), memory, {}, contact);
     for (std::size_t k = 1; k < motion.accel_h.size(); ++k)
         dynamics.advance(motion.dt, {motion.accel_h[k], motion.accel_v[k]}, strength.law());
     return dynamics;

@@ -11,7 +11,7 @@ using namespace damslip::fe2d;
 // Pushed by 1.5 m/s2 for 0.3 s the dam comes to rest where it does on facing nodes: what is left is the error of the
 // rock's mesh, of second order in its size and small beside the dam's own, since the rock only bends below the dam (1e-5
 // and 9e-5 of the slip measured on a 20 s record). 1e-3 leaves room for a factor of ten. Energy closes as it does there.
-void slides_as_on_facing_nodes(SlidingRange range)
+void slides_as_on_facing_nodes(JointPath range)
 {
     GroundMotion motion;
     motion.dt = 0.01;
@@ -22,9 +22,9 @@ void slides_as_on_facing_nodes(SlidingRange range)
         Scene scene = fe2d::test::sliding_dam(0.70);
         if (ratio > 0.0) scene.mesh.rock_contact_size = ratio * mesh_sizes(scene).contact;
         RunOptions options = fe2d::test::options_of(scene);
-        options.halvings = 0;
-        options.range = range;
-        options.max_slip = 1.0;
+        scene.time.substeps = 0;
+        scene.contact.sliding = range;
+        scene.contact.max_slip = 1.0;
         const EarthquakeRun run(scene, options);
         EXPECT_EQ(run.model().mesh.contact.matching, ratio == 0.0);
         const RunResult result = run.run(motion);
@@ -41,12 +41,12 @@ void slides_as_on_facing_nodes(SlidingRange range)
 
 TEST(FeNonMatchingRun, SlidesAsOnFacingNodes)
 {
-    slides_as_on_facing_nodes(SlidingRange::small);
+    slides_as_on_facing_nodes(JointPath::small);
 }
 
 TEST(FeNonMatchingRun, SlidesFarAsOnFacingNodes)
 {
-    slides_as_on_facing_nodes(SlidingRange::finite);
+    slides_as_on_facing_nodes(JointPath::finite);
 }
 
 } // namespace

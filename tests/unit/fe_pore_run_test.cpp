@@ -20,11 +20,11 @@ Scene sticking_dam(PorePressure form)
     return scene;
 }
 
-RunResult at_rest(const Scene& scene, Eigen::Vector2d& crest)
+RunResult at_rest(Scene scene, Eigen::Vector2d& crest)
 {
+    scene.time.substeps = 0;
     const Watch nobody;
-    RunOptions options = prepare(scene, Method::finite_elements, nullptr).run_options(nobody);
-    options.halvings = 0;
+    const RunOptions options = prepare(scene, Method::finite_elements, nullptr).run_options(nobody);
     const EarthquakeRun run(scene, options);
     GroundMotion silence;
     silence.dt = 0.01;

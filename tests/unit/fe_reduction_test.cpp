@@ -58,7 +58,7 @@ TEST(FeReduction, all_modes_are_the_full_run)
 {
     Scene scene = small_dam(0.75);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     expect_full_run(scene, options);
     scene.damping.mass = MassDamping::relative;
     expect_full_run(scene, options);
@@ -66,10 +66,11 @@ TEST(FeReduction, all_modes_are_the_full_run)
 
 TEST(FeReduction, all_modes_are_the_full_run_with_penalty_and_substeps)
 {
-    const Scene scene = small_dam(0.75);
+    Scene scene = small_dam(0.75);
     RunOptions options = options_of(scene);
-    options.halvings = 1;
-    options.contact.tangential_stiffness = 1e10;
+    scene.time.substeps = 1;
+    scene.contact.enforcement = ContactEnforcement::penalty;
+    scene.contact.tangential_stiffness = 1e10;
     expect_full_run(scene, options);
 }
 
@@ -81,7 +82,7 @@ TEST(FeReduction, all_modes_are_the_full_run_on_a_rigid_base)
     scene.foundation.reset();
     scene.curtain.reset();
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     expect_full_run(scene, options, 0.8);
 }
 
@@ -91,7 +92,7 @@ TEST(FeReduction, stopped_at_any_moment_it_is_interrupted)
 {
     Scene scene = small_dam(0.75);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const EarthquakeRun full(scene, options);
     const GroundMotion motion = sines(1.5, 2.0);
     long asked = 0, stop_at = 0;

@@ -30,9 +30,9 @@ TEST(FeRockMassRun, KeptStatesAreThoseOfTheModel)
     for (const auto& [mass, boundary] : {std::pair{RockMass::massless, RockBoundary::fixed},
                                          {RockMass::with_mass, RockBoundary::fixed},
                                          {RockMass::with_mass, RockBoundary::viscous}}) {
-        const Scene scene = on_rock(mass, boundary);
+        Scene scene = on_rock(mass, boundary);
         RunOptions options = test::options_of(scene);
-        options.halvings = 0;
+        scene.time.substeps = 0;
         options.pair_series = PairSeries::every_step;
         const EarthquakeRun run(scene, options);
         const RunResult result = run.run(test::sines(1.0, 4.0));
@@ -86,7 +86,7 @@ TEST(FeRockMassRun, StepsThatCannotBeFactorisedAreAStatus)
 {
     Scene scene = on_rock(RockMass::massless, RockBoundary::fixed);
     RunOptions options = test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     options.damping = RayleighConstants{0.0, 0.0};
     scene.dam.density = 1e304;
     const RunResult result = EarthquakeRun(scene, options).run(test::sines(1.0, 1.0));

@@ -84,7 +84,7 @@ TEST(FeRunDissipation, mass_damping_of_a_sliding_block)
         scene.damping.mass = mass;
         RunOptions options;
         options.damping = RayleighConstants{a_m, 0.0};
-        options.halvings = 4;
+        scene.time.substeps = 4;
         const RunResult result = EarthquakeRun(scene, options).run(push(push_size, end));
         slip[static_cast<int>(mass)] = result.history.slip[100];
         EXPECT_NEAR(result.history.slip[100], expected(mass), 1e-3 * expected(mass)) << static_cast<int>(mass);
@@ -110,8 +110,9 @@ TEST(FeRunDissipation, stiffness_damping_does_not_act_on_contact_springs)
     for (const double b_k : {0.0, 0.001, 0.01}) {
         RunOptions options;
         options.damping = RayleighConstants{0.0, b_k};
-        options.contact.tangential_stiffness = stiffness;
-        options.halvings = 5;
+        scene.contact.enforcement = ContactEnforcement::penalty;
+        scene.contact.tangential_stiffness = stiffness;
+        scene.time.substeps = 5;
         const RunResult result = EarthquakeRun(scene, options).run(push(peak, 20.0 * std::numbers::pi / omega));
         const RunHistory& h = result.history;
         double largest = 0.0;
@@ -166,7 +167,7 @@ double imbalance(const Scheme& scheme, const Scheme& told)
     const RunDamping damping{run.damping(), MassDamping::relative};
     ContactOptions plain;
     plain.landing = Landing::ringing; // the ledger knows no landings
-    DynamicContact dynamics(structure, damping, scheme, load, statics.displacements(load, memory), memory, plain);
+    DynamicContact dynamics(structure, damping, scheme, load, statics.displacements(load, memory), memory, {}, plain);
 
     State before = ledger_state(dynamics, damping, load, nullptr);
     EnergyLedger ledger(before);
@@ -212,7 +213,7 @@ TEST(FeRunDissipation, impacts_that_give_energy_are_a_status)
     Scene scene = stiff_block(8.0, 8.0, 0.7);
     scene.time.alpha = 0.0;
     RunOptions options;
-    options.halvings = 0;
+    scene.time.substeps = 0;
     GroundMotion motion = sines(15.0, 6.0);
     for (double& a : motion.accel_v) a *= 1.5;
     const RunResult result = EarthquakeRun(scene, options).run(motion);
@@ -241,7 +242,7 @@ TEST(FeRunDissipation, a_scheme_that_gives_energy_is_a_status)
     scene.time.scheme = TimeScheme::newmark;
     scene.time.beta = 1.0 / 6.0;
     RunOptions options;
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const GroundMotion motion = sines(4.0, 2.0);
     const RunResult result = EarthquakeRun(scene, options).run(motion);
     ASSERT_EQ(result.status, Status::diverged) << result.message;

@@ -227,7 +227,7 @@ void compare(const Setting& s, const Whole& whole, LinearIntegrator& integrator,
     const double dt = 0.01;
     ContactOptions options;
     options.landing = land ? Landing::at_rest : Landing::ringing;
-    DynamicContact fast(*s.structure, s.damping, integrator.scheme(), s.load, s.start, s.memory, options);
+    DynamicContact fast(*s.structure, s.damping, integrator.scheme(), s.load, s.start, s.memory, {}, options);
     const ContactLaw law = uniform_law(whole.pairs, s.scene.contact.friction);
     const VectorXd u0 = s.structure->assemble(s.start.dam, s.start.rock, s.whole_load);
     VectorXd lambda = s.memory.force, opening = s.memory.opening, slip = s.memory.slip;

@@ -96,7 +96,7 @@ TEST(FeRun, no_creep)
     scene.mesh.size = 10.0;
     scene.sliding.run_out_max = 1.0;
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const EarthquakeRun run(scene, options);
     const double needed = run.run(silence(0.2, 0.1)).stages.back().friction_needed;
     const RunResult result = run.run(silence(1000.0, 0.1), with_friction(needed / 0.95));
@@ -108,9 +108,9 @@ TEST(FeRun, no_creep)
 // Rigid limit, a short cut of the verification case: E x 1e4, half a minute of the rigid block's slip.
 TEST(FeRun, stiff_dam_slides_as_the_rigid_block)
 {
-    const Scene scene = sliding_dam(0.70, 1e4, 5.0);
+    Scene scene = sliding_dam(0.70, 1e4, 5.0);
     RunOptions options = options_of(scene);
-    options.halvings = 2;
+    scene.time.substeps = 2;
     const EarthquakeRun run(scene, options);
     for (const GroundMotion& motion : {sines(1.0, 10.0), flipped(sines(1.0, 10.0))}) {
         const RunResult result = run.run(motion);
@@ -126,9 +126,9 @@ TEST(FeRun, stiff_dam_slides_as_the_rigid_block)
 // The same pulse upstream and downstream: only the one that drives the dam downstream makes it slide.
 TEST(FeRun, positive_acceleration_drives_downstream)
 {
-    const Scene scene = sliding_dam(0.77);
+    Scene scene = sliding_dam(0.77);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const EarthquakeRun run(scene, options);
     GroundMotion pulse = silence(2.0, 0.01);
     for (int k = 0; k < 60; ++k)
@@ -149,9 +149,9 @@ TEST(FeRun, history_of_rocking_and_pairs)
     EXPECT_NEAR(base_rotation(plane, (8.0 - plane.distance.array()) / 100.0), 0.01, 1e-15);
     EXPECT_NEAR(base_rotation(plane, VectorXd::Constant(5, 0.3)), 0.0, 1e-15);
 
-    const Scene scene = sliding_dam(0.70, 1.0, 5.0);
+    Scene scene = sliding_dam(0.70, 1.0, 5.0);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     options.pair_series = PairSeries::every_step;
     const RunResult result = EarthquakeRun(scene, options).run(sines(2.0, 5.0));
     const RunHistory& h = result.history;
@@ -214,7 +214,7 @@ TEST(FeRun, energy_closes)
 {
     Scene scene = sliding_dam(0.70);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     for (const MassDamping mass : {MassDamping::deformation_only, MassDamping::relative, MassDamping::total}) {
         scene.damping.mass = mass;
         for (const double alpha : {0.0, -0.05, -1.0 / 3.0}) {
@@ -230,9 +230,9 @@ TEST(FeRun, energy_closes)
 // Small shaking: partly slipping pairs at heel and toe, slip in proportion to the record and of micrometres.
 TEST(FeRun, small_shaking_gives_small_slip)
 {
-    const Scene scene = sliding_dam(0.77, 1.0, 1.5);
+    Scene scene = sliding_dam(0.77, 1.0, 1.5);
     RunOptions options = options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const EarthquakeRun run(scene, options);
     const GroundMotion motion = sines(1.0, 10.0);
     const double thousandth = run.run(scaled(motion, 1e-3)).slip, tenth_of_it = run.run(scaled(motion, 1e-4)).slip;
@@ -245,11 +245,12 @@ TEST(FeRun, small_shaking_gives_small_slip)
 TEST(FeRun, sub_steps_reach_the_wanted_accuracy)
 {
     const Scene scene = sliding_dam(0.70, 1.0, 5.0);
-    const EarthquakeRun chosen(scene, options_of(scene));
-    RunOptions fine_options = options_of(scene);
-    fine_options.halvings = 6;
+    const RunOptions options = options_of(scene);
+    const EarthquakeRun chosen(scene, options);
+    Scene in_fine_steps = scene;
+    in_fine_steps.time.substeps = 6;
     const GroundMotion motion = sines(1.0, 8.0);
-    const RunResult result = chosen.run(motion), fine = EarthquakeRun(scene, fine_options).run(motion);
+    const RunResult result = chosen.run(motion), fine = EarthquakeRun(in_fine_steps, options).run(motion);
     EXPECT_LE(result.slip_error, 0.01 * result.slip);
     EXPECT_NEAR(result.slip, fine.slip, 0.01 * fine.slip);
 }
@@ -259,16 +260,17 @@ TEST(FeRun, sub_steps_reach_the_wanted_accuracy)
 // the springs' energy being part of the contact work, which is recovered when they relax.
 TEST(FeRun, penalty_tends_to_exact_and_no_separation_slides_less)
 {
-    const Scene scene = sliding_dam(0.70);
+    Scene scene = sliding_dam(0.70);
     const GroundMotion motion = sines(1.0, 8.0);
     RunOptions options = options_of(scene);
-    options.halvings = 1;
+    scene.time.substeps = 1;
     options.contact.landing = Landing::ringing; // a penalty has no landings: the same step otherwise
     const double exact = EarthquakeRun(scene, options).run(motion).slip;
     const auto with_stiffness = [&](double k) {
-        RunOptions penalty = options;
+        Scene penalty = scene;
+        penalty.contact.enforcement = ContactEnforcement::penalty;
         penalty.contact.tangential_stiffness = k;
-        const RunResult result = EarthquakeRun(scene, penalty).run(motion);
+        const RunResult result = EarthquakeRun(penalty, options).run(motion);
         EXPECT_LT(result.energy_error, 1e-10);
         EXPECT_EQ(result.counts.unresolved, 0);
         return result.slip;
@@ -277,7 +279,7 @@ TEST(FeRun, penalty_tends_to_exact_and_no_separation_slides_less)
     EXPECT_NEAR(with_stiffness(1e11), exact, 0.01 * exact);
     EXPECT_NEAR(with_stiffness(1e14), exact, 1e-4 * exact);
 
-    options.separation = Separation::none;
+    scene.contact.separation = JointOpening::none;
     const RunResult shut = EarthquakeRun(scene, options).run(motion);
     EXPECT_EQ(shut.counts.unresolved, 0);
     EXPECT_LT(shut.slip, 0.9 * exact);

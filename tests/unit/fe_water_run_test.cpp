@@ -34,7 +34,7 @@ TEST(FeWaterRun, DamThatSticksIsTheTiedDam)
         Scene scene = acoustic_dam(50.0, end);
         scene.uplift.reset(); // nothing opens under a small shaking
         RunOptions options = options_of(scene);
-        options.halvings = 0;
+        scene.time.substeps = 0;
         options.uplift.clear();
         const EarthquakeRun run(scene, options);
         const GroundMotion motion = sines(0.05, 4.0);
@@ -72,7 +72,7 @@ TEST(FeWaterRun, EnergyOfASlidingDamCloses)
         Scene scene = acoustic_dam(0.70, end);
         if (end == FarEnd::closed) scene.reservoir->bottom_reflection = 1.0; // nothing leaves
         RunOptions options = options_of(scene);
-        options.halvings = 0;
+        scene.time.substeps = 0;
         const RunResult result = EarthquakeRun(scene, options).run(sines(1.0, 8.0));
         ASSERT_EQ(result.status, Status::at_rest) << result.message;
         EXPECT_GT(result.slip, 0.01);
@@ -95,7 +95,7 @@ TEST(FeWaterRun, EnergyClosesWithLandingsOnARigidBase)
     scene.damping.ratio = 0.05;
     RunOptions options = options_of(scene);
     for (const int halvings : {0, 2}) {
-        options.halvings = halvings;
+        scene.time.substeps = halvings;
         const RunResult result = EarthquakeRun(scene, options).run(sines(1.0, 6.0));
         EXPECT_GT(result.counts.landings, 50);
         EXPECT_LT(result.energy_error, 1e-10);

@@ -59,11 +59,11 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
         done((before + weight * std::min(1.0, p.time / p.end)) / whole_work(step, records.size()));
         return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
-    options.halvings = step.halvings;
+    scene.time.substeps = step.halvings;
     const fe2d::EarthquakeRun model(scene, options);
     runs.set_up_seconds = clock.seconds();
     runs.unknowns = model.model().dofs.count + (model.water() ? model.water()->water.unknowns() : 0);
-    options.halvings = step.other;
+    scene.time.substeps = step.other;
     const fe2d::EarthquakeRun other(scene, options);
     const auto run = [&](const fe2d::EarthquakeRun& at, const GroundMotion& motion, int halvings) {
         weight = std::exp2(halvings);

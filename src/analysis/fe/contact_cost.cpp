@@ -72,10 +72,10 @@ Table record_table(const Ready& ready, double seconds_per_step)
 
 ContactCost contact_cost(const Ready& ready)
 {
-    const Scene& scene = ready.scene;
+    Scene scene = ready.scene;
+    scene.time.substeps = 0;
     const Watch nobody;
     fe2d::RunOptions options = ready.run_options(nobody);
-    options.halvings = 0;
     std::int64_t steps = 0;
     options.progress = [&](const fe2d::RunProgress& p) { // the run-out is of no interest
         steps = p.step;

@@ -25,9 +25,9 @@ std::vector<Check> rigid_limit(fe2d::RayleighConstants damping)
     std::vector<Check> checks;
     const GroundMotion motion = fe2d::test::sines(1.0);
     for (const double friction : {0.77, 0.70, 0.66}) {
-        const Scene scene = fe2d::test::sliding_dam(friction, 1e4, 3.0);
+        Scene scene = fe2d::test::sliding_dam(friction, 1e4, 3.0);
         RunOptions options = fe2d::test::options_of(scene);
-        options.halvings = 3; // 0.00125 s
+        scene.time.substeps = 3; // 0.00125 s
         options.damping = damping;
         const EarthquakeRun run(scene, options);
         for (const bool flip : {false, true}) {
@@ -86,7 +86,7 @@ std::vector<Check> incline()
         Scene scene = block_scene(8.0, 1.0, 0.5, degrees * pi / 180.0);
         scene.dam.young_modulus = 30e12;
         RunOptions options;
-        options.halvings = 2;
+        scene.time.substeps = 2;
         GroundMotion pulse = fe2d::test::sines(6.0, 6.0, 9);
         const RunResult result = EarthquakeRun(scene, options).run(pulse);
         const sliding::SlideResult rigid = sliding::slide(pulse, sliding::make_rigid_block(scene));
@@ -98,9 +98,9 @@ std::vector<Check> incline()
 
 std::vector<Check> energy_and_creep()
 {
-    const Scene scene = fe2d::test::sliding_dam(0.70);
+    Scene scene = fe2d::test::sliding_dam(0.70);
     RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const RunResult result = EarthquakeRun(scene, options).run(fe2d::test::sines(1.0));
     const fe2d::Energy& e = result.history.energy.back();
     GroundMotion rest = fe2d::test::sines(1.0, 100.0, 5, 0.1);

@@ -30,7 +30,7 @@ std::vector<Check> pair_law()
         const fe2d::ExplicitPair w{1.0 + 0.5 * uniform(), coupled ? 0.3 * uniform() : 0.0, 1.0 + 0.5 * uniform()};
         const double fn = uniform(), ft = uniform(), target = 0.2 * (uniform() - 1.0), mu = 0.6 + 0.5 * uniform(),
                      c = coupled ? 0.0 : std::max(0.0, 0.2 * uniform());
-        const fe2d::ExplicitImpulse p = fe2d::solve_pair(w, fn, ft, target, mu, c, fe2d::Separation::allowed);
+        const fe2d::ExplicitImpulse p = fe2d::solve_pair(w, fn, ft, target, mu, c, JointOpening::allowed);
         const double vn = fn + w.nn * p.normal + w.nt * p.tangential - target;
         const double vt = ft + w.nt * p.normal + w.tt * p.tangential;
         ++states[static_cast<int>(p.state)];

@@ -29,7 +29,7 @@ std::vector<Check> uplift_on_both_faces()
     silence.dt = 0.01;
     silence.accel_h.assign(11, 0.0);
     fe2d::RunOptions options;
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const fe2d::RunResult dry = fe2d::EarthquakeRun(scene, options).run(silence);
     options.uplift = {{0.0, pressure}, {base, pressure}};
     const fe2d::RunResult wet = fe2d::EarthquakeRun(scene, options).run(silence);
@@ -61,7 +61,7 @@ std::vector<Check> no_separation()
     stuck.head(n) = VectorXd::LinSpaced(n, -1.0, 3.0);
     stuck[n] = -pull;
     fe2d::ContactLaw law = fe2d::uniform_law(n, friction);
-    law.separation = fe2d::Separation::none;
+    law.separation = JointOpening::none;
     fe2d::ContactSolver solver(v);
     fe2d::ContactSolution solution;
     const fe2d::ContactReport report = solver.solve(stuck, law, solution);

@@ -460,7 +460,7 @@ fe2d::RunResult slide(Scene scene, ElementKind kind, double dam_size, double con
     scene.mesh.size = dam_size;
     scene.mesh.contact_size = contact_size;
     RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 2;
+    scene.time.substeps = 2;
     options.damping = rayleigh_constants(0.05, 2.0 * std::numbers::pi * 3.6, 2.0 * std::numbers::pi * 15.0);
     return EarthquakeRun(scene, options).run(fe2d::test::sines(1.0, duration));
 }

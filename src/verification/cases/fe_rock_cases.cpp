@@ -229,10 +229,10 @@ struct DamOnRock {
     double slip = 0.0, crest = 0.0, imbalance = 0.0, radiated = 0.0, damping = 0.0;
 };
 
-DamOnRock slide_on_rock(const Scene& scene, const GroundMotion& motion)
+DamOnRock slide_on_rock(Scene scene, const GroundMotion& motion)
 {
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     const fe2d::RunResult r = fe2d::EarthquakeRun(scene, options).run(motion);
     DamOnRock result{r.slip, 0.0, r.energy_error, r.history.energy.back().radiated, r.history.energy.back().damping};
     for (const double x : r.history.crest_x) result.crest = std::max(result.crest, std::abs(x));

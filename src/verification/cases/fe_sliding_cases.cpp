@@ -51,10 +51,10 @@ struct Setting {
 };
 constexpr Setting settings[] = {{0.77, false}, {0.77, true}, {0.70, false}, {0.70, true}, {0.66, false}, {0.66, true}};
 
-EarthquakeRun prepared(const Scene& scene, double ratio, double stiffness, int halvings)
+EarthquakeRun prepared(Scene scene, double ratio, double stiffness, int halvings)
 {
     RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = halvings;
+    scene.time.substeps = halvings;
     options.damping = damping_of(ratio, stiffness);
     return EarthquakeRun(scene, options);
 }
@@ -114,10 +114,10 @@ std::vector<Check> rigid_limit_in_step(double ratio)
 /// Error of the slip by the stiffness of a penalty, and by the slip tolerance of a stiffness that follows the pressure.
 std::vector<Check> penalty()
 {
-    const Scene scene = fe2d::test::sliding_dam(0.70, 1.0, 1.0);
+    Scene scene = fe2d::test::sliding_dam(0.70, 1.0, 1.0);
     const GroundMotion motion = fe2d::test::sines(1.0, 6.0);
     RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 0;
+    scene.time.substeps = 0;
     options.damping = damping_of(0.05, 1.0);
     options.contact.landing = fe2d::Landing::ringing; // a penalty has no landings: the same step otherwise
     const auto slip = [&] { return EarthquakeRun(scene, options).run(motion).slip; };
@@ -130,17 +130,18 @@ std::vector<Check> penalty()
     };
     double before = 0.0;
     for (int power = 8; power <= 13; ++power) {
-        options.contact.tangential_stiffness = std::pow(10.0, power);
+        scene.contact.enforcement = ContactEnforcement::penalty;
+        scene.contact.tangential_stiffness = std::pow(10.0, power);
         const std::string name = fmt::format("k = 1e{} N/m3", power);
         const double error = error_of(name, power == 8 ? 10.0 : 0.3 * before);
         if (power >= 12)
             checks.push_back({"over the decade before, " + name, "-", 0.1, error / before, 0.02, Measure::absolute});
         before = error;
     }
-    options.contact.tangential_stiffness = 0.0;
+    scene.contact.enforcement = ContactEnforcement::slip_tolerance;
     before = 10.0;
     for (const double tolerance : {0.05, 0.005, 0.0005, 1e-5}) {
-        options.contact.slip_tolerance = tolerance;
+        scene.contact.slip_tolerance = tolerance;
         before = error_of(fmt::format("F_f = {:g}", tolerance), before);
     }
     return checks;
@@ -214,7 +215,7 @@ std::vector<Check> order_in_step()
         RunOptions options = fe2d::test::options_of(scene);
         options.damping = damping_of(0.05, 1.0);
         const auto history = [&](int halvings) {
-            options.halvings = halvings;
+            scene.time.substeps = halvings;
             const RunResult result = EarthquakeRun(scene, options).run(burst(slides ? 3.0 : 1e-3));
             return slides ? result.history.slip : result.history.crest_x;
         };

@@ -48,7 +48,7 @@ HardResult friction_of_three()
 {
     Scene scene = soft_dam(3.0);
     fe2d::RunOptions options = fe2d::test::options_of(scene);
-    options.halvings = 1;
+    scene.time.substeps = 1;
     const GroundMotion motion = sines(4.0, 6.0);
     const fe2d::EarthquakeRun full(scene, options);
     const fe2d::ReducedRun all_modes(full, scene, options, 100000);

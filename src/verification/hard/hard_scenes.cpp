@@ -34,13 +34,12 @@ Scene stiff_block(double base, double height, double friction)
     return scene;
 }
 
-fe2d::RunResult fe_run(const Scene& scene, const GroundMotion& motion, std::optional<int> halvings)
+fe2d::RunResult fe_run(Scene scene, const GroundMotion& motion, std::optional<int> halvings)
 {
+    if (halvings) scene.time.substeps = halvings;
     const Watch nobody;
     const Ready ready = prepare(scene, Method::finite_elements, nullptr);
-    fe2d::RunOptions options = ready.run_options(nobody);
-    options.halvings = halvings;
-    return fe2d::EarthquakeRun(ready.scene, options).run(motion);
+    return fe2d::EarthquakeRun(ready.scene, ready.run_options(nobody)).run(motion);
 }
 
 sliding::SlideResult rigid_run(const Scene& scene, const GroundMotion& motion)
