@@ -93,16 +93,17 @@ Eigen::Matrix3d edge_mass(const Edge& edge, const AddedMassLaw& law)
 
 /// Adds integral of N^T p dS times `direction`, p piecewise linear over the distance along a straight line of nodes.
 void add_profile(Eigen::VectorXd& sum, const DofMap& dofs, const std::vector<int>& nodes,
-                 const std::vector<double>& distance, const Polyline& profile, const Eigen::Vector2d& direction)
+                 const std::vector<double>& distance, const PressureProfile& profile, const Eigen::Vector2d& direction)
 {
     for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
-        for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
-            const double a = distance[e], b = distance[e + 1], pa = profile[k].x, pb = profile[k + 1].x;
+        for (std::size_t k = 0; k + 1 < profile.points.size(); ++k) {
+            const ProfilePoint &p0 = profile.points[k], &p1 = profile.points[k + 1];
+            const double a = distance[e], b = distance[e + 1], pa = p0.distance, pb = p1.distance;
             const double from = std::max(a, pa), to = std::min(b, pb);
             if (!(to > from)) continue;
             for (const LinePoint& g : two_points) { // linear pressure times linear shape: exact
                 const double x = from + g.t * (to - from), t = (x - a) / (b - a);
-                const double p = profile[k].y + (x - pa) / (pb - pa) * (profile[k + 1].y - profile[k].y);
+                const double p = p0.pressure + (x - pa) / (pb - pa) * (p1.pressure - p0.pressure);
                 const Eigen::Vector2d force = p * g.weight * (to - from) * direction;
                 add(sum, dofs, nodes[e], (1.0 - t) * force);
                 add(sum, dofs, nodes[e + 1], t * force);
@@ -161,7 +162,7 @@ Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const N
     return sum;
 }
 
-Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline& profile, ContactSide side)
+Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const PressureProfile& profile, ContactSide side)
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     const ContactPlane& plane = mesh.contact;
@@ -175,7 +176,7 @@ Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline
     return sum;
 }
 
-Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const Polyline& profile)
+Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const PressureProfile& profile)
 {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs.count);
     const LiftPlane& lift = mesh.lifts.at(joint);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/assembly/assemble.hpp"
+#include "scene/pressure_profile.hpp"
 
 #include <functional>
 #include <limits>
@@ -38,15 +39,13 @@ enum class ContactSide { dam, rock };
 
 /// Water pressure in the joint [N/m]: on the dam it lifts along the upward normal of the plane, on the rock it presses
 /// the opposite way.
-/// @param profile  x = distance from the heel along the base [m], not decreasing; y = pressure [Pa]; linear between, a
-/// repeated x is a
-///                 jump, nothing outside. Integrated exactly, whatever the mesh.
-Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Polyline& profile, ContactSide side);
+/// @param profile  integrated exactly, whatever the mesh; nothing outside of it
+Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const PressureProfile& profile, ContactSide side);
 
 /// Water pressure in a lift joint on both its faces [N/m]: it lifts the block above along the upward normal of the joint
 /// and presses the dam below the opposite way; with shared unknowns (tied) the two cancel.
-/// @param profile  as in uplift_load; x from the upstream face along the joint [m]
-Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const Polyline& profile);
+/// @param profile  distances from the upstream face along the joint [m]
+Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const PressureProfile& profile);
 
 /// A force at a point of the dam, shared by the nodes of its element so that force and moment are kept [N/m].
 /// @returns nothing when the point is more than 1e-6 of the dam's size outside.

@@ -5,6 +5,7 @@
 #include "fe2d/mesh/grading.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "scene/mesh_sizes.hpp"
+#include "scene/water.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ Polyline wet_face(const Scene& scene, double size)
 
 ReservoirMesh build_reservoir_mesh(const Scene& scene)
 {
-    assert(scene.reservoir && scene.reservoir->level > 0.0);
+    assert(has_water(scene));
     const Reservoir& water = *scene.reservoir;
     const double size = water_mesh_size(water);
     const Polyline face = wet_face(scene, size);

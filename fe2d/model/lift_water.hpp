@@ -8,7 +8,7 @@ namespace damslip::fe2d {
 /// the upstream face, linear to that of the tailwater at the downstream face; nothing at a dry face. Empty where the
 /// joint has no water or both faces are dry.
 /// @param length  of the joint [m]
-Polyline lift_water_profile(const Scene& scene, const LiftJoint& joint, double length);
+PressureProfile lift_water_profile(const Scene& scene, const LiftJoint& joint, double length);
 
 /// The water of all lift joints on both their faces, open or not [N/m]; empty where there is none.
 /// @param model  of the same scene

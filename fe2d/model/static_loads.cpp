@@ -1,6 +1,7 @@
 #include "fe2d/model/static_loads.hpp"
 
 #include "core/input_error.hpp"
+#include "scene/water.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +79,7 @@ Point on_face(const Mesh& mesh, double y)
 
 void add_upstream_water(const Scene& scene, const Model& model, StaticLoads& loads)
 {
-    const double unit_weight = scene.reservoir->density * scene.gravity, level = scene.reservoir->level;
+    const double unit_weight = water_unit_weight(scene), level = scene.reservoir->level;
     loads.impounding.push_back(
         water("water on the upstream face", model, model.mesh.upstream_face, level, unit_weight));
     if (scene.reservoir->floor_pressure && model.mesh.has_rock())
@@ -87,8 +88,7 @@ void add_upstream_water(const Scene& scene, const Model& model, StaticLoads& loa
 
 void add_tailwater(const Scene& scene, const Model& model, StaticLoads& loads)
 {
-    const double unit_weight = (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity,
-                 level = scene.tailwater->level;
+    const double unit_weight = water_unit_weight(scene), level = scene.tailwater->level;
     loads.impounding.push_back(
         water("tailwater on the downstream face", model, model.mesh.downstream_face, level, unit_weight));
     if (scene.reservoir && scene.reservoir->floor_pressure && model.mesh.has_rock())
@@ -105,7 +105,7 @@ void add_crest_water(const Scene& scene, const Model& model, StaticLoads& loads)
     double level = dry;
     if (scene.reservoir && scene.reservoir->level > upstream) level = std::max(level, scene.reservoir->level);
     if (scene.tailwater && scene.tailwater->level > downstream) level = std::max(level, scene.tailwater->level);
-    const double density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
+    const double density = water_density(scene);
     if (level > dry)
         loads.impounding.push_back(water("water on the crest", model, mesh.crest, level, density * scene.gravity));
 }

@@ -5,6 +5,7 @@
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/water.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ void check_explicit(const Scene& scene, const Model& model)
         throw wrong_scheme(scene, scheme + "rock below a dam that slides.", "a rigid base (no [foundation])",
                            hht + ", or delete [foundation]");
     }
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0.0)
+    if (is_acoustic(scene))
         throw wrong_scheme(scene, scheme + "acoustic water.", "no acoustic water: its coupling is not diagonal",
                            hht + ", or  model = \"added-mass\"  in [reservoir]");
     if (scene.contact.enforcement != ContactEnforcement::exact || scene.contact.normal != NormalContact::hard)
@@ -96,7 +97,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
     model_ = std::make_unique<Model>(build_model(scene_, parts));
     if (explicit_steps) check_explicit(scene_, *model_);
     part_done();
-    if (scene_.reservoir && scene_.reservoir->model == ReservoirModel::acoustic && scene_.reservoir->level > 0.0)
+    if (is_acoustic(scene_))
         water_ = std::make_unique<WaterBody>(scene_, *model_,
                                              rock_has_mass(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
     part_done();

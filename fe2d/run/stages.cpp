@@ -36,7 +36,7 @@ BaseResultant base_resultant(const ContactStructure& structure, const VectorXd& 
     return {normal, plane.tangent.dot(force), normal != 0.0 ? -moment / normal : 0.0};
 }
 
-LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift, const VectorXd& in_rock)
+LoadStages load_stages(const Scene& scene, const Model& model, const PressureProfile& uplift, const VectorXd& in_rock)
 {
     const StaticLoads loads = static_loads(scene, model);
     LoadStages stages;
@@ -59,7 +59,7 @@ LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& u
     return stages;
 }
 
-VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline& uplift)
+VectorXd load_with(const LoadStages& stages, const Model& model, const PressureProfile& uplift)
 {
     if (uplift.empty()) return stages.last();
     VectorXd sum = stages.before_uplift;
@@ -69,7 +69,7 @@ VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline&
     return sum;
 }
 
-void let_water_ride(const ContactStructure& structure, const Polyline& uplift, SplitLoad& load)
+void let_water_ride(const ContactStructure& structure, const PressureProfile& uplift, SplitLoad& load)
 {
     if (!structure.slides_far() || uplift.empty()) return;
     const Model& model = structure.model();

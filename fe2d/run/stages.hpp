@@ -63,18 +63,17 @@ struct LoadStages {
 };
 
 /// Gravity, water, uplift with the water in lift joints; stages without loads are left out.
-/// @param uplift  pressure profile under the base: x = distance from the heel [m], y = pressure [Pa]; empty: none. It
-/// acts on both sides of the joint, open or not, so contact forces are effective
+/// @param uplift  under the base; empty: none. It acts on both sides of the joint, open or not, so contact forces are effective
 /// @param in_rock  water in the rock, on all unknowns, comes with the uplift and stays (RunOptions::water_in_rock); empty: none
-LoadStages load_stages(const Scene& scene, const Model& model, const Polyline& uplift,
+LoadStages load_stages(const Scene& scene, const Model& model, const PressureProfile& uplift,
                        const Eigen::VectorXd& in_rock = {});
 
 /// All loads, with another pressure under the base. @param uplift  as of load_stages(); empty: as it was
-Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const Polyline& uplift);
+Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const PressureProfile& uplift);
 
 /// The water in the joint presses on the rock below the dam wherever that is: with a structure that slides far it is
 /// taken from the rock's load to `load.joint`. Profile as in load_stages().
-void let_water_ride(const ContactStructure& structure, const Polyline& uplift, SplitLoad& load);
+void let_water_ride(const ContactStructure& structure, const PressureProfile& uplift, SplitLoad& load);
 
 /// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,

@@ -36,7 +36,7 @@ double surface_head(const std::optional<double>& level, double elevation)
     return std::max(level.value_or(elevation), elevation);
 }
 
-std::vector<NodeHead> boundary_heads(const Mesh& mesh, const SeepageState& state,
+std::vector<NodeHead> boundary_heads(const Mesh& mesh, const UpliftState& state,
                                      const std::optional<DrainLine>& drains)
 {
     std::vector<NodeHead> heads;
@@ -65,12 +65,10 @@ void fill_profile(SeepageResult& result)
         const int n = contact.rock_nodes[i];
         const double p = result.unit_weight * (result.field.head[n] - result.mesh.nodes[n].y);
         result.lowest_pressure = std::min(result.lowest_pressure, p);
-        result.profile.push_back({distance[i], std::max(0.0, p)});
+        result.profile.points.push_back({distance[i], std::max(0.0, p)});
     }
-    for (std::size_t i = 0; i + 1 < result.profile.size(); ++i)
-        result.uplift += 0.5 * (result.profile[i].pressure + result.profile[i + 1].pressure) *
-                         (result.profile[i + 1].distance - result.profile[i].distance);
-    const double scale = result.unit_weight * result.profile.back().distance;
+    result.uplift = resultant(result.profile).force;
+    const double scale = result.unit_weight * result.profile.points.back().distance;
     if (result.lowest_pressure < -1e-9 * scale)
         result.notes.push_back(
             fmt::format("seepage: suction down to {:.3g} kPa under the base is taken as zero pressure",
@@ -79,10 +77,10 @@ void fill_profile(SeepageResult& result)
 
 double pressure_near(const SeepageResult& result, double distance)
 {
-    const auto nearest =
-        std::min_element(result.profile.begin(), result.profile.end(), [&](const auto& a, const auto& b) {
-            return std::abs(a.distance - distance) < std::abs(b.distance - distance);
-        });
+    const auto& points = result.profile.points;
+    const auto nearest = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.distance - distance) < std::abs(b.distance - distance);
+    });
     return nearest->pressure;
 }
 
@@ -103,31 +101,18 @@ void fill_curtain(SeepageResult& result, const Curtain& curtain, const Permeabil
     result.flow_under_curtain = all - result.flow_through_curtain;
 }
 
-Permeability permeability_of(const Scene& scene, const SeepageState& state)
+Permeability permeability_of(const Scene& scene, const UpliftState& state)
 {
     Permeability k;
     k.rock = rock_permeability(scene);
-    const bool works = curtain_changes_flow(scene) && state.curtain == CurtainState::as_scene;
+    const bool works = curtain_changes_flow(scene) && state.curtain == CurtainState::intact;
     k.curtain = works ? scene.curtain->permeability : k.rock;
     return k;
 }
 
 } // namespace
 
-double water_unit_weight(const Scene& scene)
-{
-    return (scene.reservoir ? scene.reservoir->density : 1000.0) * scene.gravity;
-}
-
-SeepageState seepage_state(const Scene& scene)
-{
-    SeepageState state;
-    if (scene.reservoir) state.reservoir_level = scene.reservoir->level;
-    if (scene.tailwater) state.tailwater_level = scene.tailwater->level;
-    return state;
-}
-
-std::optional<DrainLine> drain_line(const Scene& scene, const SeepageState& state)
+std::optional<DrainLine> drain_line(const Scene& scene, const UpliftState& state)
 {
     if (!scene.drains || state.drains == DrainState::ineffective) return std::nullopt;
     const double length = base_length(scene.section), slope = std::sin(base_inclination(scene.section));
@@ -142,7 +127,7 @@ std::optional<DrainLine> drain_line(const Scene& scene, const SeepageState& stat
     return line;
 }
 
-SeepageResult solve_seepage(const Scene& scene, const SeepageState& state, const SeepageMeshOptions& options)
+SeepageResult solve_seepage(const Scene& scene, const UpliftState& state, const SeepageMeshOptions& options)
 {
     SeepageResult result = solve_seepage_on(seepage_mesh(scene, drain_line(scene, state), options), scene, state);
     if (!scene.foundation) {
@@ -155,7 +140,7 @@ SeepageResult solve_seepage(const Scene& scene, const SeepageState& state, const
     return result;
 }
 
-SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState& state)
+SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState& state)
 {
     assert(mesh.has_rock());
     const std::optional<DrainLine> drains = drain_line(scene, state);
@@ -181,12 +166,12 @@ SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState
     return result;
 }
 
-std::vector<Point> uplift_points(const SeepageResult& result, const Scene& scene, const SeepageState& state)
+std::vector<Point> uplift_points(const SeepageResult& result, const Scene& scene, const UpliftState& state)
 {
     const double at_heel = result.unit_weight * state.reservoir_level.value_or(0.0);
     if (!(at_heel > 0.0)) return {};
     std::vector<Point> points;
-    for (const BasePressure& p : result.profile) points.push_back({p.distance, p.pressure / at_heel});
+    for (const ProfilePoint& p : result.profile.points) points.push_back({p.distance, p.pressure / at_heel});
     points.front().x = 0.0;
     points.back().x = base_length(scene.section);
     return points;

@@ -2,6 +2,8 @@
 
 #include "fe2d/seepage/darcy.hpp"
 #include "fe2d/seepage/seepage_mesh.hpp"
+#include "scene/pressure_profile.hpp"
+#include "scene/water.hpp"
 
 #include <optional>
 #include <string>
@@ -9,32 +11,13 @@
 
 namespace damslip::fe2d {
 
-enum class CurtainState { as_scene, ruptured };
-enum class DrainState { as_scene, ineffective };
-
-/// Water on both sides and the state of what holds it back.
-struct SeepageState {
-    std::optional<double> reservoir_level; ///< above the heel [m]; none: dry, the rock surface drains freely
-    std::optional<double> tailwater_level; ///< above the heel [m]; none: dry
-    CurtainState curtain = CurtainState::as_scene;
-    DrainState drains = DrainState::as_scene;
-};
-
-/// The levels of the scene, curtain and drains as it says.
-SeepageState seepage_state(const Scene& scene);
-
 /// The scene's drain line: held at the head that USACE EM 1110-2-2200 gives at the drains,
 /// H3 = H2 + (1 - E)(H1 - H2)(L - X)/L, H2 the tailwater or a higher gallery. None without [drains], or where
 /// ineffective.
-std::optional<DrainLine> drain_line(const Scene& scene, const SeepageState& state);
-
-struct BasePressure {
-    double distance = 0.0; ///< from the heel along the base [m]
-    double pressure = 0.0; ///< water pressure [Pa], >= 0
-};
+std::optional<DrainLine> drain_line(const Scene& scene, const UpliftState& state);
 
 struct SeepageResult {
-    std::vector<BasePressure> profile; ///< at every node of the base, heel to toe
+    PressureProfile profile;           ///< a point at every node of the base, >= 0
     double uplift = 0.0;               ///< integral of the profile, normal to the base [N/m]
     double inflow = 0.0;               ///< through the reservoir floor; negative: flows upstream [m^3/s per m]
     double outflow = 0.0;              ///< through the ground downstream [m^3/s per m]
@@ -54,17 +37,14 @@ struct SeepageResult {
 /// through base, sides and bottom of the box (seepage_box). Water that is lower than the rock surface, or none, leaves
 /// the surface at zero pressure. Needs the section, and of the rest only what the scene has.
 /// @throws InputError when curtain, drains or base do not fit into the box. Not converged: field.solver.ok() is false.
-SeepageResult solve_seepage(const Scene& scene, const SeepageState& state, const SeepageMeshOptions& options = {});
+SeepageResult solve_seepage(const Scene& scene, const UpliftState& state, const SeepageMeshOptions& options = {});
 
 /// The same on a mesh at hand, such as that of the whole FE model. Drains are the nodes below the base nearest their
 /// line.
-SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const SeepageState& state);
+SeepageResult solve_seepage_on(Mesh mesh, const Scene& scene, const UpliftState& state);
 
 /// The profile as Scene::uplift.points: x = distance [m], y = p / p_heel with p_heel = γ_w times the reservoir level.
 /// Empty without water in the reservoir. First and last point lie exactly on heel and toe.
-std::vector<Point> uplift_points(const SeepageResult& result, const Scene& scene, const SeepageState& state);
-
-/// γ_w = density of the reservoir (1000 kg/m^3 without one) times the scene's gravity [N/m^3].
-double water_unit_weight(const Scene& scene);
+std::vector<Point> uplift_points(const SeepageResult& result, const Scene& scene, const UpliftState& state);
 
 } // namespace damslip::fe2d

@@ -1,6 +1,7 @@
 #include "sliding/flexible/mode_shape.hpp"
 
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 #include "sliding/loads/added_mass.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
 
@@ -31,8 +32,7 @@ double power_moment(const Polyline& polygon, double p)
 /// there): 1e-6.
 void add_water(const Scene& scene, double exponent, double height, ModalSums& sums)
 {
-    if (!scene.reservoir || !(scene.reservoir->level > 0.0) || scene.reservoir->model == ReservoirModel::hydrostatic)
-        return;
+    if (!has_water(scene) || scene.reservoir->model == ReservoirModel::hydrostatic) return;
     const WaterColumn water{scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus};
     const Polyline face = upstream_face(scene.section);
     constexpr int panels = 4000;

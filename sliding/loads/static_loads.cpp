@@ -1,6 +1,7 @@
 #include "sliding/loads/static_loads.hpp"
 
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 
@@ -41,11 +42,6 @@ LoadCase scene_load_case(const Scene& scene)
     if (scene.reservoir) load_case.reservoir_level = scene.reservoir->level;
     if (scene.tailwater) load_case.tailwater_level = scene.tailwater->level;
     return load_case;
-}
-
-double water_unit_weight(const Scene& scene)
-{
-    return (scene.reservoir ? scene.reservoir->density : Reservoir{}.density) * scene.gravity;
 }
 
 double dam_mass(const Scene& scene)

@@ -34,9 +34,6 @@ struct LoadCase {
 /// The scene as it stands: its levels, its ice, factors 1.
 LoadCase scene_load_case(const Scene& scene);
 
-/// Unit weight of the water rho g [N/m^3]; the tailwater has the reservoir's density, 1000 kg/m^3 without a reservoir.
-double water_unit_weight(const Scene& scene);
-
 /// Mass of the dam [kg/m].
 double dam_mass(const Scene& scene);
 

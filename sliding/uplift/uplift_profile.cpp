@@ -33,8 +33,7 @@ Base base_of(const Scene& scene, const UpliftState& state, Side first)
     const double h2 = std::max(state.tailwater_level.value_or(toe_y), toe_y);
     const double heel_head = h1 > heel_y ? h1 : std::min(heel_y, h2);
     const double toe_head = h2 > toe_y ? h2 : std::min(toe_y, h1);
-    const double density = scene.reservoir ? scene.reservoir->density : Reservoir{}.density;
-    Base base{base_length(scene.section), density * scene.gravity, heel_y, toe_y, heel_head, toe_head};
+    Base base{base_length(scene.section), water_unit_weight(scene), heel_y, toe_y, heel_head, toe_head};
     if (first == Side::toe) {
         std::swap(base.first_y, base.second_y);
         std::swap(base.first_head, base.second_head);
@@ -128,9 +127,7 @@ PressureProfile row_profile(const Scene& scene, const UpliftRow& row, const Base
 {
     WetBase wet{base.length, base.first_pressure(), base.second_pressure()};
     if (first == Side::toe) std::swap(wet.heel_pressure, wet.toe_pressure);
-    PressureProfile profile;
-    for (const Point& p : row.profile(scene, wet)) profile.points.push_back({p.x, p.y});
-    return checked(scene, std::move(profile), row.word.c_str());
+    return checked(scene, row.profile(scene, wet), row.word.c_str());
 }
 
 /// Full head in the crack, the given profile beyond it.
@@ -177,14 +174,6 @@ std::vector<ProfilePoint> uncracked_part(const Scene& scene, const UpliftState& 
 }
 
 } // namespace
-
-UpliftState scene_uplift_state(const Scene& scene)
-{
-    UpliftState state;
-    if (scene.reservoir) state.reservoir_level = scene.reservoir->level;
-    if (scene.tailwater) state.tailwater_level = scene.tailwater->level;
-    return state;
-}
 
 PressureProfile uplift_profile(const Scene& scene, const UpliftState& state, const Crack& crack,
                                const SeepageProfile& seepage)

@@ -1,27 +1,12 @@
 #pragma once
 
-#include "scene/scene.hpp"
-#include "sliding/uplift/pressure_profile.hpp"
+#include "scene/pressure_profile.hpp"
+#include "scene/water.hpp"
 
 #include <functional>
-#include <optional>
 #include <utility>
 
 namespace damslip::sliding {
-
-enum class DrainState { effective, ineffective };
-enum class CurtainState { intact, damaged };
-
-/// The state of water and foundation that an uplift profile belongs to.
-struct UpliftState {
-    std::optional<double> reservoir_level;       ///< above the heel [m]; none: dry
-    std::optional<double> tailwater_level;       ///< above the heel [m]; none: dry
-    DrainState drains = DrainState::effective;   ///< effective: as the scene says; ineffective: E = 0
-    CurtainState curtain = CurtainState::intact; ///< intact: as the scene says; damaged: linear uplift, drains apart
-};
-
-/// The scene's own levels, drains and curtain.
-UpliftState scene_uplift_state(const Scene& scene);
 
 enum class Side { heel, toe };
 

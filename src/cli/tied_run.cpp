@@ -142,7 +142,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& st
     finish_output(arguments.out, scene, j.dump(2) + "\n", fields);
     say_written(arguments.out, streams);
     if (!arguments.out.empty()) {
-        Polyline none; // a bonded base takes its uplift with the loads
+        PressureProfile none; // a bonded base takes its uplift with the loads
         const FePageFrame frame{
             scene,
             plan,

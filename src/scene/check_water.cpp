@@ -3,7 +3,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "scene/section.hpp"
-#include "scene/wet_base.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "scene/effect_row.hpp"
-#include "scene/wet_base.hpp"
+#include "scene/water.hpp"
 #include "scene/words.hpp"
 
 #include <fmt/format.h>

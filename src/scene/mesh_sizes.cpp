@@ -1,6 +1,7 @@
 #include "scene/mesh_sizes.hpp"
 
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 
@@ -31,7 +32,7 @@ Scene with_mesh_sizes(Scene scene)
         scene.mesh.contact_size = sizes.contact;
         if (scene.foundation) scene.mesh.rock_size = sizes.rock;
     }
-    if (scene.reservoir && scene.reservoir->level > 0.0) scene.reservoir->mesh_size = water_mesh_size(*scene.reservoir);
+    if (has_water(scene)) scene.reservoir->mesh_size = water_mesh_size(*scene.reservoir);
     return scene;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/pressure_profile.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
@@ -23,10 +24,9 @@ struct UpliftRow {
     std::string meaning;                   ///< in brackets after the word, for the documents: "printed 2/3 rule"
     std::string needs;                     ///< what the scene must have for it: "a [curtain] with its distance_m"
     bool (*there)(const Scene&) = nullptr; ///< it has; null: nothing is needed
-    /// Pressure [Pa] over the distance from the heel [m] under the uncracked base, from 0 to its length; a repeated
-    /// distance is a jump. A crack puts the full head of its own end in its place as far as it goes. null: the profile
+    /// Under the uncracked base, from 0 to its length. A crack puts the full head of its own end in its place as far as it goes. null: the profile
     /// is a matter of sliding/uplift, as with the models that have a rule of their own for cracks.
-    std::vector<Point> (*profile)(const Scene&, const WetBase&) = nullptr;
+    PressureProfile (*profile)(const Scene&, const WetBase&) = nullptr;
     bool by_drains = false;                ///< linear where a load combination takes the drains as ineffective
     std::optional<UpliftModel> named = {}; ///< the enumerator, for models the program asks for by name
 };

@@ -53,14 +53,14 @@ std::vector<StudyUplift> study_uplifts(const Scene& scene)
         StudyUplift u;
         u.model = model;
         u.profile =
-            sliding::uplift_profile(here, sliding::scene_uplift_state(here), {}, ready.seepage->profile_of(here));
+            sliding::uplift_profile(here, scene_uplift_state(here), {}, ready.seepage->profile_of(here));
         const RigidModel block = ready.rigid_model();
         u.force = block.block.uplift;
         u.critical_friction = block.critical_friction;
         const double heel = u.profile.points.front().pressure, curtain = scene.curtain->distance,
                      half = scene.curtain->thickness;
-        u.before_curtain = sliding::pressure_at(u.profile, curtain - half) / heel;
-        u.behind_curtain = sliding::pressure_at(u.profile, curtain + half) / heel;
+        u.before_curtain = pressure_at(u.profile, curtain - half) / heel;
+        u.behind_curtain = pressure_at(u.profile, curtain + half) / heel;
         list.push_back(std::move(u));
     }
     return list;
@@ -93,7 +93,7 @@ pages::Chart uplift_chart(const std::vector<StudyUplift>& uplifts)
     for (const StudyUplift& u : uplifts) {
         Curve curve = line(u.model, u.model == "seepage" ? Mark::line : Mark::dashed,
                            u.model == "seepage" ? Weight::strong : Weight::normal);
-        for (const sliding::ProfilePoint& p : u.profile.points) {
+        for (const ProfilePoint& p : u.profile.points) {
             if (!curve.x.empty() && p.distance <= curve.x.back()) continue;
             curve.x.push_back(p.distance);
             curve.y.push_back(p.pressure / u.profile.points.front().pressure);

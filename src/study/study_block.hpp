@@ -11,7 +11,7 @@ namespace damslip::study {
 /// Uplift of the models of the study: its force, the pressure before and behind the curtain, the critical friction.
 struct StudyUplift {
     std::string model;
-    sliding::PressureProfile profile;
+    PressureProfile profile;
     double force = 0.0;                                ///< U [N/m]
     double before_curtain = 0.0, behind_curtain = 0.0; ///< pressure over the heel's [-]
     double critical_friction = 0.0;                    ///< [-]

@@ -4,7 +4,7 @@
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"
-#include "scene/wet_base.hpp"
+#include "scene/water.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 

@@ -208,10 +208,10 @@ TEST(FeLiftJoint, WaterPressesOnBothFacesWithTheResultantOfItsProfile)
     for (const double tail : {0.0, 3.0}) {
         scene.tailwater = Tailwater{.level = 51.5 + tail};
         const double p = 9810.0 * 8.5, q = 9810.0 * tail, length = 12.0;
-        const Polyline profile = lift_water_profile(scene, scene.lift_joints[0], length);
-        ASSERT_EQ(profile.size(), 2u);
-        EXPECT_NEAR(profile[0].y, p, 1e-9);
-        EXPECT_NEAR(profile[1].y, q, 1e-9);
+        const PressureProfile profile = lift_water_profile(scene, scene.lift_joints[0], length);
+        ASSERT_EQ(profile.points.size(), 2u);
+        EXPECT_NEAR(profile.points[0].pressure, p, 1e-9);
+        EXPECT_NEAR(profile.points[1].pressure, q, 1e-9);
         const Eigen::VectorXd load = lift_water_load(mesh, separate, 0, profile);
         const Eigen::Vector3d up = lift_resultant(mesh, separate, lift.upper_nodes, load);
         EXPECT_NEAR(up[0], 0.0, 1e-9);

@@ -62,7 +62,7 @@ TEST(FeRockMesh, FacesTheDamNodeByNodeUnlessTheSceneSaysOtherwise)
 TEST(FeRockMesh, UpliftOnBothSidesIsEqualAndOpposite)
 {
     const double p = 6e5;
-    const Polyline profile{{0.0, p}, {7.0, p}, {7.0, 0.4 * p}, {45.0, 0.0}};
+    const PressureProfile profile{{{0.0, p}, {7.0, p}, {7.0, 0.4 * p}, {45.0, 0.0}}};
     const double force = 7 * p + 0.5 * 38 * 0.4 * p;
     const double moment = p * 7 * 3.5 + 0.5 * 38 * 0.4 * p * (7 + 38.0 / 3);
     for (const double size : {0.0, 1.125, 1.0 / std::acos(-1.0)}) {

@@ -78,7 +78,7 @@ TEST(FeRun, geostatic_start_counts_displacements_from_gravity_on)
     dry.reservoir.reset();
     dry.uplift.reset();
     RunOptions options = options_of(scene);
-    options.uplift.clear();
+    options.uplift = {};
     const RunResult gravity = EarthquakeRun(dry, options).run(silence(0.2, 0.01));
     scene.stages.geostatic = true;
     const RunResult zero = EarthquakeRun(scene, options_of(scene)).run(silence(0.2, 0.01));

@@ -29,7 +29,7 @@ struct Fields {
 
 Fields fields(const Scene& scene)
 {
-    const auto result = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, fe2d::seepage_state(scene));
+    const auto result = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, scene_uplift_state(scene));
     return {result.mesh, fe2d::excess_pore_pressure(result.field.head, result.unit_weight)};
 }
 

@@ -41,19 +41,19 @@ Scene with_pile(Scene scene, double distance, double depth)
 
 fe2d::SeepageResult solve(const Scene& scene, const fe2d::SeepageMeshOptions& options = {})
 {
-    auto result = fe2d::solve_seepage(scene, fe2d::seepage_state(scene), options);
+    auto result = fe2d::solve_seepage(scene, scene_uplift_state(scene), options);
     EXPECT_TRUE(result.field.solver.ok()) << result.field.solver.text();
     return result;
 }
 
 double pressure_at(const fe2d::SeepageResult& result, double distance)
 {
-    for (std::size_t i = 1; i < result.profile.size(); ++i) {
-        const auto &a = result.profile[i - 1], &b = result.profile[i];
+    for (std::size_t i = 1; i < result.profile.points.size(); ++i) {
+        const auto &a = result.profile.points[i - 1], &b = result.profile.points[i];
         if (distance <= b.distance)
             return a.pressure + (b.pressure - a.pressure) * (distance - a.distance) / (b.distance - a.distance);
     }
-    return result.profile.back().pressure;
+    return result.profile.points.back().pressure;
 }
 
 constexpr double heel_pressure = 98100.0; ///< γ_w h of flat_base [Pa]
@@ -65,7 +65,7 @@ TEST(FeSeepage, flat_base_on_a_finite_layer)
     const Scene scene = flat_base(70.0, 10.0);
     const SeepageUnderBase exact{5.0, 5.0, 0.0, 10.0};
     const auto result = solve(scene);
-    for (const auto& p : result.profile)
+    for (const auto& p : result.profile.points)
         ASSERT_NEAR(p.pressure / heel_pressure, exact.head(p.distance - 5.0, SeepageUnderBase::Side::upstream), 2.5e-3);
     EXPECT_NEAR(pressure_at(result, 2.5) / heel_pressure, exact.head(-2.5, SeepageUnderBase::Side::upstream), 4e-4);
     EXPECT_NEAR(result.uplift, 0.5 * heel_pressure * 10.0, 1e-9 * result.uplift); // symmetry
@@ -82,7 +82,7 @@ TEST(FeSeepage, flat_base_on_a_deep_layer_follows_the_arccosine)
     const Scene scene = flat_base(1200.0, 200.0);
     const SeepageUnderBase exact{5.0, 5.0, 0.0, 200.0};
     const auto result = solve(scene);
-    for (const auto& p : result.profile) {
+    for (const auto& p : result.profile.points) {
         const double x = p.distance - 5.0, deep = std::acos(2.0 * p.distance / 10.0 - 1.0) / std::numbers::pi;
         const double finite = exact.head(x, SeepageUnderBase::Side::upstream);
         ASSERT_NEAR(exact.head_deep(x, SeepageUnderBase::Side::upstream), deep,
@@ -158,7 +158,7 @@ TEST(FeSeepage, reference_scene)
     EXPECT_NEAR(result.uplift, 9.6e6, 0.05e6);
     EXPECT_GT(result.flow_through_curtain, 4e-6);
     EXPECT_LT(result.flow_through_curtain, 1.2e-5);
-    const auto points = fe2d::uplift_points(result, scene, fe2d::seepage_state(scene));
+    const auto points = fe2d::uplift_points(result, scene, scene_uplift_state(scene));
     EXPECT_EQ(points.front(), (Point{0.0, 1.0}));
     EXPECT_EQ(points.back(), (Point{45.0, 0.0}));
 }
@@ -177,8 +177,8 @@ TEST(FeSeepage, what_flows_in_flows_out)
     EXPECT_GT(result.drain_flow, 0.0);
     // H3 = 5 + 0.33·57.5·33/45 at the drains
     EXPECT_NEAR(pressure_at(result, 12.0), 9810.0 * (5.0 + 0.33 * 57.5 * 33.0 / 45.0), 1.0);
-    auto state = fe2d::seepage_state(scene);
-    state.drains = fe2d::DrainState::ineffective;
+    auto state = scene_uplift_state(scene);
+    state.drains = DrainState::ineffective;
     const auto without = fe2d::solve_seepage(scene, state);
     EXPECT_GT(without.uplift, 1.05 * result.uplift);
     EXPECT_EQ(without.drain_flow, 0.0);
@@ -189,8 +189,8 @@ TEST(FeSeepage, what_flows_in_flows_out)
 TEST(FeSeepage, ruptured_curtain_is_no_curtain)
 {
     Scene scene = with_pile(flat_base(70.0, 10.0), 3.0, 4.0);
-    auto state = fe2d::seepage_state(scene);
-    state.curtain = fe2d::CurtainState::ruptured;
+    auto state = scene_uplift_state(scene);
+    state.curtain = CurtainState::damaged;
     const auto ruptured = fe2d::solve_seepage(scene, state);
     const SeepageUnderBase exact{5.0, 5.0, 0.0, 10.0};
     EXPECT_NEAR(ruptured.uplift, 0.5 * heel_pressure * 10.0, 1e-3 * ruptured.uplift);
@@ -212,7 +212,7 @@ TEST(FeSeepage, still_water_is_hydrostatic)
     scene.section.polygon = {{0, 0}, {10, -1.5}, {0, 12}};
     scene.tailwater = Tailwater{.level = 10.0};
     const auto result = solve(scene);
-    for (const auto& p : result.profile) {
+    for (const auto& p : result.profile.points) {
         const double y = -1.5 * p.distance / std::hypot(10.0, 1.5);
         ASSERT_NEAR(p.pressure, 9810.0 * (10.0 - y), 1e-9 * 98100.0);
     }
@@ -230,7 +230,7 @@ TEST(FeSeepage, reversed_flow_and_no_water)
     EXPECT_NEAR(reversed.inflow, -forward.inflow, 1e-10 * forward.inflow);
     for (double x : {0.5, 2.0, 5.0, 9.0})
         EXPECT_NEAR(pressure_at(reversed, 10.0 - x), pressure_at(forward, x), 1e-6 * heel_pressure);
-    EXPECT_TRUE(fe2d::uplift_points(reversed, scene, fe2d::seepage_state(scene)).empty());
+    EXPECT_TRUE(fe2d::uplift_points(reversed, scene, scene_uplift_state(scene)).empty());
     scene.tailwater.reset();
     EXPECT_EQ(solve(scene).uplift, 0.0);
 }
@@ -263,7 +263,7 @@ TEST(FeSeepage, on_the_mesh_of_the_whole_model)
     Scene scene = fe2d::test::reference_dam_on_rock();
     scene.reservoir = Reservoir{.level = 62.5};
     const auto fine = solve(scene);
-    const auto coarse = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, fe2d::seepage_state(scene));
+    const auto coarse = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, scene_uplift_state(scene));
     ASSERT_TRUE(coarse.field.solver.ok());
     EXPECT_NEAR(coarse.uplift, fine.uplift, 0.01 * fine.uplift);
     EXPECT_TRUE(std::isnan(coarse.field.head[coarse.mesh.contact.dam_nodes[3]])); // the dam holds no water
@@ -275,7 +275,7 @@ TEST(FeSeepage, deeper_drains_take_more_water)
     Scene scene = flat_base(70.0, 20.0);
     scene.drains.emplace();
     scene.drains->distance = 3.0;
-    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, fe2d::seepage_state(scene))->depth, 2.5); // a quarter of the base
+    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, scene_uplift_state(scene))->depth, 2.5); // a quarter of the base
     const auto quarter = solve(scene);
     scene.drains->depth = 2.5;
     EXPECT_EQ(solve(scene).uplift, quarter.uplift);
@@ -285,7 +285,7 @@ TEST(FeSeepage, deeper_drains_take_more_water)
     EXPECT_LT(deeper.uplift, quarter.uplift);
     scene.curtain = with_pile(scene, 1.0, 4.0).curtain;
     scene.drains->depth.reset();
-    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, fe2d::seepage_state(scene))->depth, 2.0); // half the curtain
+    EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, scene_uplift_state(scene))->depth, 2.0); // half the curtain
 }
 
 TEST(FeSeepage, what_does_not_fit_is_refused)
@@ -293,7 +293,7 @@ TEST(FeSeepage, what_does_not_fit_is_refused)
     Scene scene = flat_base(70.0, 10.0);
     const auto refused = [](const Scene& s, const char* words) {
         try {
-            (void)fe2d::solve_seepage(s, fe2d::seepage_state(s));
+            (void)fe2d::solve_seepage(s, scene_uplift_state(s));
             ADD_FAILURE() << words;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();

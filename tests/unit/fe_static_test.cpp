@@ -85,7 +85,7 @@ TEST(FeStatic, uplift_profile_is_integrated_exactly_and_acts_on_both_sides)
     const Scene scene = test::reference_dam_on_rock();
     const Mesh mesh = build_mesh(scene);
     const DofMap all = all_dofs(mesh, 2);
-    const Polyline profile{{0, 600e3}, {7.3, 560e3}, {7.3, 190e3}, {45, 0}};
+    const PressureProfile profile{{{0, 600e3}, {7.3, 560e3}, {7.3, 190e3}, {45, 0}}};
     const double expected = 7.3 * 580e3 + 0.5 * 37.7 * 190e3;
     const auto vertical = [&](ContactSide side) {
         const Eigen::VectorXd f = uplift_load(mesh, all, profile, side);
@@ -108,7 +108,7 @@ TEST(FeStatic, uplift_on_an_inclined_base_is_normal_to_it)
     Scene scene = test::reference_dam();
     scene.section.polygon[1].y = -5.0;
     const Mesh mesh = build_mesh(scene);
-    const Eigen::VectorXd f = uplift_load(mesh, all_dofs(mesh, 2), {{0, 1.0}, {100, 1.0}}, ContactSide::dam);
+    const Eigen::VectorXd f = uplift_load(mesh, all_dofs(mesh, 2), {{{0, 1.0}, {100, 1.0}}}, ContactSide::dam);
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (Eigen::Index i = 0; i < f.size(); ++i) sum[i % 2] += f[i];
     EXPECT_NEAR(sum[0], 5.0, 1e-12);

@@ -35,7 +35,7 @@ TEST(FeWaterRun, DamThatSticksIsTheTiedDam)
         scene.uplift.reset(); // nothing opens under a small shaking
         RunOptions options = options_of(scene);
         scene.time.substeps = 0;
-        options.uplift.clear();
+        options.uplift = {};
         const EarthquakeRun run(scene, options);
         const GroundMotion motion = sines(0.05, 4.0);
         const RunResult contact = run.run(motion);

@@ -154,7 +154,7 @@ TEST(FeReportPage, StressesAreThoseOfTheStaticState)
     }
     const fe2d::RunResult& fe = r.runs[0].fe;
     const double uplift =
-        sliding::resultant(sliding::uplift_profile(r.scene, sliding::scene_uplift_state(r.scene), {}, {})).force;
+        resultant(sliding::uplift_profile(r.scene, scene_uplift_state(r.scene), {}, {})).force;
     double mean = 0.0;
     for (Eigen::Index i = 0; i < fe.pair_area.size(); ++i)
         for (std::size_t node = 0; node < view.front_nodes; ++node)

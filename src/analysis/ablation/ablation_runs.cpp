@@ -51,7 +51,7 @@ std::vector<Point> seepage_points(const Scene& scene)
     if (!(heel > 0.0)) return {};
     SeepageSource seepage;
     std::vector<Point> points;
-    for (const sliding::ProfilePoint& p : seepage.profile_of(scene)(sliding::scene_uplift_state(scene)).points)
+    for (const ProfilePoint& p : seepage.profile_of(scene)(scene_uplift_state(scene)).points)
         points.push_back({p.distance, std::max(0.0, p.pressure / heel)});
     return points;
 }

@@ -34,7 +34,7 @@ public:
 
     const fe2d::EarthquakeRun& model() const { return *model_; }
     const RigidModel& rigid() const { return rigid_; }
-    const Polyline& uplift() const { return options_.uplift; } ///< before the earthquake, distance [m], pressure [Pa]
+    const PressureProfile& uplift() const { return options_.uplift; } ///< before the earthquake, distance [m], pressure [Pa]
     bool gives_way() const { return exact_.has_value(); }      ///< is each run compared with exact contact?
     std::size_t whole() const;                                 ///< runs of all records and polarities
 
@@ -69,7 +69,7 @@ public:
 
     const fe2d::EarthquakeRun& full() const { return *full_; }
     const RigidModel& rigid() const { return rigid_; }
-    const Polyline& uplift() const { return options_.uplift; }
+    const PressureProfile& uplift() const { return options_.uplift; }
     std::size_t whole() const;
 
     using TakeRun = std::function<void(ReducedRecord& run)>;

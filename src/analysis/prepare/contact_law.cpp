@@ -1,6 +1,6 @@
 #include "analysis/prepare/contact_law.hpp"
 
-#include "scene/wet_base.hpp"
+#include "scene/water.hpp"
 
 namespace damslip {
 

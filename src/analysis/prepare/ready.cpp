@@ -10,14 +10,9 @@ namespace damslip {
 
 namespace {
 
-/// Pressure along the base for the FE joint, x = distance [m], y = pressure [Pa].
-Polyline uplift_polyline(const Scene& scene, const sliding::UpliftState& state, const sliding::SeepageProfile& seepage)
+PressureProfile uplift_of(const Scene& scene, const UpliftState& state, const sliding::SeepageProfile& seepage)
 {
-    Polyline profile;
-    if (!scene.uplift) return profile;
-    for (const sliding::ProfilePoint& p : sliding::uplift_profile(scene, state, {}, seepage).points)
-        profile.push_back({p.distance, p.pressure});
-    return profile;
+    return scene.uplift ? sliding::uplift_profile(scene, state, {}, seepage) : PressureProfile();
 }
 
 fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
@@ -64,13 +59,13 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
 {
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
-    sliding::UpliftState water = sliding::scene_uplift_state(scene);
-    options.uplift = uplift_polyline(scene, water, seepage->profile_of(scene));
+    UpliftState water = scene_uplift_state(scene);
+    options.uplift = uplift_of(scene, water, seepage->profile_of(scene));
     if (has_water_in_rock(scene))
         options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
-    water.drains = sliding::DrainState::ineffective; // after the earthquake
-    water.curtain = sliding::CurtainState::damaged;
-    options.uplift_after = uplift_polyline(scene, water, seepage->profile_of(scene));
+    water.drains = DrainState::ineffective; // after the earthquake
+    water.curtain = CurtainState::damaged;
+    options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
     options.stop = watch.stop();

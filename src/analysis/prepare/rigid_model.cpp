@@ -44,7 +44,7 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     model.stages = sliding::strength_stages(model.block, scene.contact);
     if (scene.drains && scene.drains->lost_at_slip) {
         sliding::BlockOptions later = options;
-        later.drains = sliding::DrainState::ineffective;
+        later.drains = DrainState::ineffective;
         model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
                                                 sliding::make_rigid_block(scene, later));
     }

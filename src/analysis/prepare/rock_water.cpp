@@ -11,7 +11,7 @@ namespace {
 /// Excess pore pressure at the nodes of the model, from the seepage on its own mesh [Pa].
 Eigen::VectorXd pore_pressure_on(const Scene& scene, const fe2d::Model& model)
 {
-    const fe2d::SeepageResult seepage = fe2d::solve_seepage_on(model.mesh, scene, fe2d::seepage_state(scene));
+    const fe2d::SeepageResult seepage = fe2d::solve_seepage_on(model.mesh, scene, scene_uplift_state(scene));
     if (!seepage.field.solver.ok())
         throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
                                       "the seepage below the dam could not be solved: " + seepage.field.solver.text(),

@@ -21,11 +21,11 @@ public:
     std::size_t solutions() const { return profiles_.size(); }
 
 private:
-    using Key = std::tuple<std::optional<double>, std::optional<double>, sliding::DrainState, sliding::CurtainState>;
-    sliding::PressureProfile solve(const Scene& scene, const sliding::UpliftState& state);
+    using Key = std::tuple<std::optional<double>, std::optional<double>, DrainState, CurtainState>;
+    PressureProfile solve(const Scene& scene, const UpliftState& state);
 
     std::mutex mutex_;
-    std::map<Key, sliding::PressureProfile> profiles_;
+    std::map<Key, PressureProfile> profiles_;
 };
 
 } // namespace damslip

@@ -5,7 +5,7 @@
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "scene/wet_base.hpp"
+#include "scene/water.hpp"
 #include "sliding/empirical/ensemble.hpp"
 
 #include <algorithm>

@@ -15,13 +15,6 @@ namespace damslip::pages {
 
 namespace {
 
-sliding::PressureProfile profile_of(const Polyline& uplift)
-{
-    sliding::PressureProfile profile;
-    for (const Point& p : uplift) profile.points.push_back({p.x, p.y});
-    return profile;
-}
-
 } // namespace
 
 Page begin_fe_page(const FePageFrame& in)
@@ -32,7 +25,7 @@ Page begin_fe_page(const FePageFrame& in)
                     scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
     page.warnings = record_warnings(in.records);
     page.sections.push_back(
-        {"Section", {section_drawing(in.scene, profile_of(in.uplift), dam_mesh_lines(in.model.mesh))}, Fold::open});
+        {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});
     return page;
 }
 

@@ -15,7 +15,7 @@ struct FePageFrame {
     const std::vector<RecordPair>& records;
     const fe2d::Model& model;
     const fe2d::FluidModel* water; ///< acoustic; null: none
-    Polyline uplift;    ///< along the base before the earthquake, x = distance [m], y = pressure [Pa]; empty: none
+    PressureProfile uplift; ///< under the base before the earthquake; empty: none
     std::string kind;   ///< for the subtitle: "finite elements with contact"
     std::string method; ///< for the provenance
 };

@@ -29,7 +29,7 @@ public:
         const std::vector<RecordPair>& records;
         const fe2d::EarthquakeRun& model;
         const RigidModel& rigid;
-        const Polyline& uplift; ///< along the base before the earthquake [m, Pa]
+        const PressureProfile& uplift; ///< under the base before the earthquake
     };
     explicit FeReport(const Input& input);
 

@@ -15,7 +15,7 @@ struct ReducedReportInput {
     const std::vector<RecordPair>& records;
     const fe2d::EarthquakeRun& full;
     const RigidModel& rigid;
-    const Polyline& uplift; ///< along the base before the earthquake [m, Pa]
+    const PressureProfile& uplift; ///< along the base before the earthquake [m, Pa]
     const std::vector<ReducedRecord>& runs;
     const Table& table; ///< one row a run
     const std::vector<std::string>& messages;

@@ -119,7 +119,7 @@ void draw_ground(Sketch& sketch, const Frame& f)
 }
 
 /// The pressure figure hanging below the base, pressures [kPa] at its corners.
-void draw_uplift(Sketch& sketch, const Scene& scene, const Frame& f, const sliding::PressureProfile& profile)
+void draw_uplift(Sketch& sketch, const Scene& scene, const Frame& f, const PressureProfile& profile)
 {
     double largest = 0.0;
     for (const auto& p : profile.points) largest = std::max(largest, p.pressure);
@@ -136,7 +136,7 @@ void draw_uplift(Sketch& sketch, const Scene& scene, const Frame& f, const slidi
     shape.push_back(at(length, 0));
     sketch.polygon(shape, "uplift");
     for (int k = 1; k < 14; ++k) {
-        const double s = length * k / 14, p = sliding::pressure_at(profile, s);
+        const double s = length * k / 14, p = pressure_at(profile, s);
         if (p / largest * f.uplift_depth > sketch.metres(14)) sketch.arrow(at(s, p), at(s, 0), "uplift-arrow", 6);
     }
     const auto words = [](double p) { return fmt::format("{:.4g} kPa", p / units::kPa); };
@@ -258,7 +258,7 @@ void draw_signs(Sketch& sketch, const Frame& f)
 
 } // namespace
 
-Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift, const std::vector<Polyline>& mesh)
+Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const std::vector<Polyline>& mesh)
 {
     const bool wet =
         std::any_of(uplift.points.begin(), uplift.points.end(), [](const auto& p) { return p.pressure > 0; });

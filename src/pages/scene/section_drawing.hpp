@@ -10,7 +10,7 @@ namespace damslip::pages {
 /// the base, dimensions, axes and the sign convention.
 /// @param uplift  along the base, as the yield acceleration uses it
 /// @param mesh  lines of a mesh of the section, drawn in it; empty: none
-Drawing section_drawing(const Scene& scene, const sliding::PressureProfile& uplift,
+Drawing section_drawing(const Scene& scene, const PressureProfile& uplift,
                         const std::vector<Polyline>& mesh = {});
 
 } // namespace damslip::pages

@@ -60,7 +60,7 @@ Scene with_solved_uplift(const Scene& scene, const Screening& s)
     if (!(points.front().pressure > 0)) return scene;
     Scene solved = with_uplift(scene, UpliftModel::points);
     solved.uplift->points.clear();
-    for (const sliding::ProfilePoint& p : points)
+    for (const ProfilePoint& p : points)
         solved.uplift->points.push_back({p.distance, p.pressure / points.front().pressure});
     return solved;
 }

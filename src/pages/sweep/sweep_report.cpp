@@ -256,9 +256,9 @@ Section section_of(const Scene& given, const SweepView& view)
         return section;
     }
     SeepageSource seepage;
-    sliding::PressureProfile uplift;
+    PressureProfile uplift;
     if (scene.uplift)
-        uplift = sliding::uplift_profile(scene, sliding::scene_uplift_state(scene), {}, seepage.profile_of(scene));
+        uplift = sliding::uplift_profile(scene, scene_uplift_state(scene), {}, seepage.profile_of(scene));
     std::vector<Polyline> mesh;
     if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
     return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};

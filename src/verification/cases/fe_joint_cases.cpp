@@ -31,7 +31,7 @@ std::vector<Check> uplift_on_both_faces()
     fe2d::RunOptions options;
     scene.time.substeps = 0;
     const fe2d::RunResult dry = fe2d::EarthquakeRun(scene, options).run(silence);
-    options.uplift = {{0.0, pressure}, {base, pressure}};
+    options.uplift = {{{0.0, pressure}, {base, pressure}}};
     const fe2d::RunResult wet = fe2d::EarthquakeRun(scene, options).run(silence);
     const double weight = 2400.0 * scene.gravity * base * height;
     return {{"N' with water in the joint", "N/m", weight - pressure * base, wet.history.normal_force.front(), 1e-10,

@@ -352,7 +352,7 @@ double uniform_pressure_residual(ElementKind kind)
     const Mesh& mesh = model.mesh;
     const double p = 1e6,
                  shrink = p * (1 + concrete.poisson_ratio) * (1 - 2 * concrete.poisson_ratio) / concrete.young_modulus;
-    Eigen::VectorXd u(model.dofs.count), f = uplift_load(mesh, model.dofs, {{0, p}, {45, p}}, ContactSide::dam);
+    Eigen::VectorXd u(model.dofs.count), f = uplift_load(mesh, model.dofs, {{{0, p}, {45, p}}}, ContactSide::dam);
     for (const NodeChain* chain : {&mesh.upstream_face, &mesh.downstream_face, &mesh.crest})
         f += pressure_load(mesh, model.dofs, *chain, [p](Point) { return p; });
     for (int i = 0; i < mesh.node_count(); ++i)

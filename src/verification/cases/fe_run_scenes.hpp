@@ -40,9 +40,7 @@ inline RunOptions options_of(const Scene& scene)
             return sliding::added_mass_per_area(method, water, water.depth - at.y, face_angle);
         };
     }
-    if (scene.uplift)
-        for (const auto& p : sliding::uplift_profile(scene, sliding::scene_uplift_state(scene)).points)
-            options.uplift.push_back({p.distance, p.pressure});
+    if (scene.uplift) options.uplift = sliding::uplift_profile(scene, scene_uplift_state(scene));
     return options;
 }
 

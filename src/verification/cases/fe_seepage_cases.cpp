@@ -51,17 +51,17 @@ Scene thesis_dam(double curtain_thickness, double curtain_permeability)
 
 fe2d::SeepageResult solve(const Scene& scene)
 {
-    return fe2d::solve_seepage(scene, fe2d::seepage_state(scene));
+    return fe2d::solve_seepage(scene, scene_uplift_state(scene));
 }
 
 double pressure_at(const fe2d::SeepageResult& result, double distance)
 {
-    for (std::size_t i = 1; i < result.profile.size(); ++i) {
-        const auto &a = result.profile[i - 1], &b = result.profile[i];
+    for (std::size_t i = 1; i < result.profile.points.size(); ++i) {
+        const auto &a = result.profile.points[i - 1], &b = result.profile.points[i];
         if (distance <= b.distance)
             return a.pressure + (b.pressure - a.pressure) * (distance - a.distance) / (b.distance - a.distance);
     }
-    return result.profile.back().pressure;
+    return result.profile.points.back().pressure;
 }
 
 std::vector<Check> arccosine()
@@ -130,7 +130,7 @@ std::vector<Check> two_forms()
     Scene scene = thesis_dam(1.0, 1e-8);
     scene.mesh.size = 3.0;
     scene.stages.pore_pressure = PorePressure::effective; // the mesh carries the flow: the curtain is a zone of it
-    const auto flow = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, fe2d::seepage_state(scene));
+    const auto flow = fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, scene_uplift_state(scene));
     const Eigen::VectorXd pressure = fe2d::excess_pore_pressure(flow.field.head, flow.unit_weight);
     const fe2d::DofMap dofs = fe2d::displacement_dofs(flow.mesh, fe2d::Base::tied);
     fe2d::LinearSolver solver;

@@ -20,7 +20,7 @@ inline constexpr int fine = 2;
 inline constexpr double fine_share = 0.01;
 
 /// @param halvings  of the step; none: chosen by the accuracy wanted
-fe2d::RunResult fe_run(const Scene& scene, const GroundMotion& motion, std::optional<int> halvings = fine);
+fe2d::RunResult fe_run(Scene scene, const GroundMotion& motion, std::optional<int> halvings = fine);
 sliding::SlideResult rigid_run(const Scene& scene, const GroundMotion& motion);
 double friction_that_holds(const Scene& scene);       ///< statically, by the rigid block [-]
 Scene with_friction_over(Scene scene, double factor); ///< friction: `factor` times that which holds

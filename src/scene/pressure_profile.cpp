@@ -1,6 +1,6 @@
-#include "sliding/uplift/pressure_profile.hpp"
+#include "scene/pressure_profile.hpp"
 
-namespace damslip::sliding {
+namespace damslip {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::vector<ProfilePoint> part(const PressureProfile& profile, double from, doub
     return out;
 }
 
-} // namespace damslip::sliding
+} // namespace damslip

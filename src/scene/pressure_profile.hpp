@@ -1,10 +1,8 @@
 #pragma once
 
-#include "core/geometry.hpp"
-
 #include <vector>
 
-namespace damslip::sliding {
+namespace damslip {
 
 /// One corner of a pressure profile.
 struct ProfilePoint {
@@ -13,10 +11,12 @@ struct ProfilePoint {
     friend bool operator==(const ProfilePoint&, const ProfilePoint&) = default;
 };
 
-/// Water pressure under the base, piecewise linear from heel to toe; a repeated distance is a jump.
+/// Water pressure under the base, piecewise linear from heel to toe; a repeated distance is a jump. In a lift joint the same
+/// from its upstream end.
 struct PressureProfile {
     std::vector<ProfilePoint>
         points; ///< distances ascending, first 0, last the base length; empty: no pressure anywhere
+    bool empty() const { return points.empty(); }
 };
 
 /// Resultant of a profile: normal to the base, lifts the dam.
@@ -35,4 +35,4 @@ double pressure_at(const PressureProfile& profile, double distance);
 /// one at `to` too.
 std::vector<ProfilePoint> part(const PressureProfile& profile, double from, double to);
 
-} // namespace damslip::sliding
+} // namespace damslip

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <optional>
+
+/// What a scene says of its water, for all who ask.
+namespace damslip {
+
+/// Water stands in the reservoir.
+bool has_water(const Scene& scene);
+/// It does, and waves travel through it.
+bool is_acoustic(const Scene& scene);
+
+double water_density(const Scene& scene);     ///< of the reservoir, of any water without one [kg/m^3]
+double water_unit_weight(const Scene& scene); ///< γ_w, the same times the scene's gravity [N/m^3]
+
+/// Water stands on the dam in the scene or in one of its load combinations, so that it can press up under the base.
+bool water_on_dam(const Scene& scene);
+
+/// Water stands on the dam, but there is no uplift: the base is taken as dry.
+bool base_taken_as_dry(const Scene& scene);
+
+enum class DrainState { effective, ineffective };
+enum class CurtainState { intact, damaged };
+
+/// The state of water and foundation that an uplift or a seepage belongs to.
+struct UpliftState {
+    std::optional<double> reservoir_level;       ///< above the heel [m]; none: dry
+    std::optional<double> tailwater_level;       ///< above the heel [m]; none: dry
+    DrainState drains = DrainState::effective;   ///< effective: as the scene says; ineffective: E = 0
+    CurtainState curtain = CurtainState::intact; ///< intact: as the scene says; damaged: it holds nothing back
+};
+
+/// The scene's own levels, drains and curtain.
+UpliftState scene_uplift_state(const Scene& scene);
+
+} // namespace damslip
