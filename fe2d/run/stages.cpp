@@ -108,7 +108,7 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
     const double normal = result.resultant.normal_force, shear = std::abs(result.resultant.shear_force);
     const double cohesion = law.cohesion.segment(first, pairs).sum(),
                  resistance = law.friction.segment(first, pairs).minCoeff() * normal + cohesion;
-    result.friction_needed = std::max(0.0, shear - cohesion) / normal;
+    result.critical_friction = std::max(0.0, shear - cohesion) / normal;
     // A balance of the loads on the dam alone: round-off of sums of order N' is not a shear force.
     result.sliding_factor =
         shear > 1e-12 * std::abs(normal) ? resistance / shear : std::numeric_limits<double>::infinity();
@@ -188,10 +188,10 @@ std::string StageResult::text() const
     switch (status) {
     case StageStatus::ok:
         return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.", name,
-                           forces, 1e3 * slip, open_length, friction_needed);
+                           forces, 1e3 * slip, open_length, critical_friction);
     case StageStatus::slides:
         return fmt::format("{}: {} slides without any earthquake, {}: it holds with mu >= {:.5f}.", name, body, forces,
-                           weakest->friction_needed);
+                           weakest->critical_friction);
     case StageStatus::floats:
         return fmt::format("{}: {} floats, {}: uplift exceeds all weight.", name, body, forces);
     case StageStatus::overturns:
@@ -201,7 +201,7 @@ std::string StageResult::text() const
         return fmt::format(
             "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "
             "{}, mu needed by these resultants {:.5f}.",
-            name, contact.iterations, forces, friction_needed);
+            name, contact.iterations, forces, critical_friction);
     }
     return {};
 }

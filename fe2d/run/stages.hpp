@@ -35,7 +35,7 @@ struct PlaneBalance {
     std::string plane; ///< "base", "lift joint at 51.5 m"
     StageStatus status = StageStatus::ok;
     BaseResultant resultant;
-    double friction_needed = 0.0; ///< (|T| - c A)/N', the least mu of equilibrium [-]
+    double critical_friction = 0.0; ///< (|T| - c A)/N', the least mu of equilibrium [-]
     double sliding_factor = 0.0;  ///< (mu N' + c A)/|T| [-]; infinite without shear
     double slip = 0.0;            ///< area mean so far, positive downstream [m]
     double open_length = 0.0;     ///< area of open pairs [m]

@@ -80,7 +80,7 @@ TEST(FePoreRun, ResultantsStay)
     const RunResult none = at_rest(scene, crest);
     scene.stages.pore_pressure = PorePressure::total;
     const RunResult total = at_rest(scene, crest);
-    EXPECT_NEAR(total.stages.back().friction_needed, none.stages.back().friction_needed, 1e-12);
+    EXPECT_NEAR(total.stages.back().critical_friction, none.stages.back().critical_friction, 1e-12);
     EXPECT_NE(total.pair_pressure[3], none.pair_pressure[3]);
 }
 

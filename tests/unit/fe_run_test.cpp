@@ -59,7 +59,7 @@ TEST(FeRun, stages_are_in_equilibrium_and_know_the_friction_that_holds)
     const sliding::RigidBlock block = sliding::make_rigid_block(scene);
     EXPECT_NEAR(base.shear_force, block.horizontal_force, 1e-10 * base.shear_force);
     const double expected = block.horizontal_force / (block.mass * block.gravity + block.vertical_force - block.uplift);
-    EXPECT_NEAR(result.stages.back().friction_needed, expected, 1e-9);
+    EXPECT_NEAR(result.stages.back().critical_friction, expected, 1e-9);
 
     const RunResult fails = run.run(silence(0.5, 0.01), with_friction(expected - 1e-5));
     EXPECT_EQ(fails.status, Status::static_failure);
@@ -98,7 +98,7 @@ TEST(FeRun, no_creep)
     RunOptions options = options_of(scene);
     scene.time.substeps = 0;
     const EarthquakeRun run(scene, options);
-    const double needed = run.run(silence(0.2, 0.1)).stages.back().friction_needed;
+    const double needed = run.run(silence(0.2, 0.1)).stages.back().critical_friction;
     const RunResult result = run.run(silence(1000.0, 0.1), with_friction(needed / 0.95));
     EXPECT_EQ(result.counts.steps, 10005);
     EXPECT_LT(result.max_slip, 1e-12);

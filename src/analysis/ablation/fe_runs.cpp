@@ -78,7 +78,7 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
         const ProcessorClock run_clock;
         const fe2d::RunResult result = run(model, motion, step.halvings);
         const double seconds = run_clock.seconds();
-        if (!result.stages.empty()) runs.critical_friction = result.stages.back().friction_needed;
+        if (!result.stages.empty()) runs.critical_friction = result.stages.back().critical_friction;
         runs.records.back() = outcome(result, scene.sliding.run_out_max);
         runs.records.back().seconds = seconds;
         if (runs.records.back().slip)

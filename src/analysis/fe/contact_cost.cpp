@@ -85,7 +85,7 @@ ContactCost contact_cost(const Ready& ready)
     const GroundMotion motion = trial_motion(scene.time.dt.value_or(0.01));
     fe2d::RunResult trial = model.run(motion);
     if (fails_statically(trial.status)) { // costs do not depend on friction: try one that holds
-        const double needed = trial.stages.back().friction_needed;
+        const double needed = trial.stages.back().critical_friction;
         if (std::isfinite(needed)) {
             Contact holds = scene.contact;
             holds.friction = 1.1 * std::max(needed, scene.contact.friction);

@@ -39,8 +39,8 @@ FeSlip slip_of(const Result& r, double step_error)
 {
     FeSlip slip;
     slip.status = r.status;
-    if (!r.stages.empty() && std::isfinite(r.stages.back().friction_needed))
-        slip.critical_friction = r.stages.back().friction_needed;
+    if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
+        slip.critical_friction = r.stages.back().critical_friction;
     slip.slip = reported(r.status, r.slip);
     slip.max_slip = reported(r.status, r.max_slip);
     slip.slip_error = reported(r.status, step_error);

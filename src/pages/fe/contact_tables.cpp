@@ -136,7 +136,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
         const auto pressed = [&](double value) { return normal > 0.0 ? Cell(value) : Cell(); };
         const auto found = [&](double value) { return solved ? Cell(value) : Cell(); };
         t.rows.push_back({record, polarity, stage, status(end), normal / 1e3,
-                          without_round_off(b.resultant.shear_force, weight) / 1e3, pressed(b.friction_needed),
+                          without_round_off(b.resultant.shear_force, weight) / 1e3, pressed(b.critical_friction),
                           pressed(b.sliding_factor), found(1e3 * b.slip), found(b.open_length),
                           found(b.slipping_length)});
     };

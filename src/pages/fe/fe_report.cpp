@@ -153,7 +153,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
     if (!worst.fe.stages.empty())
         list.emplace_back("Stands without earthquake from μ",
-                          fmt::format("{:.4g}", worst.fe.stages.back().friction_needed));
+                          fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
     double open = 0.0;
     for (const ContactRun& r : runs)
         for (const double length : r.fe.history.open_length) open = std::max(open, length);

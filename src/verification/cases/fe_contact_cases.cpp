@@ -106,7 +106,7 @@ std::vector<Check> energy_and_creep()
     GroundMotion rest = fe2d::test::sines(1.0, 100.0, 5, 0.1);
     for (auto* a : {&rest.accel_h, &rest.accel_v}) std::fill(a->begin(), a->end(), 0.0);
     Contact contact = scene.contact;
-    contact.friction = result.stages.back().friction_needed / 0.95;
+    contact.friction = result.stages.back().critical_friction / 0.95;
     const RunResult still = EarthquakeRun(scene, options).run(rest, contact);
     return {{"energy imbalance over the input", "-", 1e-10, result.energy_error, 0.0, Measure::upper_bound},
             {"friction + damping + numerical + strain change", "J/m", e.external + e.contact_normal,

@@ -29,7 +29,7 @@ HardResult fails_statically(Scene scene, double share)
     scene.contact.friction = share * needed;
     const fe2d::RunResult run = fe_run(scene, sines(1.0, 1.0));
     HardResult result = compared(run, needed, 1e-9 * needed);
-    result.value_a = run.stages.back().friction_needed;
+    result.value_a = run.stages.back().critical_friction;
     return result;
 }
 
