@@ -1,14 +1,32 @@
 #pragma once
 
-#include "fe2d/contact/contact_state.hpp"
 #include "scene/scene.hpp"
 
 #include <Eigen/Core>
+
+#include <vector>
 
 /// Contact with Coulomb friction between m pairs of nodes as a small dense problem: everything linear (structure, rock,
 /// inertia, damping) has been eliminated. Vectors of length 2m: the m normal components first, then the m tangential
 /// ones.
 namespace damslip::fe2d {
+
+/// State of one pair of nodes of a contact plane. g_N: opening, s: slip in the step, positive downstream; λ_n: contact
+/// force pressing the two sides apart (effective compression), λ_t: shear force on the upper side, positive downstream.
+enum class ContactState : unsigned char {
+    stick,           ///< g_N = 0, s = 0, |λ_t| <= c + mu λ_n
+    slip_downstream, ///< g_N = 0, s > 0, λ_t = -(c + mu λ_n)
+    slip_upstream,   ///< g_N = 0, s < 0, λ_t = +(c + mu λ_n)
+    open,            ///< g_N > 0, λ_n = 0, λ_t = 0; water pressure, a load, stays
+    pulled           ///< without separation only: g_N = 0, λ_n < 0, λ_t = 0
+};
+
+using ContactStates = std::vector<ContactState>; ///< one per pair
+
+inline bool is_slip(ContactState state)
+{
+    return state == ContactState::slip_downstream || state == ContactState::slip_upstream;
+}
 
 /// Strength of the pairs, and whether the joint opens: g_N >= 0, λ_n >= 0. With JointOpening::none g_N = 0, λ_n of any sign,
 /// and pairs in tension carry no shear: a modelling shortcut that lowers the slip, because the compressed pairs then carry

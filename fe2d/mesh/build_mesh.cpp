@@ -1,11 +1,10 @@
 #include "fe2d/mesh/build_mesh.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/mesh/dam_mesh.hpp"
+#include "fe2d/mesh/mesh_bodies.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/quadratic.hpp"
 #include "fe2d/mesh/quality.hpp"
-#include "fe2d/mesh/rock_mesh.hpp"
 #include "scene/curtain.hpp"
 #include "scene/section.hpp"
 

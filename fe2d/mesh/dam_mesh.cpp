@@ -1,4 +1,4 @@
-#include "fe2d/mesh/dam_mesh.hpp"
+#include "fe2d/mesh/mesh_bodies.hpp"
 
 #include <algorithm>
 

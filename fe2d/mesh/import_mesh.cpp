@@ -2,8 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/gmsh/read_gmsh.hpp"
-#include "fe2d/mesh/imported_dam.hpp"
-#include "fe2d/mesh/imported_rock.hpp"
+#include "fe2d/mesh/imported_body.hpp"
 #include "scene/section.hpp"
 
 #include <fmt/format.h>

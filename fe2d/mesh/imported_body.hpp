@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/gmsh/gmsh_file.hpp"
-#include "fe2d/mesh/mesh.hpp"
+#include "fe2d/mesh/build_mesh.hpp"
 
 #include <optional>
 #include <set>
@@ -52,5 +52,24 @@ std::optional<EdgeSet> named_edges(const GmshFile& file, const ImportedBody& bod
 
 /// Checks that the edges of the physical line `name`, where the file has it, are those of the chain.
 void check_named(const GmshFile& file, const ImportedBody& body, const std::string& name, const NodeChain& chain);
+
+/// Share of the base length by which an imported mesh may differ from the scene's section, and of the area.
+inline constexpr double section_tolerance = 1e-3;
+
+/// Puts the dam of the file into an empty mesh: nodes, elements, faces, crest, contact.dam_nodes; its lift joints are
+/// split. The base is the physical line "base"; "upstream", "crest" and "downstream" may be named, otherwise the
+/// section's corners divide the outline.
+/// @throws InputError where the dam is not the scene's section within section_tolerance, the base is not straight, a
+///         lift joint of the scene is no line of the mesh
+void append_imported_dam(Mesh& mesh, const GmshFile& file, const ImportedBody& dam, const Scene& scene);
+
+/// Appends the rock of the file to a mesh that holds its dam: nodes, elements, the rock's side of the contact plane,
+/// its surface and the sides of the box. Its base nodes are those of its outline between heel and toe. "rock-left",
+/// "rock-right", "rock-bottom" may be named; otherwise they are where the outline is at its least and largest x and its
+/// least y.
+/// @throws InputError where the rock does not follow the base from heel to toe, dam and rock touch elsewhere, the sides
+///         are not found, or the surface is not straight as far as a finite path needs it
+void append_imported_rock(Mesh& mesh, const GmshFile& file, const ImportedBody& rock, const Scene& scene,
+                          const ContactExtension& extension);
 
 } // namespace damslip::fe2d

@@ -1,4 +1,4 @@
-#include "fe2d/mesh/imported_dam.hpp"
+#include "fe2d/mesh/imported_body.hpp"
 
 #include "fe2d/mesh/faces.hpp"
 #include "scene/section.hpp"

@@ -1,4 +1,4 @@
-#include "fe2d/mesh/imported_rock.hpp"
+#include "fe2d/mesh/imported_body.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,11 @@
 #include "fe2d/assembly/assemble.hpp"
 #include "fe2d/assembly/surface_load.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/model/model_counts.hpp"
 #include "scene/scene.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -17,6 +20,27 @@ struct ModelOptions {
     ContactExtension extension = {};
     AddedMassLaw added_mass =
         {}; ///< of the upstream face; used only when the scene has a reservoir; empty: no added mass
+};
+
+/// What one effect adds to the system.
+struct EffectCount {
+    std::string effect; ///< "dam", "foundation", "curtain", "added mass"
+    std::int64_t elements = 0;
+    std::int64_t unknowns = 0; ///< that would not be there without it
+    std::int64_t nonzeros = 0; ///< stored matrix entries (K and M) that would not be there without it
+    std::int64_t bytes = 0;    ///< of those entries and of four vectors of those unknowns
+};
+
+/// Counts of a model, taken from the assembled matrices themselves (assembling costs milliseconds), so what is
+/// announced before a run and what the run holds are the same numbers. The effects sum to the totals.
+struct ModelCounts {
+    std::vector<EffectCount> effects; ///< only those the scene has
+    std::int64_t elements = 0;
+    std::int64_t unknowns = 0;
+    std::int64_t nonzeros = 0;
+    std::int64_t bytes = 0;
+
+    void add(EffectCount effect); ///< fills the effect's bytes and sums up
 };
 
 /// The assembled structure of one scene. Only what the scene holds is there: without a foundation no rock unknowns,

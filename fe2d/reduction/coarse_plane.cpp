@@ -1,4 +1,4 @@
-#include "fe2d/reduction/coarse_plane.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "fe2d/run/plane.hpp"
+#include "fe2d/run/contact_planes.hpp"
 
 namespace damslip::fe2d {
 

@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/mesh/grading.hpp"
-#include "fe2d/mesh/rock_mesh.hpp"
+#include "fe2d/mesh/mesh_bodies.hpp"
 #include "scene/curtain.hpp"
 #include "scene/section.hpp"
 

@@ -1,19 +1,56 @@
 #include "fe2d/solver/linear_solver.hpp"
 
-#include "fe2d/solver/blas_threads.hpp"
 #include "fe2d/solver/cholmod_factor.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <mutex>
 #include <new>
 #include <vector>
 
 namespace damslip::fe2d {
 
 namespace {
+
+/// Sets OpenBLAS and OpenMP to one thread (no-op with another BLAS): results then do not depend on the number of cores,
+/// and runs do not compete with each other. Reading OPENBLAS_NUM_THREADS happens at load time, so the environment is
+/// too late for a running program.
+void use_one_blas_thread()
+{
+    using SetThreads = void (*)(int);
+    for (const char* name : {"openblas_set_num_threads", "omp_set_num_threads"})
+        if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, name))) set(1);
+}
+
+/// OpenBLAS takes 128 MB at its first product, keeps them, and asks for them again and again, for ever, where they cannot be
+/// had. To be called before: where the address space is limited (ulimit -v) it asks once, and has OpenBLAS take them.
+/// @throws std::bad_alloc
+void demand_blas_memory()
+{
+    static std::mutex mutex;
+    static bool taken = false; // OpenBLAS keeps what it has once taken
+    const std::lock_guard lock(mutex);
+    rlimit limit{};
+    if (taken || ::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    constexpr std::size_t buffer = 130u << 20; // with what it is aligned by
+    void* const trial = std::malloc(buffer);
+    if (!trial) throw std::bad_alloc();
+    std::free(trial);
+    using Factorise = void (*)(const char* triangle, const int* n, double* a, const int* rows, int* info);
+    if (const auto factorise = reinterpret_cast<Factorise>(dlsym(RTLD_DEFAULT, "dpotrf_"))) {
+        double one = 1.0;
+        int n = 1, info = 0;
+        factorise("L", &n, &one, &n, &info);
+    }
+    taken = true;
+}
 
 constexpr int block = 16; ///< right-hand sides per call of the factor: fastest measured
 

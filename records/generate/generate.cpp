@@ -2,8 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "records/generate/finish.hpp"
-#include "records/generate/random_phases.hpp"
-#include "records/generate/wavelet_match.hpp"
+#include "records/generate/stages.hpp"
 #include "records/measure/response_spectrum.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "records/generate/random_phases.hpp"
+#include "records/generate/stages.hpp"
 
 #include "records/generate/random.hpp"
 #include "records/measure/response_spectrum.hpp"

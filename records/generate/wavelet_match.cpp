@@ -1,4 +1,4 @@
-#include "records/generate/wavelet_match.hpp"
+#include "records/generate/stages.hpp"
 
 #include "records/generate/least_squares.hpp"
 #include "records/measure/oscillator.hpp"

@@ -1,17 +1,74 @@
-#include "records/read/columns.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
-#include "records/read/column_heading.hpp"
 #include "records/read/samples.hpp"
 #include "records/read/time_column.hpp"
+#include "records/read/unit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace damslip::records {
 
 namespace {
+
+enum class ColumnKind { time, acceleration, other };
+
+/// What a heading such as "time_s", "acc [cm/s2]", "a_h (g)", "NS" says.
+struct ColumnHeading {
+    ColumnKind kind = ColumnKind::other; ///< `other`: velocity, displacement, or a name without a unit of acceleration
+    std::string name;                    ///< without the unit
+    std::optional<std::string> unit;     ///< as written; time: "s" or "ms"
+};
+
+/// Splits "name [unit]", "name (unit)", "name_unit" and "name unit".
+ColumnHeading split(std::string_view heading)
+{
+    ColumnHeading out;
+    const std::size_t open = heading.find_first_of("[(");
+    if (open != std::string_view::npos && heading.size() > open + 1 &&
+        (heading.back() == ']' || heading.back() == ')')) {
+        out.name = trimmed(heading.substr(0, open));
+        out.unit = std::string(trimmed(heading.substr(open + 1, heading.size() - open - 2)));
+        return out;
+    }
+    static constexpr std::array<std::string_view, 9> suffixes{"_mm_s2", "_cm_s2", "_m_s2", "_gal", "_mg",
+                                                              "_ms",    "_g",     "_s",    "_sec"};
+    const std::string low = lower(heading);
+    for (const std::string_view suffix : suffixes)
+        if (low.size() > suffix.size() && low.ends_with(suffix)) {
+            out.name = heading.substr(0, heading.size() - suffix.size());
+            out.unit = std::string(suffix.substr(1));
+            return out;
+        }
+    const std::size_t blank = heading.find_last_of(" \t");
+    if (blank != std::string_view::npos && acceleration_unit(heading.substr(blank + 1))) {
+        out.name = trimmed(heading.substr(0, blank));
+        out.unit = std::string(heading.substr(blank + 1));
+        return out;
+    }
+    out.name = heading;
+    return out;
+}
+
+ColumnHeading read_heading(std::string_view heading)
+{
+    ColumnHeading out = split(trimmed(heading));
+    const std::string name = lower(out.name);
+    const std::string unit = out.unit ? lower(*out.unit) : "";
+    const bool time_unit = unit.empty() || unit == "s" || unit == "sec" || unit == "ms";
+    if ((name == "t" || name.starts_with("time")) && time_unit) {
+        out.kind = ColumnKind::time;
+        return out;
+    }
+    const bool motion = name.starts_with("vel") || name.starts_with("dis") || name.starts_with("slip");
+    const bool named = name == "a" || name.starts_with("a_") || name.starts_with("acc") || contains(name, "accel");
+    const bool by_unit = out.unit && acceleration_unit(*out.unit);
+    if (!motion && (named || by_unit)) out.kind = ColumnKind::acceleration;
+    return out;
+}
 
 constexpr std::string_view say_dt =
     "give it as motion.record.dt_s in the scene, --dt on the command line, or a line \"# dt: 0.01 s\" in the file";
@@ -242,11 +299,19 @@ std::size_t common_width(const RecordText& text, const NumberTable& table)
 
 } // namespace
 
+/// The file has lines of numbers.
 bool looks_like_columns(const RecordText& text)
 {
     return has_numbers(text);
 }
 
+/// Plain text: comment lines "# key: value" (units, dt, n, component, title), perhaps a heading line, then numbers
+/// separated by blanks, tabs, commas or semicolons, with decimal points or commas.
+///   - with headings (time_s, accel_m_s2, "acc [g]", ...): columns by name; a time column or a stated dt; one record
+///   per acceleration column
+///   - without: two numbers a line are time and acceleration, unless dt is stated and the first is no time; with dt
+///   stated, all numbers
+///     in reading order are samples, any number to a line
 std::vector<Record> read_columns(const RecordText& text, const ReadOptions& options)
 {
     TextHeader header = read_text_header(text);
@@ -260,6 +325,11 @@ std::vector<Record> read_columns(const RecordText& text, const ReadOptions& opti
     const File f{text, options, std::move(header), std::move(table), dt, width};
     if (!f.table.headings.empty() && f.width > 0) return read_headed(f);
     return read_unheaded(f);
+}
+
+RecordFormat columns_format()
+{
+    return {"columns", looks_like_columns, read_columns};
 }
 
 } // namespace damslip::records

@@ -1,4 +1,4 @@
-#include "records/read/csmip.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
@@ -291,6 +291,7 @@ void check_peak(const RecordText& text, const Channel& channel, Record& record)
 
 } // namespace
 
+/// One of the first three lines names an (un)corrected accelerogram.
 bool looks_like_csmip(const RecordText& text)
 {
     for (std::size_t k = 0; k < std::min<std::size_t>(3, text.lines.size()); ++k)
@@ -298,6 +299,15 @@ bool looks_like_csmip(const RecordText& text)
     return false;
 }
 
+/// CSMIP/CDMG volumes 1 (uncorrected) and 2 (corrected), any number of channels a file: for each text lines (13 or 25),
+/// 100 integers (16I5), 50 or 100 reals (8F10), then "3251 POINTS OF ACCEL DATA EQUALLY SPACED AT .020 SEC. (UNITS:
+/// CM/SEC/SEC)" and the samples; volume 2 goes on with velocity and displacement, which are passed over. Where no
+/// format is named the field width follows from the length of a full line (9 or 10 characters).
+/// Volume 1 of digitised film has no such line: pairs of time and acceleration (10 fields of 7), as a rule uneven in
+/// time, in the unit that the text lines name ("G/10" is a tenth of g).
+/// Up to 7 samples fewer than stated, with a blank rest of the last line, are a warning.
+/// Shakal & Huang (1985), CDMG; Converse & Brady (1992), USGS Open-File Report 92-296-A.
+/// @throws InputError: response spectra (volume 3), an unknown unit, uneven times unless options.uneven is resample.
 std::vector<Record> read_csmip(const RecordText& text, const ReadOptions& options)
 {
     if (contains(lower(text.lines.front()), "response"))
@@ -315,6 +325,11 @@ std::vector<Record> read_csmip(const RecordText& text, const ReadOptions& option
         warn_if_down(records.back());
     }
     return chosen_channels(text, std::move(records), options);
+}
+
+RecordFormat csmip_format()
+{
+    return {"CSMIP/CDMG", looks_like_csmip, read_csmip};
 }
 
 } // namespace damslip::records

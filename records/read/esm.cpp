@@ -1,4 +1,4 @@
-#include "records/read/esm.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
@@ -80,11 +80,17 @@ std::vector<double> read_values(const RecordText& text, std::size_t first, const
 
 } // namespace
 
+/// Line 1 starts with "EVENT_NAME:".
 bool looks_like_esm(const RecordText& text)
 {
     return trimmed(text.lines.front()).starts_with("EVENT_NAME:");
 }
 
+/// ESM and ITACA ASCII (header format DYNA): lines "KEY: value", split at the first colon, many of them empty; then one
+/// sample a line. NDATA, SAMPLING_INTERVAL_S, UNITS and DATA_TYPE count; STREAM is the component.
+/// Luzi et al. (2016), Engineering Strong Motion Database.
+/// @throws InputError: velocity, displacement, spectra (the same header), a missing key, NDATA that is not the number of
+/// values.
 std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
 {
     const std::size_t header = header_size(text);
@@ -127,6 +133,11 @@ std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);
+}
+
+RecordFormat esm_format()
+{
+    return {"ESM/ITACA ASCII", looks_like_esm, read_esm};
 }
 
 } // namespace damslip::records

@@ -1,13 +1,5 @@
 #include "records/read/format.hpp"
 
-#include "records/read/columns.hpp"
-#include "records/read/cosmos.hpp"
-#include "records/read/csmip.hpp"
-#include "records/read/esm.hpp"
-#include "records/read/k_net.hpp"
-#include "records/read/peer_at2.hpp"
-#include "records/read/smc.hpp"
-
 #include <algorithm>
 #include <vector>
 
@@ -31,19 +23,26 @@ bool web_page(const RecordText& text)
 
 } // namespace
 
-// A new format is a file with its reader and a function like `RecordFormat acme_format();`, declared here.
+// Each format is a file with its reader and one of these.
+RecordFormat cosmos_format();
+RecordFormat smc_format();
+RecordFormat csmip_format();
+RecordFormat k_net_format();
+RecordFormat esm_format();
+RecordFormat peer_at2_format();
+RecordFormat columns_format();
 
 std::span<const RecordFormat> record_formats()
 {
     static const std::vector<RecordFormat> formats{
         {"web page (HTML or XML)", web_page, nullptr},
-        {"COSMOS", looks_like_cosmos, read_cosmos},
-        {"SMC (USGS)", looks_like_smc, read_smc},
-        {"CSMIP/CDMG", looks_like_csmip, read_csmip},
-        {"K-NET/KiK-net", looks_like_k_net, read_k_net},
-        {"ESM/ITACA ASCII", looks_like_esm, read_esm},
-        {"PEER AT2", looks_like_peer_at2, read_peer_at2},
-        {"columns", looks_like_columns, read_columns}, // any table of numbers: last
+        cosmos_format(),
+        smc_format(),
+        csmip_format(),
+        k_net_format(),
+        esm_format(),
+        peer_at2_format(),
+        columns_format(), // any table of numbers: last
     };
     return formats;
 }

@@ -1,4 +1,4 @@
-#include "records/read/k_net.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
@@ -112,11 +112,18 @@ double remove_offset(std::vector<double>& accel, double dt)
 
 } // namespace
 
+/// Line 1 starts with "Origin Time".
 bool looks_like_k_net(const RecordText& text)
 {
     return text.lines.front().starts_with("Origin Time");
 }
 
+/// K-NET and KiK-net ASCII of NIED, Japan: 17 lines with labels in their first 18 columns, then counts of the recorder.
+/// Acceleration [gal] = count * "Scale Factor 3920(gal)/6182761" minus the offset of the sensor, which is the mean of
+/// the first 10 s: the recorder keeps 15 s from before the trigger. Records under 20 s: the mean of all.
+/// Directions: N-S, E-W, U-D positive north, east, up; 1 to 3 the same in the borehole, 4 to 6 at the surface.
+/// @throws InputError: a missing line, a factor that is not understood, a number of samples that is not frequency times
+/// duration.
 std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& options)
 {
     const std::size_t header = header_size(text);
@@ -156,6 +163,11 @@ std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& option
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);
+}
+
+RecordFormat k_net_format()
+{
+    return {"K-NET/KiK-net", looks_like_k_net, read_k_net};
 }
 
 } // namespace damslip::records

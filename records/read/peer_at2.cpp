@@ -1,4 +1,4 @@
-#include "records/read/peer_at2.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
 #include "records/read/cut_end.hpp"
@@ -116,12 +116,18 @@ std::vector<double> read_values(const RecordText& text, std::size_t first, const
 
 } // namespace
 
+/// One of the first ten lines (not a # comment) names NPTS and DT.
 bool looks_like_peer_at2(const RecordText& text)
 {
     const auto end = text.lines.begin() + static_cast<std::ptrdiff_t>(std::min(header_lines, text.lines.size()));
     return std::any_of(text.lines.begin(), end, names_npts_and_dt);
 }
 
+/// PEER strong-motion text file: some lines of title, one naming quantity and unit, one with the number of samples and
+/// the time step as "NPTS=  3930, DT= .00500 SEC" or "3930 0.00500 NPTS, DT", then samples, any number to a line,
+/// negatives possibly stuck together. An older header repeated on top holds another DT: the last such line of the first
+/// ten counts.
+/// @throws InputError: velocity or displacement, NPTS that is not the number of values, anything that is no number.
 std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& options)
 {
     std::size_t last = std::min(header_lines, text.lines.size());
@@ -147,6 +153,11 @@ std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& opt
     source.first_line = last + 1;
     source.last_line = text.lines.size();
     return {finished_record(text, std::move(accel), dt, std::move(source))};
+}
+
+RecordFormat peer_at2_format()
+{
+    return {"PEER AT2", looks_like_peer_at2, read_peer_at2};
 }
 
 } // namespace damslip::records

@@ -1,4 +1,4 @@
-#include "records/read/smc.hpp"
+#include "records/read/format.hpp"
 
 #include "core/number.hpp"
 #include "records/read/agency_samples.hpp"
@@ -109,6 +109,7 @@ void check_peak(const RecordText& text, const Header& header, const Acceleration
 
 } // namespace
 
+/// Line 1 is "2 CORRECTED ACCELEROGRAM" or another volume of the format, or a lone "*" with the header blocks below.
 bool looks_like_smc(const RecordText& text)
 {
     const std::string first = lower(trimmed(text.lines.front().substr(0, 80)));
@@ -119,6 +120,12 @@ bool looks_like_smc(const RecordText& text)
     return first == "*" && text.lines.size() > comment_line && trimmed(text.lines[text_lines - 1]) == "*";
 }
 
+/// SMC format of the U.S. Geological Survey: 11 text lines, 48 integers (8I10), 50 reals (5E15.7), as many comment lines
+/// as the integer header says, samples in cm/s^2 (8 fields of 10). Header values from 0, row by row: integer 0 code of
+/// missing integers, 12 and 13 vertical and horizontal orientation, 15 comment lines, 16 samples, 17 problem flag,
+/// 18 kind of structure (3: dam), 27 place on a dam; real 0 code of missing reals, 1 samples per second.
+/// USGS Open-File Report 92-296-A (Converse 1992: BAP), appendix.
+/// @throws InputError: velocity, displacement, spectra, no volume stated, an impossible sampling rate, gaps.
 std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
 {
     demand_acceleration(text);
@@ -168,6 +175,11 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);
+}
+
+RecordFormat smc_format()
+{
+    return {"SMC (USGS)", looks_like_smc, read_smc};
 }
 
 } // namespace damslip::records

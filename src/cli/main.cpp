@@ -15,7 +15,7 @@ constexpr const char* one_thread = "OPENBLAS_NUM_THREADS=1";
 constexpr std::size_t most_variables = 4096; ///< of an environment that is taken over
 
 /// Where memory is limited (ulimit -v), the program starts anew with OpenBLAS asked for one thread. It starts one for each
-/// core as soon as it is loaded, which the program takes back (fe2d/solver/blas_threads.hpp), and tries for ever where
+/// core as soon as it is loaded, which the program takes back (fe2d/solver/linear_solver.cpp), and tries for ever where
 /// they do not fit. Functions of this section run before those of the libraries; the environment of a process that
 /// runs already cannot grow before they do.
 void start_with_one_blas_thread(int, char** arguments, char** environment)

@@ -1,7 +1,6 @@
 #include "scene/effect_plan.hpp"
 
 #include "scene/effect_row.hpp"
-#include "scene/wedge_effects.hpp"
 
 #include <algorithm>
 

@@ -51,4 +51,7 @@ struct EffectRow {
 std::span<const EffectRow> effect_rows();
 const EffectRow& effect_row(Effect effect);
 
+/// EffectRow::decide for a scene of a rock wedge. @pre scene.wedge
+Decision decide_of_wedge(Effect effect, const Scene& scene);
+
 } // namespace damslip

@@ -1,4 +1,4 @@
-#include "scene/wedge_effects.hpp"
+#include "scene/effect_row.hpp"
 
 #include "scene/vertical_motion.hpp"
 
