@@ -45,7 +45,8 @@ Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const Pressure
 /// Water pressure in a lift joint on both its faces [N/m]: it lifts the block above along the upward normal of the joint
 /// and presses the dam below the opposite way; with shared unknowns (tied) the two cancel.
 /// @param profile  distances from the upstream face along the joint [m]
-Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint, const PressureProfile& profile);
+Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_t joint,
+                                const PressureProfile& profile);
 
 /// A force at a point of the dam, shared by the nodes of its element so that force and moment are kept [N/m].
 /// @returns nothing when the point is more than 1e-6 of the dam's size outside.

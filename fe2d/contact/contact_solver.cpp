@@ -71,7 +71,8 @@ ContactState next_state(const ContactProblem& problem, const ContactSolution& so
     if (now == ContactState::pulled)
         return std::abs(slip) * problem.stiffness(m + pair, m + pair) > friction * normal ? slipping(slip > 0.0)
                                                                                           : ContactState::stick;
-    if (normal < 0.0) return problem.law.separation == JointOpening::allowed ? ContactState::open : ContactState::pulled;
+    if (normal < 0.0)
+        return problem.law.separation == JointOpening::allowed ? ContactState::open : ContactState::pulled;
     if (is_slip(now)) return ContactState::stick; // it would slip against the direction of its friction
     return slipping(shear < 0.0);
 }

@@ -46,8 +46,7 @@ JointSolver::JointSolver(std::shared_ptr<const MatrixXd> stiffness, const Vector
     }
     if (soft)
         soft_normal_ = std::make_unique<ExponentialNormal>(
-            *seen, area, ExponentialPressure(law.pressure_at_zero_clearance, law.clearance_at_zero_pressure),
-            options);
+            *seen, area, ExponentialPressure(law.pressure_at_zero_clearance, law.clearance_at_zero_pressure), options);
     else
         rigid_ = std::make_unique<ContactSolver>(std::move(seen), options);
     lands_ = rigid_ && !elastic_stick_.active() && options.landing == Landing::at_rest;

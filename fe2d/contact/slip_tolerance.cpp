@@ -97,7 +97,8 @@ double SlipTolerance::residual(const Step& step, const Iterate& it) const
     double largest = 0.0;
     for (Index i = 0; i < m; ++i) {
         const double normal = it.force[i], opening = it.displacement[i] * stiffness_(i, i);
-        const double normal_residual = step.law.separation == JointOpening::allowed ? std::min(normal, opening) : opening;
+        const double normal_residual =
+            step.law.separation == JointOpening::allowed ? std::min(normal, opening) : opening;
         const bool closed = is_closed(it.states[static_cast<std::size_t>(i)]);
         const double share = std::clamp((step.elastic[i] + it.displacement[m + i]) / limit_[i], -1.0, 1.0);
         const double shear_residual = it.force[m + i] + (closed ? share * step.law.strength(i, normal) : 0.0);

@@ -1,8 +1,8 @@
 #include "fe2d/mesh/build_mesh.hpp"
 
 #include "core/input_error.hpp"
-#include "fe2d/mesh/mesh_bodies.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
+#include "fe2d/mesh/mesh_bodies.hpp"
 #include "fe2d/mesh/quadratic.hpp"
 #include "fe2d/mesh/quality.hpp"
 #include "scene/curtain.hpp"

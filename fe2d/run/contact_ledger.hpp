@@ -22,8 +22,8 @@ struct LandingForces {
 /// StepRock does, the planes contact, friction and slip damping, the water what WaterLedger finds.
 class ContactLedger {
 public:
-    ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start,
-                  const StepDam& dam, const StepRock& rock);
+    ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start, const StepDam& dam,
+                  const StepRock& rock);
 
     /// A step has been made. @param state, dam, rock  at its end
     void add(const StepConstants& constants, const StepState& state, const StepChange& step, const StepDam& dam,

@@ -11,8 +11,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 ContactStepper::ContactStepper(StepOperators& operators, const Contact& joint, const ContactOptions& options)
-    : operators_(operators), structure_(operators.structure()), slip_damping_(operators.slip_damping()),
-      joint_(joint), options_(options)
+    : operators_(operators), structure_(operators.structure()), slip_damping_(operators.slip_damping()), joint_(joint),
+      options_(options)
 {
 }
 

@@ -31,8 +31,8 @@ public:
     /// @returns what changed; valid until the next step
     const StepChange& end(const GroundAcceleration& ground, const StepRock& rock, StepState& state);
 
-    double slip_error(const StepState& state) const; ///< after solve()
-    double dam_error(const StepState& state) const;  ///< when Δu is known
+    double slip_error(const StepState& state) const;                            ///< after solve()
+    double dam_error(const StepState& state) const;                             ///< when Δu is known
     double largest_stuck_force() const { return stuck_.cwiseAbs().maxCoeff(); } ///< of the step [N/m]
     int step_sizes() const { return static_cast<int>(problems_.size()); }
     std::size_t bytes() const; ///< operators of its step sizes included, which other runs may share

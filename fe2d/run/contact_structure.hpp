@@ -36,8 +36,8 @@ public:
     /// @param model  built with Base::separate; kept by reference
     /// @param range  finite: sliding changes the rock a dam node faces (Pairing)
     /// @param water  moves with the dam, kept by reference; its unknowns stand among the dam's inner ones. Null: none
-    explicit ContactStructure(const Model& model, JointPath range = JointPath::small,
-                              const WaterBody* water = nullptr, RockBody rock = RockBody::condensed);
+    explicit ContactStructure(const Model& model, JointPath range = JointPath::small, const WaterBody* water = nullptr,
+                              RockBody rock = RockBody::condensed);
 
     bool regular() const { return regular_; } ///< false: the rock is not held, or the dam's interior is loose
     const Model& model() const { return model_; }

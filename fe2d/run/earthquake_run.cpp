@@ -84,8 +84,7 @@ void check_scheme(const Scene& scene)
 
 } // namespace
 
-EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
-    : scene_(scene), options_(std::move(options))
+EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
 {
     check_scheme(scene_);
     const Stopwatch start;
@@ -106,8 +105,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options)
         if (rock_edges_are_viscous(scene_)) moving.edges = RockEdges::free;
         moving_model_ = std::make_unique<Model>(build_model(scene_, moving));
         part_done();
-        moving_ =
-            std::make_unique<ContactStructure>(*moving_model_, JointPath::small, water_.get(), RockBody::moving);
+        moving_ = std::make_unique<ContactStructure>(*moving_model_, JointPath::small, water_.get(), RockBody::moving);
     }
     part_done();
     structure_ = std::make_unique<ContactStructure>(*model_, scene_.contact.sliding, moving_ ? nullptr : water_.get());

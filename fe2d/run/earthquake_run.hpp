@@ -19,7 +19,7 @@ namespace damslip::fe2d {
 
 /// What the caller brings from other modules, and what only a run needs. All else is the scene's.
 struct RunOptions {
-    AddedMassLaw added_mass; ///< of the upstream face (ModelOptions::added_mass); empty: none
+    AddedMassLaw added_mass;      ///< of the upstream face (ModelOptions::added_mass); empty: none
     PressureProfile uplift;       ///< under the base before the earthquake; empty: none
     PressureProfile uplift_after; ///< the same after it; empty: as before
     /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.

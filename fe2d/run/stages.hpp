@@ -36,10 +36,10 @@ struct PlaneBalance {
     StageStatus status = StageStatus::ok;
     BaseResultant resultant;
     double critical_friction = 0.0; ///< (|T| - c A)/N', the least mu of equilibrium [-]
-    double sliding_factor = 0.0;  ///< (mu N' + c A)/|T| [-]; infinite without shear
-    double slip = 0.0;            ///< area mean so far, positive downstream [m]
-    double open_length = 0.0;     ///< area of open pairs [m]
-    double slipping_length = 0.0; ///< area of pairs at their strength [m]
+    double sliding_factor = 0.0;    ///< (mu N' + c A)/|T| [-]; infinite without shear
+    double slip = 0.0;              ///< area mean so far, positive downstream [m]
+    double open_length = 0.0;       ///< area of open pairs [m]
+    double slipping_length = 0.0;   ///< area of pairs at their strength [m]
 };
 
 /// A stage: the base's balance, and those of the lift joints.

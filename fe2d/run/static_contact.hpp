@@ -73,7 +73,8 @@ private:
 class StaticContact {
 public:
     /// @param joint  law of the joints, see JointSolver
-    StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint, const ContactOptions& options = {});
+    StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint,
+                  const ContactOptions& options = {});
     /// @param slip  how far the dam has slid, of a structure that slides far [m]
     explicit StaticContact(const ContactStructure& structure, const Contact& joint = {},
                            const ContactOptions& options = {}, double slip = 0.0);

@@ -62,8 +62,7 @@ void StepRock::begin_step(const StepConstants& c, const DynamicState& state)
 {
     if (!structure_.has_rock()) return;
     const double w = 1.0 + c.scheme.alpha, cv = c.scheme.alpha + w * c.a4, ca = w * c.a5, b_k = stiffness_damping_;
-    free_ =
-        (rest_ - state.rock + (b_k * cv) * state.rock_v + (b_k * ca) * state.rock_a) / (w * (1.0 + c.a1 * b_k));
+    free_ = (rest_ - state.rock + (b_k * cv) * state.rock_v + (b_k * ca) * state.rock_a) / (w * (1.0 + c.a1 * b_k));
 }
 
 VectorXd StepRock::free_gap() const

@@ -6,9 +6,9 @@ namespace damslip::fe2d {
 
 /// All that goes from one implicit step to the next, apart from products kept for speed.
 struct StepState : DynamicState {
-    Eigen::VectorXd rate_t;       ///< tangential gap rates ġ_t [m/s]; kept for themselves: a pair that sticks has none,
-                                  ///< to the last bit
-    Eigen::VectorXd accel_t;      ///< and accelerations [m/s²]
+    Eigen::VectorXd rate_t;  ///< tangential gap rates ġ_t [m/s]; kept for themselves: a pair that sticks has none,
+                             ///< to the last bit
+    Eigen::VectorXd accel_t; ///< and accelerations [m/s²]
     Eigen::VectorXd force_before; ///< λ one step ago [N/m]
 };
 

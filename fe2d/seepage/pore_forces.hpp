@@ -35,8 +35,7 @@ Eigen::VectorXd pore_pressure_force(const Mesh& mesh, const DofMap& dofs, const 
 Eigen::VectorXd seepage_body_force(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& pressure);
 
 /// -∫Nᵀ n p dS along a chain of nodes, n the outward normal of its body (body on the left), p linear between the nodes, quadratic
-/// along edges with a node in their middle
-/// [N/m].
+/// along edges with a node in their middle [N/m].
 Eigen::VectorXd surface_pressure_force(const Mesh& mesh, const DofMap& dofs, std::span<const int> chain,
                                        const Eigen::VectorXd& pressure);
 

@@ -36,8 +36,7 @@ double surface_head(const std::optional<double>& level, double elevation)
     return std::max(level.value_or(elevation), elevation);
 }
 
-std::vector<NodeHead> boundary_heads(const Mesh& mesh, const UpliftState& state,
-                                     const std::optional<DrainLine>& drains)
+std::vector<NodeHead> boundary_heads(const Mesh& mesh, const UpliftState& state, const std::optional<DrainLine>& drains)
 {
     std::vector<NodeHead> heads;
     if (drains)

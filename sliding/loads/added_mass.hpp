@@ -29,10 +29,9 @@ double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water 
 /// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m.
 ///
 /// @param depth       z below the water surface [m]; 0 at and above it, taken as h below the bottom
-/// @param face_angle  phi of this piece of the face from the vertical [rad], positive: the face leans away from the
-/// water. Kinked
-///                    faces use the angle of the piece the point lies on. An overhanging piece (phi < 0) takes the
-///                    coefficients of a vertical one, a horizontal one (phi = 90 deg) carries none with a Zangar table.
+/// @param face_angle  phi from the vertical of the piece of the face that the point lies on [rad], positive: it leans away
+///                    from the water. An overhanging piece (phi < 0) takes the coefficients of a vertical one, a
+///                    horizontal one (phi = 90 deg) carries none with a Zangar table.
 /// @returns m_n [kg/m^2]
 /// Errors: InputError for T <= T_r (the first term of the series has no real value: the water resonates at T_r, below
 /// it the incompressible picture of a mass is wrong) and for Goldgruber & Feldbacher beyond 30 degrees.

@@ -41,10 +41,13 @@ inline SeepageProfile fixed_profile(PressureProfile profile)
 /// gives the mirrored profile.
 ///
 /// A crack holds the head of its own end over its whole length; one from end to end holds the higher of the two. Beyond
-/// its tip
-/// linear: straight to the other end; curtain: as uncracked unless the crack has reached the curtain, then linear;
-/// drains: (L - X)/(L - T) with crack length T in place of (L - X)/L, from the tip on, E = 0 once the crack has reached
-/// the drains (EM 1110-2-2200); points and seepage: unchanged, with a jump at the tip.
+/// its tip:
+///
+/// - linear: straight to the other end.
+/// - curtain: as uncracked until the crack reaches the curtain, then linear.
+/// - drains: (L - X)/(L - T) in place of (L - X)/L, T the crack length; E = 0 once the crack has reached the drains
+///   (EM 1110-2-2200).
+/// - points, seepage: unchanged, with a jump at the tip.
 ///
 /// @param seepage  used by uplift.model = "seepage" only
 /// Errors: InputError if the model lacks what it needs ([curtain], [drains], a seepage profile, points from 0 to the

@@ -12,10 +12,10 @@ class FrictionOverSlip {
 public:
     explicit FrictionOverSlip(const Contact& contact);
 
-    bool constant() const { return constant_; }              ///< neither residual value nor table is given
-    double peak() const { return points_.front().y; }        ///< of a joint that has not slipped [-]
-    double residual() const { return points_.back().y; }     ///< in the end [-]
-    double at(double slip) const;                            ///< [-]; at a step its value before it @param slip  >= 0 [m]
+    bool constant() const { return constant_; }          ///< neither residual value nor table is given
+    double peak() const { return points_.front().y; }    ///< of a joint that has not slipped [-]
+    double residual() const { return points_.back().y; } ///< in the end [-]
+    double at(double slip) const;                        ///< [-]; at a step its value before it @param slip  >= 0 [m]
 
     /// The same piece by piece.
     struct Piece {

@@ -153,8 +153,7 @@ TEST(FeReportPage, StressesAreThoseOfTheStaticState)
             EXPECT_TRUE(std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }));
     }
     const fe2d::RunResult& fe = r.runs[0].fe;
-    const double uplift =
-        resultant(sliding::uplift_profile(r.scene, scene_uplift_state(r.scene), {}, {})).force;
+    const double uplift = resultant(sliding::uplift_profile(r.scene, scene_uplift_state(r.scene), {}, {})).force;
     double mean = 0.0;
     for (Eigen::Index i = 0; i < fe.pair_area.size(); ++i)
         for (std::size_t node = 0; node < view.front_nodes; ++node)

@@ -15,9 +15,9 @@ struct FePageFrame {
     const std::vector<RecordPair>& records;
     const fe2d::Model& model;
     const fe2d::FluidModel* water; ///< acoustic; null: none
-    PressureProfile uplift; ///< under the base before the earthquake; empty: none
-    std::string kind;   ///< for the subtitle: "finite elements with contact"
-    std::string method; ///< for the provenance
+    PressureProfile uplift;        ///< under the base before the earthquake; empty: none
+    std::string kind;              ///< for the subtitle: "finite elements with contact"
+    std::string method;            ///< for the provenance
 };
 
 /// Title, what the records say of themselves, the section with its mesh.

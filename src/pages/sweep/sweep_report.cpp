@@ -257,8 +257,7 @@ Section section_of(const Scene& given, const SweepView& view)
     }
     SeepageSource seepage;
     PressureProfile uplift;
-    if (scene.uplift)
-        uplift = sliding::uplift_profile(scene, scene_uplift_state(scene), {}, seepage.profile_of(scene));
+    if (scene.uplift) uplift = sliding::uplift_profile(scene, scene_uplift_state(scene), {}, seepage.profile_of(scene));
     std::vector<Polyline> mesh;
     if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
     return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};
