@@ -7,7 +7,7 @@ namespace damslip {
 
 namespace {
 
-constexpr double water_density = 1000.0; // [kg/m^3]
+constexpr double joint_water_density = 1000.0; // [kg/m^3]
 
 /// Of the line common to two planes, up; zero for parallel planes.
 Vector3 upward_line(const Vector3& a, const Vector3& b)
@@ -87,7 +87,7 @@ double wedge_area(const RockWedge& w, std::size_t plane)
 double wedge_water_pressure(const RockWedge& w, std::size_t plane, double gravity)
 {
     if (w.planes[plane].water_pressure) return *w.planes[plane].water_pressure;
-    return w.water == WedgeWater::full ? water_density * gravity * w.height.value_or(0.0) / 6.0 : 0.0;
+    return w.water == WedgeWater::full ? joint_water_density * gravity * w.height.value_or(0.0) / 6.0 : 0.0;
 }
 
 } // namespace damslip

@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,11 +39,6 @@ bool take(const Run& run, RungResult& result)
     }
     result.slip.push_back(run.slip);
     return true;
-}
-
-bool has_water(const Scene& scene)
-{
-    return scene.reservoir && scene.reservoir->level > 0.0;
 }
 
 /// FE models from poor to rich: what the scene's reservoir.model calls for, and the poorer one below it.
