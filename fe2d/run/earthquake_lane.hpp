@@ -9,12 +9,12 @@ namespace damslip::fe2d {
 struct EarthquakeRun::Lane {
     Strength strength;
     ContactMemory memory;
-    StaticState start;
-    RunResult result;
-    int next = 0;                               ///< halvings of the next pass; 0: none
-    std::vector<std::vector<SlipAtStep>> slips; ///< of the passes, by plane
-    double local_error = 0.0;                   ///< of the worst steps of the first pass, for adaptive steps [m]
-    std::optional<ChosenSteps> steps;           ///< in place of the options'
+    StaticState start = {};
+    RunResult result = {};
+    int next = 0;                                    ///< halvings of the next pass; 0: none
+    std::vector<std::vector<SlipAtStep>> slips = {}; ///< of the passes, by plane
+    double local_error = 0.0;                        ///< of the worst steps of the first pass, for adaptive steps [m]
+    std::optional<ChosenSteps> steps = {};           ///< in place of the options'
 
     /// Do the static stages end in equilibrium?
     bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }

@@ -53,13 +53,11 @@ double worst(std::vector<double> errors)
 } // namespace
 
 /// The static stages. Where they do not end in equilibrium, lane.result.status says why.
-void EarthquakeRun::stand(const Contact& contact, Lane& lane) const
+void EarthquakeRun::stand(Lane& lane) const
 {
     const Stopwatch clock;
     RunResult& result = lane.result;
     StaticContact contact_statics(statics_, scene_.contact, options_.contact);
-    lane.strength = strength_of(contact);
-    lane.memory = ContactMemory(structure_->pairs());
     result.zero_displacement = zero_displacement(contact_statics, lane.strength);
     result.stages = statics(contact_statics, lane.strength, lane.memory);
     if (result.stages.back().status == StageStatus::ok) {
@@ -284,8 +282,10 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
     for (const Contact& contact : contacts) {
         if (!usable_ || !movable) break;
-        lanes.push_back(std::make_unique<Lane>(Lane{strength_of(contact), ContactMemory(), {}, {}, 0, {}, 0.0, steps}));
-        stand(contact, *lanes.back());
+        Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
+        lanes.push_back(std::make_unique<Lane>(std::move(lane)));
+        lanes.back()->steps = steps;
+        stand(*lanes.back());
         if (lanes.back()->stands()) going.push_back(lanes.back().get());
     }
     if (!going.empty()) {

@@ -298,13 +298,6 @@ VectorXd EarthquakeRun::zero_displacement(StaticContact& statics, const Strength
     return structure_->assemble(state.dam, state.rock, stages_.loads[0]);
 }
 
-Strength EarthquakeRun::strength_of(const Contact& base) const
-{
-    std::vector<Contact> contacts{base};
-    for (const LiftJoint& joint : scene_.lift_joints) contacts.push_back(joint.strength);
-    return Strength(contacts, structure_->planes());
-}
-
 RunResult EarthquakeRun::run(const GroundMotion& motion, const std::optional<Contact>& contact) const
 {
     const Contact contacts[] = {contact.value_or(scene_.contact)};

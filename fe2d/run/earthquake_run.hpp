@@ -138,8 +138,7 @@ private:
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
-    Strength strength_of(const Contact& base) const;
-    void stand(const Contact& contact, Lane& lane) const;
+    void stand(Lane& lane) const;
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;

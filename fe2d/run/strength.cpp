@@ -12,12 +12,13 @@ Strength::Strength(const Contact& contact, const Plane& plane) : law_(uniform_la
     add(contact, 0, plane.area);
 }
 
-Strength::Strength(const std::vector<Contact>& contacts, const ContactPlanes& planes)
+Strength::Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes)
     : law_(uniform_law(planes.pairs(), 0.0))
 {
-    law_.separation = contacts.front().separation; // [contact] says it for all planes
-    for (Index k = 0; k < planes.count(); ++k)
-        add(contacts[static_cast<std::size_t>(k)], planes.first(k), planes[k].area);
+    law_.separation = base.separation; // [contact] says it for all planes
+    add(base, 0, planes.base().area);
+    for (Index k = 1; k < planes.count(); ++k)
+        add(joints[static_cast<std::size_t>(k - 1)].strength, planes.first(k), planes[k].area);
 }
 
 void Strength::add(const Contact& contact, Index first, const Eigen::VectorXd& area)

@@ -13,8 +13,7 @@ namespace damslip::fe2d {
 class Strength {
 public:
     Strength(const Contact& contact, const Plane& plane); ///< of one plane
-    /// @param contacts  of the base and of each lift joint
-    Strength(const std::vector<Contact>& contacts, const ContactPlanes& planes);
+    Strength(const Contact& base, const std::vector<LiftJoint>& joints, const ContactPlanes& planes);
 
     const ContactLaw& law() const { return law_; }
     bool constant() const { return constant_; }
