@@ -50,7 +50,7 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
                  const std::function<void(double fraction)>& done)
 {
     SceneRuns runs;
-    const Scene& scene = ready.scene;
+    Scene scene = ready.scene;
     const std::vector<RecordPair>& records = ready.records();
     const ProcessorClock clock;
     fe2d::RunOptions options = ready.run_options(watch);
