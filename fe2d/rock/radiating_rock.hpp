@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fe2d/rock/reduce_rock.hpp"
+#include "fe2d/rock/rock_store.hpp"
+
+namespace damslip::fe2d {
+
+/// The rock of one scene.
+struct RadiatingRockInput {
+    ElasticMaterial rock;           ///< density > 0
+    Point heel, toe;                ///< of the base
+    std::vector<Point> surface;     ///< interface nodes on the rock's surface, upstream to downstream, x increasing [m]
+    double highest_frequency = 0.0; ///< ω up to which waves are to be right [rad/s]
+    ReductionOptions reduction;
+};
+
+enum class RockOrigin {
+    made,     ///< and kept where a store is used
+    kept,     ///< found in the store
+    not_kept, ///< made, but the store could not be written
+};
+
+struct RadiatingRock {
+    ReducedRock rock; ///< of the scene, rows (x, y) by node
+    RockOrigin origin = RockOrigin::made;
+    double resolved = 0.0; ///< ω up to which waves are right: the wanted one or up to a quarter more [rad/s]
+    WaveBoxShape box;
+    double seconds = 0.0; ///< of finding or making it
+};
+
+/// Reduced rock of a scene. It is always made without dimensions, E = ρ = B = 1, for a_max = ω B/c_s rounded up to a power of 1.25, and
+/// scaled after; positions of nodes are rounded to 2⁻³⁰ B. So one reduction serves all moduli, densities and sizes of one
+/// shape, and what is found in the store gives the same bits as what is made.
+///
+/// @param store  with an empty folder: none
+/// @throws std::runtime_error when the box cannot be factorised
+RadiatingRock radiating_rock(const RadiatingRockInput& input, const RockStore& store);
+
+/// The box for a_max: its sponge is as thick in shear waves of the highest frequency as 14.85 B are at a_max = 3.8 (33 B x 17 B:
+/// E 30 GPa, 45 m, 25 ... 29 Hz), at least a quarter and at most three times as many base lengths. What it sends back at a
+/// given share of the highest frequency then does not depend on the rock.
+WaveBoxShape wave_box_shape(double highest);
+
+/// a_max rounded up to a power of 1.25.
+double frequency_band(double highest);
+
+} // namespace damslip::fe2d
