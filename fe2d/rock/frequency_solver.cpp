@@ -53,12 +53,13 @@ FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, cons
 
 FrequencySolver::~FrequencySolver() = default;
 
-bool FrequencySolver::factorise(double frequency)
+bool FrequencySolver::factorise(double frequency, double growth)
 {
     Implementation& s = *implementation_;
     const auto n = static_cast<int>(s.stiffness.rows());
-    s.real = s.stiffness.coeffs() - frequency * frequency * s.mass.coeffs();
-    s.imaginary = frequency * s.damping.coeffs();
+    s.real = s.stiffness.coeffs() + growth * s.damping.coeffs() +
+             (growth * growth - frequency * frequency) * s.mass.coeffs();
+    s.imaginary = frequency * s.damping.coeffs() + 2.0 * growth * frequency * s.mass.coeffs();
     const int *columns = s.stiffness.outerIndexPtr(), *rows = s.stiffness.innerIndexPtr();
     if (s.numeric) umfpack_zi_free_numeric(&s.numeric);
     int status = UMFPACK_OK;

@@ -7,8 +7,8 @@
 
 namespace damslip::fe2d {
 
-/// (K + iωC - ω²M) x = b of one body at one frequency after another: complex sparse LU (UMFPACK), ordered once for all
-/// frequencies. BLAS runs on one thread. One object belongs to one thread at a time.
+/// (K + sC + s²M) x = b, s = σ + iω, of one body at one frequency after another: complex sparse LU (UMFPACK), ordered once
+/// for all frequencies. BLAS runs on one thread. One object belongs to one thread at a time.
 class FrequencySolver {
 public:
     using Matrix = Eigen::SparseMatrix<double>;
@@ -20,9 +20,10 @@ public:
     FrequencySolver& operator=(const FrequencySolver&) = delete;
 
     /// @param frequency  ω [rad/s]
+    /// @param growth  σ >= 0 of loads that grow with e^{σt} [1/s]
     /// @returns whether the matrix is regular
     /// @throws std::bad_alloc
-    bool factorise(double frequency);
+    bool factorise(double frequency, double growth = 0.0);
 
     /// Real loads, one column each. Needs a factorisation that did not fail.
     Eigen::MatrixXcd solve(const Eigen::MatrixXd& loads) const;

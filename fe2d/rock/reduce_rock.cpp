@@ -30,6 +30,14 @@ namespace {
 
 constexpr std::size_t random_loads = 2;
 
+/// Sampled beyond the highest frequency, where loads grow with e^{σt}: σ, ω over the highest ω. Blows are short: without
+/// these the rock's answer to one of 20 ms at b_K 0.9 ms is off by 11 ... 15 % of its peak, with them by 0.7 % (25 Hz), and nearly undamped
+/// modes of twice that frequency are gone.
+struct Beyond {
+    double growth, frequency;
+};
+constexpr Beyond beyond[]{{0.3, 1.3}, {1.0, 2.0}};
+
 MatrixXd product(char turn, const MatrixXd& a, const MatrixXd& b)
 {
     const int m = static_cast<int>(turn == 'T' ? a.cols() : a.rows()), k = static_cast<int>(b.rows()),
@@ -118,7 +126,9 @@ public:
     {
         const Stopwatch watch;
         solve_statics();
-        for (const double frequency : frequencies_) add_snapshots(frequency, loads_);
+        for (const double frequency : frequencies_) add_snapshots(frequency, 0.0, loads_);
+        for (const Beyond& b : beyond)
+            add_snapshots(b.frequency * input_.highest_frequency, b.growth * input_.highest_frequency, loads_);
         choose_checks();
         ReducedRock rock;
         int rounds = 0;
@@ -130,7 +140,7 @@ public:
             MatrixXd both(loads_.rows(), loads_.cols() + random_.cols());
             both << loads_, random_;
             if (const double frequency = checks_[worst].frequency; frequency != added_) {
-                add_snapshots(frequency, both);
+                add_snapshots(frequency, 0.0, both);
                 frequencies_.push_back(frequency);
                 added_ = frequency;
             }
@@ -196,9 +206,10 @@ private:
         add(product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
     }
 
-    void add_snapshots(double frequency, const MatrixXd& loads)
+    void add_snapshots(double frequency, double growth, const MatrixXd& loads)
     {
-        if (!solver_.factorise(frequency)) throw std::runtime_error("the rock's box is singular at a frequency");
+        if (!solver_.factorise(frequency, growth))
+            throw std::runtime_error("the rock's box is singular at a frequency");
         const MatrixXcd x = solver_.solve(on_box(loads));
         const MatrixXcd u = on_interface(x);
         VectorXd flexibility(loads.cols());

@@ -8,7 +8,7 @@ namespace damslip::fe2d {
 struct ReductionOptions {
     double wanted = 0.02; ///< gate: largest error of the interface's flexibility in between the sampled frequencies [-]
     double kept = 0.01;   ///< what the basis may leave of a snapshot, of the flexibility it stands for [-]
-    double sampling = 0.9;  ///< sampled frequencies over what the box's answer lasts [-]
+    double sampling = 0.8;  ///< sampled frequencies over what the box's answer lasts [-]
     int checks = 5;         ///< frequencies of the gate
     int largest_rounds = 6; ///< of adding snapshots where the gate is failed
 
@@ -17,7 +17,8 @@ struct ReductionOptions {
 
 /// Reduces a box of rock to its interface (ReducedRock).
 ///
-/// Basis: K⁻¹R and real and imaginary part of D(iω_k)⁻¹R, D = K + iωC - ω²M, R loads in the form of Legendre polynomials
+/// Basis: K⁻¹R and real and imaginary part of D(iω_k)⁻¹R, D = K + iωC - ω²M, and of D(σ + iω)⁻¹R at two places beyond the
+/// highest frequency, R loads in the form of Legendre polynomials
 /// along the interface in both directions, degree < max(3, 1 + ⌈¾ ω_max length/c_s⌉). ω_k lie as densely as the box's answer to a blow
 /// is long: 2 D_e(ω)/c_s, D_e the depth where the sponge has taken all but 1/e of a wave. Proper orthogonal decomposition in the norm
 /// K + (ω_max/2)² M, each snapshot divided by the root of the flexibility |RᵀD⁻¹R| of its own load: a snapshot's error

@@ -241,11 +241,13 @@ public:
         const int unknown = 2 * number_[static_cast<std::size_t>(node)] + component;
         entries_.emplace_back(unknown, unknown, value);
     }
+    /// Symmetric to the last bit.
     SparseMatrix matrix(int count) const
     {
         SparseMatrix m(count, count);
         m.setFromTriplets(entries_.begin(), entries_.end());
-        return m;
+        const SparseMatrix transposed = m.transpose();
+        return 0.5 * (m + transposed);
     }
 
 private:
