@@ -2,37 +2,237 @@
 
 #include "fe2d/solver/blas_threads.hpp"
 
-#include <umfpack.h>
+#include <cholmod.h>
 
-#include <array>
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <new>
+#include <vector>
+
+using Complex = std::complex<double>;
+
+extern "C" {
+void zsyrk_(const char* triangle, const char* turn, const int* n, const int* k, const Complex* alpha, const Complex* a,
+            const int* lda, const Complex* beta, Complex* c, const int* ldc);
+void ztrsm_(const char* side, const char* triangle, const char* turn, const char* diagonal, const int* m, const int* n,
+            const Complex* alpha, const Complex* a, const int* lda, Complex* b, const int* ldb);
+void zgemm_(const char* turn_a, const char* turn_b, const int* m, const int* n, const int* k, const Complex* alpha,
+            const Complex* a, const int* lda, const Complex* b, const int* ldb, const Complex* beta, Complex* c,
+            const int* ldc);
+}
 
 namespace damslip::fe2d {
 
 using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
 
-struct FrequencySolver::Implementation {
-    // One pattern for all three; UMFPACK takes real and imaginary parts apart.
-    Matrix mass, damping, stiffness;
-    Eigen::VectorXd real, imaginary;
-    void* symbolic = nullptr;
-    void* numeric = nullptr;
-    std::array<double, UMFPACK_CONTROL> control{};
-    int factorisations = 0;
+namespace {
 
-    ~Implementation()
+constexpr Complex one{1.0, 0.0}, minus_one{-1.0, 0.0};
+constexpr double good_residual = 1e-11;
+constexpr int most_refinements = 3;
+
+/// Columns eliminated together: `columns` of them from `first` on, and all rows of these columns.
+struct Front {
+    int first = 0, columns = 0;
+    std::vector<int> rows; ///< ascending; the first ones are the columns themselves
+    int parent = -1;
+    std::size_t place = 0; ///< of its panel, rows x columns
+
+    int size() const { return static_cast<int>(rows.size()); }
+};
+
+/// Order and fronts of a symmetric pattern.
+struct Elimination {
+    std::vector<int> new_of; ///< by unknown
+    std::vector<Front> fronts;
+    std::size_t panel_size = 0;
+
+    explicit Elimination(const FrequencySolver::Matrix& pattern)
     {
-        if (numeric) umfpack_zi_free_numeric(&numeric);
-        if (symbolic) umfpack_zi_free_symbolic(&symbolic);
+        const int n = static_cast<int>(pattern.rows());
+        cholmod_common common;
+        cholmod_start(&common);
+        common.supernodal = CHOLMOD_SUPERNODAL;
+        common.print = 0;
+        cholmod_sparse view{};
+        view.nrow = view.ncol = static_cast<std::size_t>(n);
+        view.nzmax = static_cast<std::size_t>(pattern.nonZeros());
+        view.p = const_cast<int*>(pattern.outerIndexPtr());
+        view.i = const_cast<int*>(pattern.innerIndexPtr());
+        view.stype = -1; // the lower triangle is used
+        view.itype = CHOLMOD_INT;
+        view.xtype = CHOLMOD_PATTERN;
+        view.dtype = CHOLMOD_DOUBLE;
+        view.sorted = view.packed = 1;
+        cholmod_factor* factor = cholmod_analyze(&view, &common);
+        if (factor) take(*factor);
+        cholmod_free_factor(&factor, &common);
+        cholmod_finish(&common);
+        if (fronts.empty()) throw std::bad_alloc();
+    }
+
+private:
+    void take(const cholmod_factor& factor)
+    {
+        const auto *permutation = static_cast<const int*>(factor.Perm), *super = static_cast<const int*>(factor.super),
+                   *begin = static_cast<const int*>(factor.pi), *rows = static_cast<const int*>(factor.s);
+        new_of.resize(factor.n);
+        for (std::size_t k = 0; k < factor.n; ++k)
+            new_of[static_cast<std::size_t>(permutation[k])] = static_cast<int>(k);
+        std::vector<int> front_of(factor.n);
+        for (std::size_t f = 0; f < factor.nsuper; ++f) {
+            Front front;
+            front.first = super[f];
+            front.columns = super[f + 1] - super[f];
+            front.rows.assign(rows + begin[f], rows + begin[f + 1]);
+            front.place = panel_size;
+            panel_size += static_cast<std::size_t>(front.columns) * front.rows.size();
+            for (int k = super[f]; k < super[f + 1]; ++k) front_of[static_cast<std::size_t>(k)] = static_cast<int>(f);
+            fronts.push_back(std::move(front));
+        }
+        for (Front& front : fronts)
+            if (front.size() > front.columns)
+                front.parent = front_of[static_cast<std::size_t>(front.rows[static_cast<std::size_t>(front.columns)])];
     }
 };
 
+} // namespace
+
+struct FrequencySolver::Implementation {
+    struct Entry {
+        int row, column, place; ///< in the new order; place among D's values
+    };
+
+    Matrix mass, damping, stiffness; ///< of one pattern
+    Elimination elimination;
+    Eigen::SparseMatrix<Complex> matrix;     ///< D
+    std::vector<std::vector<Entry>> entries; ///< of D's lower triangle, by front
+    std::vector<Complex> panels;             ///< L, front by front
+    int factorisations = 0;
+    double residual = 0.0;
+
+    Implementation(Matrix m, Matrix c, Matrix k)
+        : mass(std::move(m)), damping(std::move(c)), stiffness(std::move(k)), elimination(stiffness),
+          matrix(stiffness.cast<Complex>()), panels(elimination.panel_size)
+    {
+        // entries of the lower triangle by the front of their column in the new order
+        const auto& new_of = elimination.new_of;
+        std::vector<int> front_of(new_of.size());
+        for (std::size_t f = 0; f < elimination.fronts.size(); ++f)
+            for (int k = 0; k < elimination.fronts[f].columns; ++k)
+                front_of[static_cast<std::size_t>(elimination.fronts[f].first + k)] = static_cast<int>(f);
+        entries.resize(elimination.fronts.size());
+        for (int j = 0; j < stiffness.outerSize(); ++j)
+            for (int p = stiffness.outerIndexPtr()[j]; p < stiffness.outerIndexPtr()[j + 1]; ++p) {
+                const int column = new_of[static_cast<std::size_t>(j)],
+                          row = new_of[static_cast<std::size_t>(stiffness.innerIndexPtr()[p])];
+                if (row >= column)
+                    entries[static_cast<std::size_t>(front_of[static_cast<std::size_t>(column)])].push_back(
+                        {row, column, p});
+            }
+    }
+
+    bool factorise();
+    void solve_in_place(MatrixXcd& b) const;
+};
+
+/// Fronts from the leaves up: a front is the sum of its own entries and of what its children leave to it.
+bool FrequencySolver::Implementation::factorise()
+{
+    const std::vector<Front>& fronts = elimination.fronts;
+    std::vector<MatrixXcd> left(fronts.size()); ///< of each front on its other rows, lower triangle
+    std::vector<std::vector<int>> children(fronts.size());
+    std::vector<int> local(elimination.new_of.size());
+    MatrixXcd panel;
+    for (std::size_t f = 0; f < fronts.size(); ++f) {
+        const Front& front = fronts[f];
+        const int size = front.size(), columns = front.columns, rest = size - columns;
+        for (int k = 0; k < size; ++k) local[static_cast<std::size_t>(front.rows[static_cast<std::size_t>(k)])] = k;
+        Eigen::Map<MatrixXcd> own(panels.data() + front.place, size, columns);
+        own.setZero();
+        MatrixXcd& other = left[f];
+        other.setZero(rest, rest);
+        for (const Entry& e : entries[f])
+            own(local[static_cast<std::size_t>(e.row)], e.column - front.first) += matrix.valuePtr()[e.place];
+        for (const int child : children[f]) {
+            const Front& c = fronts[static_cast<std::size_t>(child)];
+            MatrixXcd& update = left[static_cast<std::size_t>(child)];
+            const int count = c.size() - c.columns;
+            const int* const rows = c.rows.data() + c.columns;
+            for (int j = 0; j < count; ++j) {
+                const int to = local[static_cast<std::size_t>(rows[j])];
+                Complex* const column = to < columns
+                                            ? &own(0, to)
+                                            : other.data() + static_cast<std::ptrdiff_t>(to - columns) * rest - columns;
+                for (int i = j; i < count; ++i) column[local[static_cast<std::size_t>(rows[i])]] += update(i, j);
+            }
+            update.resize(0, 0);
+        }
+        // L Lᵀ of the columns' own block, column by column
+        for (int j = 0; j < columns; ++j) {
+            const Complex pivot = std::sqrt(own(j, j));
+            if (!(std::norm(pivot) > 0.0) || !std::isfinite(std::norm(pivot))) return false;
+            const Complex inverse = 1.0 / pivot;
+            own(j, j) = pivot;
+            own.col(j).segment(j + 1, columns - j - 1) *= inverse;
+            for (int k = j + 1; k < columns; ++k)
+                own.col(k).segment(k, columns - k) -= own(k, j) * own.col(j).segment(k, columns - k);
+        }
+        if (rest == 0) continue;
+        Complex* const below = own.data() + columns;
+        ztrsm_("R", "L", "T", "N", &rest, &columns, &one, own.data(), &size, below, &size);
+        zsyrk_("L", "N", &rest, &columns, &minus_one, below, &size, &one, other.data(), &rest);
+        children[static_cast<std::size_t>(front.parent)].push_back(static_cast<int>(f));
+    }
+    return true;
+}
+
+void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
+{
+    const std::vector<Front>& fronts = elimination.fronts;
+    const Index n = b.rows(), count = b.cols();
+    const int lanes = static_cast<int>(count), ldb = static_cast<int>(n);
+    MatrixXcd x(n, count), rest;
+    for (Index i = 0; i < n; ++i) x.row(elimination.new_of[static_cast<std::size_t>(i)]) = b.row(i);
+    for (const Front& front : fronts) {
+        const int size = front.size(), columns = front.columns, others = size - columns;
+        const Complex* const own = panels.data() + front.place;
+        Complex* const here = x.data() + front.first;
+        ztrsm_("L", "L", "N", "N", &columns, &lanes, &one, own, &size, here, &ldb);
+        if (others == 0) continue;
+        rest.setZero(others, count);
+        zgemm_("N", "N", &others, &lanes, &columns, &minus_one, own + columns, &size, here, &ldb, &one, rest.data(),
+               &others);
+        for (Index lane = 0; lane < count; ++lane)
+            for (int k = 0; k < others; ++k)
+                x(front.rows[static_cast<std::size_t>(columns + k)], lane) += rest(k, lane);
+    }
+    for (auto it = fronts.rbegin(); it != fronts.rend(); ++it) {
+        const Front& front = *it;
+        const int size = front.size(), columns = front.columns, others = size - columns;
+        const Complex* const own = panels.data() + front.place;
+        Complex* const here = x.data() + front.first;
+        if (others > 0) {
+            rest.resize(others, count);
+            for (Index lane = 0; lane < count; ++lane)
+                for (int k = 0; k < others; ++k)
+                    rest(k, lane) = x(front.rows[static_cast<std::size_t>(columns + k)], lane);
+            zgemm_("T", "N", &columns, &lanes, &others, &minus_one, own + columns, &size, rest.data(), &others, &one,
+                   here, &ldb);
+        }
+        ztrsm_("L", "L", "T", "N", &columns, &lanes, &one, own, &size, here, &ldb);
+    }
+    for (Index i = 0; i < n; ++i) b.row(i) = x.row(elimination.new_of[static_cast<std::size_t>(i)]);
+}
+
 FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
-    : implementation_(std::make_unique<Implementation>())
 {
     assert(mass.rows() == stiffness.rows() && damping.rows() == stiffness.rows());
-    Implementation& s = *implementation_;
+    use_one_blas_thread();
     const auto pattern = [](Matrix m) {
         m.makeCompressed();
         m.coeffs().setOnes();
@@ -41,14 +241,9 @@ FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, cons
     Matrix zero = pattern(mass) + pattern(damping) + pattern(stiffness);
     zero.makeCompressed();
     zero.coeffs().setZero();
-    s.mass = mass + zero;
-    s.damping = damping + zero;
-    s.stiffness = stiffness + zero;
-    assert(s.mass.nonZeros() == zero.nonZeros() && s.damping.nonZeros() == zero.nonZeros());
-    umfpack_zi_defaults(s.control.data());
-    s.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-    s.control[UMFPACK_IRSTEP] = 0;
-    use_one_blas_thread();
+    implementation_ = std::make_unique<Implementation>(mass + zero, damping + zero, stiffness + zero);
+    assert(implementation_->mass.nonZeros() == zero.nonZeros() &&
+           implementation_->damping.nonZeros() == zero.nonZeros());
 }
 
 FrequencySolver::~FrequencySolver() = default;
@@ -56,43 +251,39 @@ FrequencySolver::~FrequencySolver() = default;
 bool FrequencySolver::factorise(double frequency, double growth)
 {
     Implementation& s = *implementation_;
-    const auto n = static_cast<int>(s.stiffness.rows());
-    s.real = s.stiffness.coeffs() + growth * s.damping.coeffs() +
-             (growth * growth - frequency * frequency) * s.mass.coeffs();
-    s.imaginary = frequency * s.damping.coeffs() + 2.0 * growth * frequency * s.mass.coeffs();
-    const int *columns = s.stiffness.outerIndexPtr(), *rows = s.stiffness.innerIndexPtr();
-    if (s.numeric) umfpack_zi_free_numeric(&s.numeric);
-    int status = UMFPACK_OK;
-    if (!s.symbolic)
-        status = umfpack_zi_symbolic(n, n, columns, rows, s.real.data(), s.imaginary.data(), &s.symbolic,
-                                     s.control.data(), nullptr);
-    if (status == UMFPACK_OK)
-        status = umfpack_zi_numeric(columns, rows, s.real.data(), s.imaginary.data(), s.symbolic, &s.numeric,
-                                    s.control.data(), nullptr);
-    if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
+    const Complex place(growth, frequency), square = place * place;
+    for (Index k = 0; k < s.matrix.nonZeros(); ++k)
+        s.matrix.valuePtr()[k] =
+            s.stiffness.valuePtr()[k] + place * s.damping.valuePtr()[k] + square * s.mass.valuePtr()[k];
     ++s.factorisations;
-    return status == UMFPACK_OK;
+    return s.factorise();
 }
 
-Eigen::MatrixXcd FrequencySolver::solve(const Eigen::MatrixXd& loads) const
+MatrixXcd FrequencySolver::solve(const MatrixXd& loads)
 {
-    const Implementation& s = *implementation_;
-    const Index n = s.stiffness.rows();
-    assert(s.numeric && loads.rows() == n);
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(n);
-    Eigen::VectorXd x(n), y(n), w(4 * n);
-    Eigen::VectorXi wi(n);
-    Eigen::MatrixXcd solution(n, loads.cols());
-    for (Index k = 0; k < loads.cols(); ++k) {
-        umfpack_zi_wsolve(UMFPACK_A, s.stiffness.outerIndexPtr(), s.stiffness.innerIndexPtr(), s.real.data(),
-                          s.imaginary.data(), x.data(), y.data(), loads.col(k).data(), nothing.data(), s.numeric,
-                          s.control.data(), nullptr, wi.data(), w.data());
-        solution.col(k).real() = x;
-        solution.col(k).imag() = y;
+    Implementation& s = *implementation_;
+    assert(loads.rows() == s.matrix.rows());
+    const MatrixXcd b = loads.cast<Complex>();
+    MatrixXcd x = b;
+    s.solve_in_place(x);
+    s.residual = std::numeric_limits<double>::infinity();
+    for (int k = 0;; ++k) {
+        MatrixXcd rest = b - s.matrix * x;
+        double worst = 0.0;
+        for (Index column = 0; column < b.cols(); ++column)
+            if (const double size = b.col(column).norm(); size > 0.0)
+                worst = std::max(worst, rest.col(column).norm() / size);
+        s.residual = worst;
+        if (!(worst > good_residual) || k == most_refinements) return x;
+        s.solve_in_place(rest);
+        x += rest;
     }
-    return solution;
 }
 
+double FrequencySolver::residual() const
+{
+    return implementation_->residual;
+}
 int FrequencySolver::factorisations() const
 {
     return implementation_->factorisations;

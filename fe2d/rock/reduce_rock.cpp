@@ -206,6 +206,16 @@ private:
         add(product('N', x, loads_), (loads_.transpose() * flexibility_ * loads_).diagonal());
     }
 
+    /// Displacements of the box by loads on its interface.
+    MatrixXcd solve(double frequency, double growth, const MatrixXd& loads)
+    {
+        if (!solver_.factorise(frequency, growth))
+            throw std::runtime_error("the rock's box is singular at a frequency");
+        const MatrixXcd x = solver_.solve(on_box(loads));
+        if (!(solver_.residual() < 1e-8)) throw std::runtime_error("the rock's box is nearly singular at a frequency");
+        return x;
+    }
+
     void add_snapshots(double frequency, double growth, const MatrixXd& loads)
     {
         if (!solver_.factorise(frequency, growth))
@@ -221,15 +231,13 @@ private:
     /// In the middle between sampled frequencies, from the first gap to the last.
     void choose_checks()
     {
-        const MatrixXd loads = on_box(random_);
         const auto gaps = static_cast<int>(frequencies_.size());
         for (int k = 0; k < options_.checks; ++k) {
             const int gap = options_.checks > 1 ? (gaps - 1) * k / (options_.checks - 1) : gaps - 1;
             const double upper = frequencies_[static_cast<std::size_t>(gap)],
                          lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0;
             const double frequency = 0.5 * (lower + upper);
-            if (!solver_.factorise(frequency)) throw std::runtime_error("the rock's box is singular at a frequency");
-            checks_.push_back({frequency, on_interface(solver_.solve(loads))});
+            checks_.push_back({frequency, on_interface(solve(frequency, 0.0, random_))});
         }
     }
 
