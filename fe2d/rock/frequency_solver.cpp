@@ -11,20 +11,22 @@
 #include <new>
 #include <vector>
 
-using Complex = std::complex<double>;
-
 extern "C" {
-void zsyrk_(const char* triangle, const char* turn, const int* n, const int* k, const Complex* alpha, const Complex* a,
-            const int* lda, const Complex* beta, Complex* c, const int* ldc);
+void zsyrk_(const char* triangle, const char* turn, const int* n, const int* k, const std::complex<double>* alpha,
+            const std::complex<double>* a, const int* lda, const std::complex<double>* beta, std::complex<double>* c,
+            const int* ldc);
 void ztrsm_(const char* side, const char* triangle, const char* turn, const char* diagonal, const int* m, const int* n,
-            const Complex* alpha, const Complex* a, const int* lda, Complex* b, const int* ldb);
-void zgemm_(const char* turn_a, const char* turn_b, const int* m, const int* n, const int* k, const Complex* alpha,
-            const Complex* a, const int* lda, const Complex* b, const int* ldb, const Complex* beta, Complex* c,
+            const std::complex<double>* alpha, const std::complex<double>* a, const int* lda, std::complex<double>* b,
+            const int* ldb);
+void zgemm_(const char* turn_a, const char* turn_b, const int* m, const int* n, const int* k,
+            const std::complex<double>* alpha, const std::complex<double>* a, const int* lda,
+            const std::complex<double>* b, const int* ldb, const std::complex<double>* beta, std::complex<double>* c,
             const int* ldc);
 }
 
 namespace damslip::fe2d {
 
+using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
@@ -34,6 +36,10 @@ namespace {
 constexpr Complex one{1.0, 0.0}, minus_one{-1.0, 0.0};
 constexpr double good_residual = 1e-11;
 constexpr int most_refinements = 3;
+
+} // namespace
+
+namespace fronts {
 
 /// Columns eliminated together: `columns` of them from `first` on, and all rows of these columns.
 struct Front {
@@ -100,7 +106,9 @@ private:
     }
 };
 
-} // namespace
+} // namespace fronts
+
+using fronts::Elimination, fronts::Front;
 
 struct FrequencySolver::Implementation {
     struct Entry {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-namespace damslip::fe2d {
+namespace damslip::rock_tests {
+
+using namespace fe2d;
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
@@ -125,4 +127,4 @@ TEST(WaveBox, AnswersForSoftAndStiffRock)
     }
 }
 
-} // namespace damslip::fe2d
+} // namespace damslip::rock_tests

@@ -6,7 +6,9 @@
 
 #include <random>
 
-namespace damslip::fe2d {
+namespace damslip::rock_tests {
+
+using namespace fe2d;
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -204,4 +206,4 @@ TEST(RockMotion, JumpsKeepTheEnergyClosed)
     }
 }
 
-} // namespace damslip::fe2d
+} // namespace damslip::rock_tests

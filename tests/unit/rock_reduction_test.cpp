@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
-namespace damslip::fe2d {
+namespace damslip::rock_tests {
+
+using namespace fe2d;
 
 using Eigen::Index;
 using Eigen::MatrixXcd;
@@ -161,4 +163,4 @@ TEST(ReducedRock, BecomesMasslessRock)
     EXPECT_LT(before, 1e-4);
 }
 
-} // namespace damslip::fe2d
+} // namespace damslip::rock_tests

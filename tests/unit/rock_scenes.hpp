@@ -10,7 +10,9 @@
 #include <numbers>
 
 /// Rock of the reference dam, and small boxes of rock.
-namespace damslip::fe2d {
+namespace damslip::rock_tests {
+
+using namespace fe2d;
 
 inline constexpr double base = 45.0; ///< [m]
 inline const ElasticMaterial reference_rock{2650.0, 30e9, 0.2};
@@ -81,4 +83,4 @@ inline double smallest_share(const Eigen::MatrixXd& symmetric)
     return eigen.eigenvalues()[0] / eigen.eigenvalues()[eigen.eigenvalues().size() - 1];
 }
 
-} // namespace damslip::fe2d
+} // namespace damslip::rock_tests

@@ -8,7 +8,9 @@
 #include <thread>
 #include <unistd.h>
 
-namespace damslip::fe2d {
+namespace damslip::rock_tests {
+
+using namespace fe2d;
 
 namespace fs = std::filesystem;
 
@@ -197,4 +199,4 @@ TEST(RockStore, LivesInTheUsersCache)
     restore("HOME", home);
 }
 
-} // namespace damslip::fe2d
+} // namespace damslip::rock_tests
