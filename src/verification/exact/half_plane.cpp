@@ -1,4 +1,4 @@
-#include "exact/half_plane.hpp"
+#include "verification/exact/half_plane.hpp"
 
 #include <cmath>
 #include <gsl/gsl_integration.h>
