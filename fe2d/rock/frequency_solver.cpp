@@ -1,6 +1,6 @@
 #include "fe2d/rock/frequency_solver.hpp"
 
-#include "fe2d/solver/blas_threads.hpp"
+#include "fe2d/solver/linear_solver.hpp"
 
 #include <cholmod.h>
 

@@ -17,17 +17,14 @@
 
 namespace damslip::fe2d {
 
-namespace {
-
-/// Sets OpenBLAS and OpenMP to one thread (no-op with another BLAS): results then do not depend on the number of cores,
-/// and runs do not compete with each other. Reading OPENBLAS_NUM_THREADS happens at load time, so the environment is
-/// too late for a running program.
 void use_one_blas_thread()
 {
     using SetThreads = void (*)(int);
     for (const char* name : {"openblas_set_num_threads", "omp_set_num_threads"})
         if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, name))) set(1);
 }
+
+namespace {
 
 /// OpenBLAS takes 128 MB at its first product, keeps them, and asks for them again and again, for ever, where they cannot be
 /// had. To be called before: where the address space is limited (ulimit -v) it asks once, and has OpenBLAS take them.

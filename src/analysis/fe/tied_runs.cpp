@@ -66,7 +66,7 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
         throw NotConverged(Diagnostic{scene.file.string(), 0, 0,
                                       "the static stages could not be solved: " + statics_.solver.text(),
                                       "a model held by its foundation", "check [foundation] and the materials"});
-    const Eigen::Index unknowns = model().dofs.count;
+    const int unknowns = model().dofs.count;
     start_ =
         start_of(models_, fe2d::sum_of(loads.gravity, unknowns) + fe2d::sum_of(loads.impounding, unknowns), statics_);
 }
