@@ -81,18 +81,26 @@ Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
 
 Table record_table(const std::vector<GroundMotion>& motions)
 {
-    Table t;
-    t.title = "Records as scaled";
-    t.columns = {{"record", "record", "", 4},          {"duration_s", "duration", "s", 4},
-                 {"pga_m_s2", "PGA", "m/s²", 4},       {"pga_vertical_m_s2", "PGA vertical", "m/s²", 4},
-                 {"pgv_m_s", "PGV", "m/s", 4},         {"arias_intensity_m_s", "Arias intensity", "m/s", 4},
-                 {"duration_5_95_s", "D5-95", "s", 4}, {"mean_period_s", "mean period", "s", 4}};
-    for (const GroundMotion& motion : motions) {
-        const records::Measures m = records::measure(horizontal_record(motion));
-        t.rows.push_back({motion.name, m.duration, m.pga, motion.accel_v.empty() ? Cell() : Cell(peak(motion.accel_v)),
-                          m.pgv, m.arias_intensity, m.duration_5_95, m.mean_period ? Cell(*m.mean_period) : Cell()});
-    }
-    return t;
+    struct Row {
+        const GroundMotion& motion;
+        records::Measures m;
+    };
+    std::vector<Row> rows;
+    for (const GroundMotion& motion : motions) rows.push_back({motion, records::measure(horizontal_record(motion))});
+    const auto vertical_peak = [](const Row& r) {
+        return r.motion.accel_v.empty() ? Cell() : Cell(peak(r.motion.accel_v));
+    };
+    return table_of<Row>(
+        "Records as scaled",
+        {{{"record", "record"}, [](const Row& r) { return r.motion.name; }},
+         {{"duration_s", "duration", "s", 4}, [](const Row& r) { return r.m.duration; }},
+         {{"pga_m_s2", "PGA", "m/s²", 4}, [](const Row& r) { return r.m.pga; }},
+         {{"pga_vertical_m_s2", "PGA vertical", "m/s²", 4}, vertical_peak},
+         {{"pgv_m_s", "PGV", "m/s", 4}, [](const Row& r) { return r.m.pgv; }},
+         {{"arias_intensity_m_s", "Arias intensity", "m/s", 4}, [](const Row& r) { return r.m.arias_intensity; }},
+         {{"duration_5_95_s", "D5-95", "s", 4}, [](const Row& r) { return r.m.duration_5_95; }},
+         {{"mean_period_s", "mean period", "s", 4}, [](const Row& r) { return optional_cell(r.m.mean_period); }}},
+        rows);
 }
 
 } // namespace damslip::pages
