@@ -6,7 +6,6 @@
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
-#include "pages/screen/lift_joint_table.hpp"
 #include "pages/screen/screen_report.hpp"
 #include "pages/screen/screen_tables.hpp"
 #include "pages/screen/wedge_tables.hpp"

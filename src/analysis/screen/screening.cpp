@@ -7,6 +7,7 @@
 #include "core/units.hpp"
 #include "scene/water.hpp"
 #include "sliding/empirical/ensemble.hpp"
+#include "sliding/equilibrium/lift_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -376,6 +377,25 @@ const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::
     return b.max_slip > a.max_slip ? b : a;
 }
 
+const SlipRow& worse_horizontal(const Screening& s, std::size_t number)
+{
+    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
+    return &worse(a.horizontal, b.horizontal) == &b.horizontal ? b : a;
+}
+
+const SlipRow* worse_with_vertical(const Screening& s, std::size_t number)
+{
+    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
+    if (!a.with_vertical || !b.with_vertical) return nullptr;
+    return &worse(*a.with_vertical, *b.with_vertical) == &*b.with_vertical ? &b : &a;
+}
+
+const SlipRow& worse_judged(const Screening& s, std::size_t number)
+{
+    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
+    return &worse(a.judged(), b.judged()) == &b.judged() ? b : a;
+}
+
 StatusCount statuses_of(const Screening& screening)
 {
     StatusCount count;
@@ -485,6 +505,25 @@ Screening screen_wedge(const Ready& ready, int jobs)
 }
 
 } // namespace
+
+std::vector<LiftBlock> lift_blocks(const Scene& scene)
+{
+    std::vector<LiftBlock> list;
+    for (const LiftJoint& joint : scene.lift_joints) {
+        const sliding::RigidBlock block = sliding::lift_block(scene, joint);
+        LiftBlock& b = list.emplace_back();
+        b.joint = joint.name;
+        b.elevation = joint.elevation;
+        b.friction = block.friction;
+        b.normal_force = sliding::static_normal_force(block);
+        b.shear_force = block.horizontal_force;
+        if (b.shear_force != 0.0)
+            b.sliding_factor = (block.friction * b.normal_force + block.cohesion_force) / std::abs(b.shear_force);
+        b.critical_friction = sliding::critical_friction(block);
+        b.yield_acceleration = sliding::yield_downstream(block).law.constant;
+    }
+    return list;
+}
 
 Screening run_screening(const Ready& ready, int jobs)
 {

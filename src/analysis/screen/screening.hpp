@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-/// What `screen` computes, as data; screen_command.cpp prints it.
+/// What `screen` computes, as data; pages/screen shows it.
 namespace damslip {
 
 /// The base with its uplift, once as the scene says and once with a crack where none was asked for.
@@ -86,6 +86,18 @@ struct SetStatistics {
     std::string controlling_record; ///< of the largest
 };
 
+/// The rigid block above a lift joint.
+struct LiftBlock {
+    std::string joint;
+    double elevation = 0.0; ///< [m]
+    double friction = 0.0;
+    double normal_force = 0.0, shear_force = 0.0; ///< without earthquake [N/m]
+    std::optional<double> sliding_factor;         ///< none: nothing drives the block
+    double critical_friction = 0.0;
+    double yield_acceleration = 0.0; ///< of the joint, downstream [m/s^2]
+};
+std::vector<LiftBlock> lift_blocks(const Scene& scene);
+
 struct Screening {
     EffectPlan plan;
     std::vector<BaseRow> bases;
@@ -113,6 +125,13 @@ Verdict judge(const SlipRow& row, const std::optional<double>& allowable);
 
 /// The one that decides: one that is no answer, else one without a slip, else the larger.
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b);
+
+/// Of the two rows of record `number` the one with the larger slip without the vertical component.
+const SlipRow& worse_horizontal(const Screening& s, std::size_t number);
+/// The same with it; null for a record that has none.
+const SlipRow* worse_with_vertical(const Screening& s, std::size_t number);
+/// The same by the slip that is judged.
+const SlipRow& worse_judged(const Screening& s, std::size_t number);
 
 /// Statuses of all slides of a screening.
 StatusCount statuses_of(const Screening& screening);

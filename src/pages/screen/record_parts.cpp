@@ -1,5 +1,6 @@
 #include "pages/screen/record_parts.hpp"
 
+#include "analysis/screen/variation.hpp"
 #include "core/units.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/screen/slip_charts.hpp"
@@ -75,22 +76,20 @@ void on_record_grid(const GroundMotion& motion, Curve& curve)
         if (std::abs(curve.x[i] - static_cast<double>(i) * motion.dt) < 1e-9 * motion.dt * static_cast<double>(n))
             curve.x[i] = static_cast<double>(i) * motion.dt;
 }
-/// Slip of the flexible block, the polarity that is worse by the analysis that is judged.
-Chart flexible_chart(const Scene& scene, const Screening& s, const GroundMotion& motion, std::size_t number,
-                             std::size_t records)
+
+/// Slip of the flexible block.
+Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistories::Flexible& found,
+                     const GroundMotion& motion, std::size_t number, std::size_t records)
 {
-    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    const sliding::SlideResult& judged = worse(a.judged(), b.judged());
-    const int polarity = &judged == &b.judged() ? -1 : 1;
-    const FlexibleSlips slips =
-        slide_flexible(scene, *s.flexible, s.bases.front().model, motion, polarity, sliding::HistoryOutput::samples);
     Chart chart;
-    chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", polarity);
+    chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", found.polarity);
     chart.x = time_axis();
     chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
-    if (slips.decoupled) chart.curves.push_back(slip_curve(slips.decoupled->slide.history, "decoupled", 2));
-    if (slips.coupled) chart.curves.push_back(slip_curve(slips.coupled->slide.history, "coupled", 3));
-    if (scene.criteria.allowable_slip && judged.max_slip > 0.2 * *scene.criteria.allowable_slip)
+    const auto& [decoupled, coupled] = found.slips;
+    if (decoupled) chart.curves.push_back(slip_curve(decoupled->slide.history, "decoupled", 2));
+    if (coupled) chart.curves.push_back(slip_curve(coupled->slide.history, "coupled", 3));
+    const double judged = worse_judged(s, number).judged().max_slip;
+    if (scene.criteria.allowable_slip && judged > 0.2 * *scene.criteria.allowable_slip)
         chart.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
     thin_for(chart, records);
     return chart;
@@ -107,10 +106,10 @@ void add_slip_curve(const sliding::SlideResult& slide, const std::string& name, 
 
 } // namespace
 
-std::vector<Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion,
-                                       std::size_t number, std::size_t records)
+std::vector<Part> record_parts(const Scene& scene, const Screening& s, const GroundMotion& motion, std::size_t number,
+                               std::size_t records)
 {
-    const RigidModel& model = s.bases.front().model;
+    const RecordHistories found = record_histories(scene, s, motion, number);
     const std::string together = fmt::format("record{}", number + 1);
     std::vector<Part> parts;
     const auto add = [&](Chart chart) {
@@ -130,8 +129,7 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
     slip.x = time_axis();
     slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
     const SlipRow& h = worse_horizontal(s, number);
-    const auto horizontal =
-        slide_model(scene, model, horizontal_only(motion), h.polarity, sliding::HistoryOutput::samples);
+    const sliding::SlideResult& horizontal = found.horizontal.slide;
     add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);
     if (scene.criteria.allowable_slip && !s.flexible && h.judged().max_slip > 0.2 * *scene.criteria.allowable_slip)
         slip.horizontal.push_back({*scene.criteria.allowable_slip / units::mm, "allowable"});
@@ -142,12 +140,12 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
     if (!hv) {
         add(std::move(slip));
     } else {
-        const auto both = slide_model(scene, model, motion, hv->polarity, sliding::HistoryOutput::samples);
+        const sliding::SlideResult& both = found.with_vertical->slide;
         add_slip_curve(both, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1, slip);
         add(std::move(slip));
         add(demand_chart(motion, both.history, hv->polarity));
     }
-    if (s.flexible) parts.emplace_back(flexible_chart(scene, s, motion, number, records));
+    if (found.flexible) parts.emplace_back(flexible_chart(scene, s, *found.flexible, motion, number, records));
     if (auto regressions = regressions_beside(s, number)) {
         regressions->title = motion.name + ": " + regressions->title;
         parts.emplace_back(std::move(*regressions));

@@ -1,5 +1,6 @@
 #include "pages/screen/screen_report.hpp"
 
+#include "analysis/screen/variation.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <ranges>
 
 namespace damslip::pages {
 
@@ -17,11 +18,6 @@ using units::standard_gravity;
 
 constexpr double long_period =
     2.0; ///< T_s from which one mode says little under common motions [s] (docs/neighbours.md)
-
-Cell cell(const std::optional<double>& value, double unit = 1.0)
-{
-    return value ? Cell(*value / unit) : Cell();
-}
 
 std::string state_word(const BaseRow& row)
 {
@@ -46,7 +42,7 @@ Cell verdict_cell(Verdict verdict)
 /// @param slip  one of the slide's slips, in the unit of its column
 Cell slip_cell(const sliding::SlideResult& r, double slip)
 {
-    return cell(reported(r.status, slip));
+    return optional_cell(reported(r.status, slip));
 }
 
 void note_static_sliding(const Screening& s, Table& table)
@@ -88,8 +84,7 @@ void note_verdict(const Screening& s, const std::optional<double>& allowable, Ta
         table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
 }
 
-constexpr std::string_view regressions_title =
-    "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
+constexpr const char* regressions_title = "Empirical regressions (horizontal component, no uplift or water beyond a_y)";
 
 /// What gives no answer of its own for a record, by reason: "El Centro: outside its range, not weighted: jibson-1993
 /// 707.7 mm, ...; no slip expected: 8; needs magnitude: 7." Empty: nothing.
@@ -116,61 +111,77 @@ std::string folded_line(const Screening& s, const std::string& record)
 
 Table yield_table(const Screening& s)
 {
-    Table t;
-    t.title = "Yield acceleration";
-    t.columns = {{"base", "base", "", 4},
-                 {"friction", "μ", "–", 4},
-                 {"uplift_kN_m", "uplift U", "kN/m", 6},
-                 {"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6},
-                 {"yield_coefficient_g", "a_y downstream", "g", 6},
-                 {"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 6},
-                 {"tips_m_s2", "a tips", "m/s²", 4},
-                 {"tips_g", "a tips", "g", 4},
-                 {"opens_m_s2", "a opens base", "m/s²", 4},
-                 {"opens_g", "a opens base", "g", 4},
-                 {"critical_friction", "critical μ", "–", 6},
-                 {"state", "without earthquake", "", 4}};
-    for (const BaseRow& row : s.bases) {
-        const RigidModel& m = row.model;
-        t.rows.push_back({row.base, m.block.friction, m.block.uplift / 1e3, m.downstream.law.constant,
-                          m.downstream.law.constant / standard_gravity, m.upstream.law.constant, row.limits.tips,
-                          row.limits.tips / standard_gravity, row.limits.opens, row.limits.opens / standard_gravity,
-                          m.critical_friction, state_word(row)});
-    }
-    t.notes.push_back("a_y: ground acceleration at which it starts to slide; critical μ: friction that just holds "
-                      "it without an earthquake.");
-    t.notes.push_back(
-        "a tips: constant ground acceleration at which the dam tips about its toe, uplift unchanged; a opens "
-        "base: at which its joint is open from heel to toe (by uplift.crack) and its bond lost.");
+    using R = BaseRow;
+    const auto downstream = [](const R& r) { return r.model.downstream.law.constant; };
+    return table_of<R>(
+        "Yield acceleration",
+        {{{"base", "base"}, &R::base},
+         {{"friction", "μ", "–", 4}, [](const R& r) { return r.model.block.friction; }},
+         {{"uplift_kN_m", "uplift U", "kN/m", 6}, [](const R& r) { return r.model.block.uplift / 1e3; }},
+         {{"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6}, downstream},
+         {{"yield_coefficient_g", "a_y downstream", "g", 6},
+          [=](const R& r) { return downstream(r) / standard_gravity; }},
+         {{"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 6},
+          [](const R& r) { return r.model.upstream.law.constant; }},
+         {{"tips_m_s2", "a tips", "m/s²", 4}, [](const R& r) { return r.limits.tips; }},
+         {{"tips_g", "a tips", "g", 4}, [](const R& r) { return r.limits.tips / standard_gravity; }},
+         {{"opens_m_s2", "a opens base", "m/s²", 4}, [](const R& r) { return r.limits.opens; }},
+         {{"opens_g", "a opens base", "g", 4}, [](const R& r) { return r.limits.opens / standard_gravity; }},
+         {{"critical_friction", "critical μ", "–", 6}, [](const R& r) { return r.model.critical_friction; }},
+         {{"state", "without earthquake"}, state_word}},
+        s.bases,
+        {"a_y: ground acceleration at which it starts to slide; critical μ: friction that just holds it without an "
+         "earthquake.",
+         "a tips: constant ground acceleration at which the dam tips about its toe, uplift unchanged; a opens base: at "
+         "which its joint is open from heel to toe (by uplift.crack) and its bond lost."});
+}
+
+Table lift_joint_table(const Scene& scene)
+{
+    using B = LiftBlock;
+    Table t = table_of<B>(
+        "Blocks above the lift joints",
+        {{{"joint", "joint"}, &B::joint},
+         {{"elevation_m", "elevation", "m", 5}, &B::elevation},
+         {{"friction", "μ", "–", 4}, &B::friction},
+         {{"normal_force_kN_m", "N'", "kN/m", 6}, [](const B& b) { return b.normal_force / 1e3; }},
+         {{"shear_force_kN_m", "T", "kN/m", 6}, [](const B& b) { return b.shear_force / 1e3; }},
+         {{"sliding_factor", "sliding factor", "–", 4}, [](const B& b) { return optional_cell(b.sliding_factor); }},
+         {{"critical_friction", "critical μ", "–", 6}, &B::critical_friction},
+         {{"yield_acceleration_m_s2", "a_y downstream", "m/s²", 6}, &B::yield_acceleration},
+         {{"yield_coefficient_g", "a_y downstream", "g", 6},
+          [](const B& b) { return b.yield_acceleration / standard_gravity; }}},
+        lift_blocks(scene));
+    if (!t.rows.empty())
+        t.notes.push_back("a_y: acceleration of the joint at which the block above starts to slide; the dam below "
+                          "amplifies that of the ground, which `damslip fe` computes.");
     return t;
 }
 
 Table slip_table(const Screening& s, const std::optional<double>& allowable)
 {
-    Table t;
+    using R = SlipRow;
     const bool wedge = s.bases.front().model.wedge.has_value();
-    t.title = wedge ? "Displacement of the wedge" : "Rigid-block displacement";
-    t.columns = {{"record", "record", "", 4},
-                 {"polarity", "polarity", "", 4},
-                 {"pga_m_s2", "PGA", "m/s²", 4},
-                 {"yield_over_pga", "a_y/PGA", "–", 4},
-                 {"slip_h_mm", "slip h", "mm", 5},
-                 {"slip_hv_mm", "slip h+v", "mm", 5},
-                 {"max_slip_m", "largest slip", "m", 5},
-                 {"upstream_slip_mm", "upstream", "mm", 4},
-                 {"lift_offs", "lift-offs", "", 4},
-                 {"status", "status", "", 4},
-                 {"verdict", "verdict", "", 4}};
     const double a_y = s.bases.front().model.downstream.law.constant;
-    for (const SlipRow& row : s.slips) {
-        const sliding::SlideResult& r = row.rigid();
-        t.rows.push_back({row.record, static_cast<std::int64_t>(row.polarity), row.pga,
-                          row.pga > 0 ? finite_cell(a_y / row.pga) : Cell(),
-                          slip_cell(row.horizontal, row.horizontal.slip / mm),
-                          row.with_vertical ? slip_cell(*row.with_vertical, row.with_vertical->slip / mm) : Cell(),
-                          slip_cell(r, r.max_slip), slip_cell(r, r.upstream_slip / mm),
-                          static_cast<std::int64_t>(r.lift_offs), word(r.status), rigid_verdict_cell(row, allowable)});
-    }
+    const auto with_vertical = [](const R& r) {
+        return r.with_vertical ? slip_cell(*r.with_vertical, r.with_vertical->slip / mm) : Cell();
+    };
+    Table t = table_of<R>(
+        wedge ? "Displacement of the wedge" : "Rigid-block displacement",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"pga_m_s2", "PGA", "m/s²", 4}, &R::pga},
+         {{"yield_over_pga", "a_y/PGA", "–", 4},
+          [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
+         {{"slip_h_mm", "slip h", "mm", 5}, [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
+         {{"slip_hv_mm", "slip h+v", "mm", 5}, with_vertical},
+         {{"max_slip_m", "largest slip", "m", 5}, [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
+         {{"upstream_slip_mm", "upstream", "mm", 4},
+          [](const R& r) { return slip_cell(r.rigid(), r.rigid().upstream_slip / mm); }},
+         {{"lift_offs", "lift-offs"}, [](const R& r) { return count_cell(r.rigid().lift_offs); }},
+         {{"status", "status"}, [](const R& r) { return word(r.rigid().status); }},
+         {{"verdict", "verdict"}, [&](const R& r) { return rigid_verdict_cell(r, allowable); }}},
+        s.slips);
     if (wedge)
         t.notes.push_back("slip: along the way of sliding at the yield, " +
                           direction_words(s.bases.front().model.wedge->yields.at_rest.state.direction) +
@@ -186,35 +197,39 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
 
 Table flexible_table(const Screening& s, const std::optional<double>& allowable)
 {
+    using R = SlipRow;
     const sliding::FlexibleBlock& flexible = *s.flexible;
-    Table t;
-    t.title = "Displacement of the flexible block";
-    t.columns = {{"record", "record", "", 4},
-                 {"polarity", "polarity", "", 4},
-                 {"rigid_max_slip_mm", "rigid", "mm", 5},
-                 {"decoupled_max_slip_mm", "decoupled", "mm", 5},
-                 {"coupled_max_slip_mm", "coupled", "mm", 5},
-                 {"amplification_decoupled", "peak average/PGA decoupled", "–", 4},
-                 {"amplification_coupled", "peak average/PGA coupled", "–", 4},
-                 {"coupled_slip_mm", "coupled, at the end", "mm", 5},
-                 {"judged_by", "judged by", "", 4},
-                 {"status", "status", "", 4},
-                 {"verdict", "verdict", "", 4}};
-    for (const SlipRow& row : s.slips) {
-        if (!row.flexible) continue;
-        const auto& [decoupled, coupled] = *row.flexible;
-        const auto largest = [](const std::optional<sliding::FlexibleSlide>& r) {
-            return r ? slip_cell(r->slide, r->slide.max_slip / mm) : Cell();
+    const auto largest = [](auto FlexibleSlips::*analysis) {
+        return [=](const R& r) {
+            const auto& found = (*r.flexible).*analysis;
+            return found ? slip_cell(found->slide, found->slide.max_slip / mm) : Cell();
         };
-        const auto over_pga = [&row](const std::optional<sliding::FlexibleSlide>& r) {
-            return r && row.pga > 0 ? Cell(r->peak_acceleration / row.pga) : Cell();
+    };
+    const auto over_pga = [](auto FlexibleSlips::*analysis) {
+        return [=](const R& r) {
+            const auto& found = (*r.flexible).*analysis;
+            return found && r.pga > 0 ? Cell(found->peak_acceleration / r.pga) : Cell();
         };
-        t.rows.push_back(
-            {row.record, static_cast<std::int64_t>(row.polarity), slip_cell(row.rigid(), row.rigid().max_slip / mm),
-             largest(decoupled), largest(coupled), over_pga(decoupled), over_pga(coupled),
-             coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell(),
-             std::string(row.governing().method), word(row.judged().status), verdict_cell(judge(row, allowable))});
-    }
+    };
+    const auto at_end = [](const R& r) {
+        const auto& coupled = r.flexible->coupled;
+        return coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell();
+    };
+    Table t = table_of<R>(
+        "Displacement of the flexible block",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"rigid_max_slip_mm", "rigid", "mm", 5},
+          [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip / mm); }},
+         {{"decoupled_max_slip_mm", "decoupled", "mm", 5}, largest(&FlexibleSlips::decoupled)},
+         {{"coupled_max_slip_mm", "coupled", "mm", 5}, largest(&FlexibleSlips::coupled)},
+         {{"amplification_decoupled", "peak average/PGA decoupled", "–", 4}, over_pga(&FlexibleSlips::decoupled)},
+         {{"amplification_coupled", "peak average/PGA coupled", "–", 4}, over_pga(&FlexibleSlips::coupled)},
+         {{"coupled_slip_mm", "coupled, at the end", "mm", 5}, at_end},
+         {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
+         {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
+         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}},
+        s.slips | std::views::filter([](const R& r) { return r.flexible.has_value(); }));
     t.notes.push_back(fmt::format(
         "one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g} ({}); largest slips. Average: the horizontal "
         "acceleration over the mass. Decoupled can be more or less than coupled.",
@@ -232,51 +247,58 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
     return t;
 }
 
+namespace {
+
+using RegressionColumn = ColumnOf<RegressionRow>;
+
+const RegressionColumn record_column{{"record", "record"}, &RegressionRow::record},
+    model_column{{"model", "regression"}, &RegressionRow::model},
+    slip_column{{"slip_mm", "slip", "mm", 4}, [](const RegressionRow&r) { return optional_cell(r.median, mm); }},
+    low_column{{"slip_minus_sigma_mm", "16 %", "mm", 4},
+               [](const RegressionRow&r) { return optional_cell(r.low, mm); }},
+    high_column{{"slip_plus_sigma_mm", "84 %", "mm", 4},
+                [](const RegressionRow&r) { return optional_cell(r.high, mm); }},
+    zero_column{{"zero_probability", "P(D = 0)", "–", 3},
+                [](const RegressionRow&r) { return optional_cell(r.zero_probability); }},
+    remark_column{{"remark", "remark"}, &RegressionRow::remark};
+
+} // namespace
+
 Table regression_table(const Screening& s)
 {
-    Table t;
-    t.title = regressions_title;
-    t.columns = {{"record", "record", "", 4},
-                 {"id", "id", "", 4},
-                 {"model", "regression", "", 4},
-                 {"slip_mm", "slip", "mm", 4},
-                 {"slip_minus_sigma_mm", "16 %", "mm", 4},
-                 {"slip_plus_sigma_mm", "84 %", "mm", 4},
-                 {"zero_probability", "P(D = 0)", "–", 3},
-                 {"nonzero_slip_mm", "slip where D > 0", "mm", 4},
-                 {"status", "status", "", 4},
-                 {"weight", "weight", "–", 3},
-                 {"remark", "remark", "", 4}};
-    for (const RegressionRow& row : s.regressions)
-        t.rows.push_back({row.record, row.id, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm),
-                          cell(row.zero_probability), cell(row.nonzero_median, mm), row.status, cell(row.weight),
-                          row.remark});
-    return t;
+    using R = RegressionRow;
+    return table_of<R>(regressions_title,
+                       {record_column,
+                        {{"id", "id"}, &R::id},
+                        model_column,
+                        slip_column,
+                        low_column,
+                        high_column,
+                        zero_column,
+                        {{"nonzero_slip_mm", "slip where D > 0", "mm", 4},
+                         [](const R& r) { return optional_cell(r.nonzero_median, mm); }},
+                        {{"status", "status"}, &R::status},
+                        {{"weight", "weight", "–", 3}, [](const R& r) { return optional_cell(r.weight); }},
+                        remark_column},
+                       s.regressions);
 }
 
 Table regression_summary(const Screening& s)
 {
-    Table t;
-    t.title = regressions_title;
-    t.columns = {{"record", "record", "", 4},
-                 {"model", "regression", "", 4},
-                 {"slip_mm", "slip", "mm", 4},
-                 {"slip_minus_sigma_mm", "16 %", "mm", 4},
-                 {"slip_plus_sigma_mm", "84 %", "mm", 4}};
-    const bool zeros = std::any_of(s.regressions.begin(), s.regressions.end(),
-                                   [](const RegressionRow& row) { return row.valid && row.zero_probability; });
-    if (zeros) t.columns.push_back({"zero_probability", "P(D = 0)", "–", 3});
-    t.columns.push_back({"remark", "remark", "", 4});
+    std::vector<RegressionRow> rows;
+    std::vector<std::string> notes;
     for (const RegressionRow& row : s.regressions) {
         const bool weighted = row.id == weighted_median_id;
-        if (!weighted && row.status != "valid") continue;
-        t.rows.push_back({row.record, row.model, cell(row.median, mm), cell(row.low, mm), cell(row.high, mm)});
-        if (zeros) t.rows.back().push_back(cell(row.zero_probability));
-        t.rows.back().push_back(row.remark);
+        if (weighted || row.status == "valid") rows.push_back(row);
         if (std::string line = weighted ? folded_line(s, row.record) : ""; !line.empty())
-            t.notes.push_back(std::move(line));
+            notes.push_back(std::move(line));
     }
-    return t;
+    std::vector<RegressionColumn> columns{record_column, model_column, slip_column, low_column, high_column};
+    if (std::any_of(s.regressions.begin(), s.regressions.end(),
+                    [](const RegressionRow& row) { return row.valid && row.zero_probability; }))
+        columns.push_back(zero_column);
+    columns.push_back(remark_column);
+    return table_of(regressions_title, columns, rows, std::move(notes));
 }
 
 namespace {
@@ -298,24 +320,21 @@ void note_lower_bounds(const Screening& s, Table& table)
 
 Table statistics_table(const Screening& s)
 {
-    Table t;
-    t.title = "Over the records (largest slip, worse polarity of each)";
-    t.columns = {{"quantity", "method", "", 4},
-                 {"n", "n", "", 4},
-                 {"median_mm", "median", "mm", 4},
-                 {"percentile_16_mm", "16 %", "mm", 4},
-                 {"percentile_84_mm", "84 %", "mm", 4},
-                 {"mean_mm", "mean", "mm", 4},
-                 {"largest_mm", "largest", "mm", 4},
-                 {"share_above_allowable_percent", "above allowable", "%", 3},
-                 {"controlling_record", "controlling record", "", 4},
-                 {"without_slip", "without a slip", "", 4}};
-    for (const SetStatistics& q : s.statistics)
-        t.rows.push_back({q.quantity, static_cast<std::int64_t>(q.n), finite_cell(q.median / mm),
-                          finite_cell(q.percentile_16 / mm), finite_cell(q.percentile_84 / mm),
-                          finite_cell(q.mean / mm), finite_cell(q.largest / mm),
-                          q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(),
-                          name_cell(q.controlling_record), name_cell(q.without_slip.words())});
+    using Q = SetStatistics;
+    Table t = table_of<Q>(
+        "Over the records (largest slip, worse polarity of each)",
+        {{{"quantity", "method"}, &Q::quantity},
+         {{"n", "n"}, [](const Q& q) { return count_cell(q.n); }},
+         {{"median_mm", "median", "mm", 4}, [](const Q& q) { return finite_cell(q.median, mm); }},
+         {{"percentile_16_mm", "16 %", "mm", 4}, [](const Q& q) { return finite_cell(q.percentile_16, mm); }},
+         {{"percentile_84_mm", "84 %", "mm", 4}, [](const Q& q) { return finite_cell(q.percentile_84, mm); }},
+         {{"mean_mm", "mean", "mm", 4}, [](const Q& q) { return finite_cell(q.mean, mm); }},
+         {{"largest_mm", "largest", "mm", 4}, [](const Q& q) { return finite_cell(q.largest, mm); }},
+         {{"share_above_allowable_percent", "above allowable", "%", 3},
+          [](const Q& q) { return q.share_above_allowable ? Cell(100 * *q.share_above_allowable) : Cell(); }},
+         {{"controlling_record", "controlling record"}, [](const Q& q) { return name_cell(q.controlling_record); }},
+         {{"without_slip", "without a slip"}, [](const Q& q) { return name_cell(q.without_slip.words()); }}},
+        s.statistics);
     note_lower_bounds(s, t);
     note_static_sliding(s, t);
     return t;

@@ -6,6 +6,8 @@
 namespace damslip::pages {
 
 Table yield_table(const Screening& s);
+/// The rigid block above each lift joint: static safety and yield acceleration. Empty without lift joints.
+Table lift_joint_table(const Scene& scene);
 Table slip_table(const Screening& s, const std::optional<double>& allowable);
 /// Slip of the flexible block beside the rigid one, with its verdict.
 Table flexible_table(const Screening& s, const std::optional<double>& allowable);

@@ -1,9 +1,8 @@
 #include "pages/screen/slip_charts.hpp"
 
-#include "core/parallel.hpp"
+#include "analysis/screen/variation.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "scene/with_friction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,56 +23,11 @@ Axis slip_axis()
     return {"largest slip", "mm", Scale::asinh, 0.1, {}, {}, {}};
 }
 
-/// Around the scene's friction, from where the block stands by itself on.
-std::vector<double> friction_values(const RigidModel& own)
+std::vector<std::vector<double>> in_mm(std::vector<std::vector<double>> slips)
 {
-    constexpr int n = 25;
-    const double mu = own.block.friction;
-    const double stands = std::isfinite(own.critical_friction) ? 1.002 * own.critical_friction : 0.0;
-    const double low = std::max(0.7 * mu, stands), high = std::max(1.35 * mu, 1.5 * stands);
-    std::vector<double> values;
-    for (int i = 0; i < n; ++i) values.push_back(low + (high - low) * i / (n - 1));
-    if (mu > low && mu < high) values.insert(std::upper_bound(values.begin(), values.end(), mu), mu);
-    return values;
-}
-
-/// The model with another peak friction; forces, uplift and what they become with slip stay.
-RigidModel at_friction(const Scene& scene, RigidModel model, double friction)
-{
-    if (scene.wedge) return make_rigid_model(with_friction(scene, friction), {});
-    const Contact contact = with_friction(scene, friction).contact;
-    const sliding::SlipStage last = model.stages.back();
-    model.block.friction = friction;
-    model.stages = sliding::strength_stages(model.block, contact);
-    if (scene.drains && scene.drains->lost_at_slip)
-        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip, last.block);
-    model.downstream = sliding::yield_downstream(model.block);
-    model.upstream = sliding::yield_upstream(model.block);
-    model.state = sliding::static_state(model.block);
-    return model;
-}
-
-/// Largest slip [mm] for each friction (rows) and record (columns), the worse polarity.
-std::vector<std::vector<double>> slip_grid(const Scene& scene, const RigidModel& own,
-                                           const std::vector<double>& friction,
-                                           const std::vector<GroundMotion>& motions, int jobs)
-{
-    std::vector<RigidModel> models;
-    for (const double mu : friction) models.push_back(at_friction(scene, own, mu));
-    std::vector<sliding::SkippingMotion> prepared(motions.begin(), motions.end());
-    std::vector<std::vector<double>> slip(friction.size(), std::vector<double>(motions.size(), nothing));
-    parallel_for(friction.size() * motions.size(), jobs, [&](std::size_t task) {
-        const std::size_t i = task / motions.size(), j = task % motions.size();
-        double worst = 0.0;
-        for (const int polarity : {1, -1}) {
-            const sliding::SlideResult r = slide_model(scene, models[i], prepared[j], polarity);
-            const std::optional<double> largest = reported(r.status, r.max_slip);
-            if (!largest) return; // no figure to draw
-            worst = std::max(worst, *largest);
-        }
-        slip[i][j] = worst / mm;
-    });
-    return slip;
+    for (std::vector<double>& row : slips)
+        for (double& slip : row) slip /= mm;
+    return slips;
 }
 
 std::vector<double> column(const std::vector<std::vector<double>>& grid, std::size_t j)
@@ -117,10 +71,6 @@ void add_set_curves(Chart& chart, const std::vector<double>& x, const std::vecto
     chart.curves = {std::move(median), std::move(largest)};
 }
 
-} // namespace
-
-namespace {
-
 /// For people [mm]; not a number where the slide has none.
 double largest_slip(const sliding::SlideResult& slide)
 {
@@ -133,33 +83,21 @@ Curve governing_by_record(const Screening& s)
     Curve curve{"flexible, judged", {}, {}, {}, {}, Mark::points, Weight::normal, 3};
     for (std::size_t i = 0; 2 * i + 1 < s.slips.size(); ++i) {
         curve.x.push_back(static_cast<double>(i));
-        curve.y.push_back(largest_slip(worse(s.slips[2 * i].judged(), s.slips[2 * i + 1].judged())));
+        curve.y.push_back(largest_slip(worse_judged(s, i).judged()));
     }
     return curve;
 }
 
 } // namespace
 
-const SlipRow& worse_horizontal(const Screening& s, std::size_t number)
-{
-    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    return &worse(a.horizontal, b.horizontal) == &b.horizontal ? b : a;
-}
-
-const SlipRow* worse_with_vertical(const Screening& s, std::size_t number)
-{
-    const SlipRow &a = s.slips[2 * number], &b = s.slips[2 * number + 1];
-    if (!a.with_vertical || !b.with_vertical) return nullptr;
-    return &worse(*a.with_vertical, *b.with_vertical) == &*b.with_vertical ? &b : &a;
-}
-
 std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
                                         const std::vector<GroundMotion>& motions, int jobs)
 {
+    const std::optional<SlipVariation> found = slips_by_friction(scene, s, motions, jobs);
+    if (!found) return std::nullopt;
     const RigidModel& own = s.bases.front().model;
-    if (motions.empty() || !scene.contact.friction_table.empty() || !(own.block.friction > 0)) return std::nullopt;
-    const std::vector<double> friction = friction_values(own);
-    const auto grid = slip_grid(scene, own, friction, motions, jobs);
+    const std::vector<double>& friction = found->friction;
+    const auto grid = in_mm(found->slip);
     Chart chart;
     chart.title = "Slip over friction";
     chart.x = {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ",

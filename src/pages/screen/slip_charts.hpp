@@ -6,12 +6,6 @@
 /// Slip over friction and over the records.
 namespace damslip::pages {
 
-/// Of the two rows of record `number` the one with the larger slip without the vertical component.
-const SlipRow& worse_horizontal(const Screening& s, std::size_t number);
-
-/// The same with it; null for a record that has none.
-const SlipRow* worse_with_vertical(const Screening& s, std::size_t number);
-
 /// Largest slip over friction, worse polarity, with the vertical component where a record has one: each record up to 6,
 /// beyond that median, 16/84 % and largest.
 /// @param jobs  threads, 0: all cores

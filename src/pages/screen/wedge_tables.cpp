@@ -28,23 +28,26 @@ std::string direction_words(const Vector3& direction)
 
 Table wedge_plane_table(const Scene& scene, const RigidWedge& wedge)
 {
-    Table t;
-    t.title = "Planes of the wedge";
-    t.columns = {{"plane", "plane", "", 4},
-                 {"dip_deg", "dip", "°", 4},
-                 {"dip_direction_deg", "dip direction", "°", 4},
-                 {"area_m2", "area", "m²", 5},
-                 {"friction", "μ", "–", 4},
-                 {"friction_deg", "φ", "°", 4},
-                 {"cohesion_kPa", "cohesion", "kPa", 4},
-                 {"water_force_MN", "water U", "MN", 5},
-                 {"normal_force_MN", "N′", "MN", 5}};
-    const auto add = [&](const std::string& name, const sliding::WedgePlane& p, double normal) {
-        t.rows.push_back({name, p.dip / units::degree, p.dip_direction / units::degree, p.area, p.friction,
-                          angle_of_friction(p.friction), p.cohesion / units::kPa, p.water_force / MN, normal / MN});
+    struct Row {
+        std::string name;
+        const sliding::WedgePlane& plane;
+        double normal;
     };
-    add(scene.wedge->planes[0].name, wedge.wedge.first, wedge.still.first_normal);
-    add(scene.wedge->planes[1].name, wedge.wedge.second, wedge.still.second_normal);
+    const std::vector<Row> rows{{scene.wedge->planes[0].name, wedge.wedge.first, wedge.still.first_normal},
+                                {scene.wedge->planes[1].name, wedge.wedge.second, wedge.still.second_normal}};
+    Table t = table_of<Row>(
+        "Planes of the wedge",
+        {{{"plane", "plane"}, &Row::name},
+         {{"dip_deg", "dip", "°", 4}, [](const Row& r) { return r.plane.dip / units::degree; }},
+         {{"dip_direction_deg", "dip direction", "°", 4},
+          [](const Row& r) { return r.plane.dip_direction / units::degree; }},
+         {{"area_m2", "area", "m²", 5}, [](const Row& r) { return r.plane.area; }},
+         {{"friction", "μ", "–", 4}, [](const Row& r) { return r.plane.friction; }},
+         {{"friction_deg", "φ", "°", 4}, [](const Row& r) { return angle_of_friction(r.plane.friction); }},
+         {{"cohesion_kPa", "cohesion", "kPa", 4}, [](const Row& r) { return r.plane.cohesion / units::kPa; }},
+         {{"water_force_MN", "water U", "MN", 5}, [](const Row& r) { return r.plane.water_force / MN; }},
+         {{"normal_force_MN", "N′", "MN", 5}, [](const Row& r) { return r.normal / MN; }}},
+        rows);
     const Vector3 line = cross(plane_normal(wedge.wedge.first.dip, wedge.wedge.first.dip_direction),
                                plane_normal(wedge.wedge.second.dip, wedge.wedge.second.dip_direction));
     t.notes.push_back(fmt::format("volume {:.5g} m³, weight {:.5g} MN; line of intersection {}; N′: effective, without "
@@ -56,35 +59,39 @@ Table wedge_plane_table(const Scene& scene, const RigidWedge& wedge)
 
 Table wedge_stability_table(const Scene& scene, const RigidModel& model)
 {
-    const RigidWedge& w = *model.wedge;
-    Table t;
-    t.title = "The wedge without earthquake";
-    t.columns = {{"state", "state", "", 4},
-                 {"mode", "slides on", "", 4},
-                 {"trend_deg", "towards", "°", 4},
-                 {"plunge_deg", "plunge", "°", 4},
-                 {"drive_MN", "drive", "MN", 5},
-                 {"resistance_MN", "resistance", "MN", 5},
-                 {"factor_of_safety", "factor of safety", "–", 4},
-                 {"critical_friction", "critical μ of " + scene.wedge->planes[0].name, "–", 4},
-                 {"critical_friction_deg", "critical φ", "°", 4},
-                 {"result", "without earthquake", "", 4}};
-    const auto add = [&](const char* name, const sliding::WedgeState& s) {
-        const bool lifts = s.mode == sliding::WedgeMode::lifts;
-        const double mu = critical_first_friction(w.wedge, s);
-        t.rows.push_back({std::string(name), mode_words(*scene.wedge, s.mode), trend(s.direction) / units::degree,
-                          plunge(s.direction) / units::degree, s.drive / MN, s.resistance / MN,
-                          finite_cell(s.factor_of_safety), finite_cell(mu), angle_of_friction(mu),
-                          std::string(lifts                      ? "LIFTS"
-                                      : s.factor_of_safety < 1.0 ? "SLIDES STATICALLY"
-                                                                 : "stands")});
+    struct Row {
+        const char* name;
+        sliding::WedgeState state;
+        double critical_friction;
     };
-    add("as given", w.still);
+    const RigidWedge& w = *model.wedge;
+    std::vector<Row> rows{{"as given", w.still, critical_first_friction(w.wedge, w.still)}};
     if (w.still.cohesion > 0.0) {
         sliding::Wedge bare = w.wedge;
         bare.first.cohesion = bare.second.cohesion = 0.0;
-        add("without cohesion", wedge_state(bare));
+        const sliding::WedgeState state = wedge_state(bare);
+        rows.push_back({"without cohesion", state, critical_first_friction(w.wedge, state)});
     }
+    const auto result = [](const Row& r) {
+        if (r.state.mode == sliding::WedgeMode::lifts) return "LIFTS";
+        return r.state.factor_of_safety < 1.0 ? "SLIDES STATICALLY" : "stands";
+    };
+    Table t = table_of<Row>(
+        "The wedge without earthquake",
+        {{{"state", "state"}, &Row::name},
+         {{"mode", "slides on"}, [&](const Row& r) { return mode_words(*scene.wedge, r.state.mode); }},
+         {{"trend_deg", "towards", "°", 4}, [](const Row& r) { return trend(r.state.direction) / units::degree; }},
+         {{"plunge_deg", "plunge", "°", 4}, [](const Row& r) { return plunge(r.state.direction) / units::degree; }},
+         {{"drive_MN", "drive", "MN", 5}, [](const Row& r) { return r.state.drive / MN; }},
+         {{"resistance_MN", "resistance", "MN", 5}, [](const Row& r) { return r.state.resistance / MN; }},
+         {{"factor_of_safety", "factor of safety", "–", 4},
+          [](const Row& r) { return finite_cell(r.state.factor_of_safety); }},
+         {{"critical_friction", "critical μ of " + scene.wedge->planes[0].name, "–", 4},
+          [](const Row& r) { return finite_cell(r.critical_friction); }},
+         {{"critical_friction_deg", "critical φ", "°", 4},
+          [](const Row& r) { return angle_of_friction(r.critical_friction); }},
+         {{"result", "without earthquake"}, result}},
+        rows);
     t.notes.push_back(
         "the way of sliding is found: along the line of intersection on both planes, on one of them, or lifting; "
         "critical μ: friction of " +
@@ -98,35 +105,34 @@ Table wedge_stability_table(const Scene& scene, const RigidModel& model)
 
 Table wedge_yield_table(const Scene& scene, const RigidWedge& wedge)
 {
-    Table t;
-    t.title = "Yield acceleration of the wedge";
-    t.columns = {{"motion", "ground motion", "", 4},
-                 {"azimuth_deg", "drives towards", "°", 4},
-                 {"yield_acceleration_m_s2", "a_y", "m/s²", 6},
-                 {"yield_coefficient_g", "a_y", "g", 6},
-                 {"mode", "slides on", "", 4},
-                 {"trend_deg", "towards", "°", 4},
-                 {"plunge_deg", "plunge", "°", 4},
-                 {"slip_factor", "slip per excess", "–", 4},
-                 {"yield_per_vertical", "a_y per a_v", "–", 4}};
-    for (const WedgeYieldRow& row : wedge_yield_rows(wedge)) {
-        const sliding::WedgeYield& y = row.yield;
-        const Cell azimuth = row.azimuth ? Cell(*row.azimuth / units::degree) : Cell();
-        if (std::isinf(y.acceleration)) {
-            const std::string none = y.acceleration > 0.0 ? "not below 10 g" : "slides, even pushed back by 10 g";
-            t.rows.push_back({row.motion, azimuth, Cell(), Cell(), none, Cell(), Cell(), Cell(), Cell()});
-            continue;
-        }
-        t.rows.push_back({row.motion, azimuth, y.acceleration, y.acceleration / units::standard_gravity,
-                          mode_words(*scene.wedge, y.state.mode), trend(y.state.direction) / units::degree,
-                          plunge(y.state.direction) / units::degree, row.azimuth ? Cell(y.factor) : Cell(),
-                          row.azimuth ? Cell(y.law.per_a_v) : Cell()});
-    }
-    t.notes.push_back(
-        "horizontal rows: the ground accelerates away from the azimuth, the inertia of the wedge points to it; "
-        "a_y per a_v: change of a_y with the ground acceleration upwards; negative a_y: slides without earthquake, and "
-        "would just stand pushed the other way by as much.");
-    return t;
+    using R = WedgeYieldRow;
+    const auto exists = [](const R& r) { return !std::isinf(r.yield.acceleration); }; // below 10 g
+    const auto mode = [&](const R& r) -> std::string {
+        if (exists(r)) return mode_words(*scene.wedge, r.yield.state.mode);
+        return r.yield.acceleration > 0.0 ? "not below 10 g" : "slides, even pushed back by 10 g";
+    };
+    return table_of<R>(
+        "Yield acceleration of the wedge",
+        {{{"motion", "ground motion"}, &R::motion},
+         {{"azimuth_deg", "drives towards", "°", 4},
+          [](const R& r) { return optional_cell(r.azimuth, units::degree); }},
+         {{"yield_acceleration_m_s2", "a_y", "m/s²", 6},
+          [=](const R& r) { return exists(r) ? Cell(r.yield.acceleration) : Cell(); }},
+         {{"yield_coefficient_g", "a_y", "g", 6},
+          [=](const R& r) { return exists(r) ? Cell(r.yield.acceleration / units::standard_gravity) : Cell(); }},
+         {{"mode", "slides on"}, mode},
+         {{"trend_deg", "towards", "°", 4},
+          [=](const R& r) { return exists(r) ? Cell(trend(r.yield.state.direction) / units::degree) : Cell(); }},
+         {{"plunge_deg", "plunge", "°", 4},
+          [=](const R& r) { return exists(r) ? Cell(plunge(r.yield.state.direction) / units::degree) : Cell(); }},
+         {{"slip_factor", "slip per excess", "–", 4},
+          [=](const R& r) { return exists(r) && r.azimuth ? Cell(r.yield.factor) : Cell(); }},
+         {{"yield_per_vertical", "a_y per a_v", "–", 4},
+          [=](const R& r) { return exists(r) && r.azimuth ? Cell(r.yield.law.per_a_v) : Cell(); }}},
+        wedge_yield_rows(wedge),
+        {"horizontal rows: the ground accelerates away from the azimuth, the inertia of the wedge points to it; "
+         "a_y per a_v: change of a_y with the ground acceleration upwards; negative a_y: slides without earthquake, "
+         "and would just stand pushed the other way by as much."});
 }
 
 Chart wedge_yield_chart(const RigidWedge& wedge, double largest_pga)

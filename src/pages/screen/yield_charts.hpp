@@ -6,10 +6,6 @@
 /// Yield acceleration over friction and water level (Goldgruber 2015, fig. 4-6).
 namespace damslip::pages {
 
-/// The scene whose uplift of model "seepage" is given as the profile that the screening has found, so that variants of it
-/// need no further solution. With a tailwater above the toe p over p_heel holds for the scene's own levels only.
-Scene with_solved_uplift(const Scene& scene, const Screening& s);
-
 /// Yield acceleration over friction for each uplift model the scene has the data for.
 Chart yield_over_friction(const Scene& scene, const Screening& s);
 
