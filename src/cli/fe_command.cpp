@@ -9,16 +9,23 @@
 
 namespace damslip::cli {
 
+using namespace pages;
+
 FeOptions fe_options(const FeArguments& arguments)
 {
     return {arguments.polarity, arguments.mesh_error, !arguments.out.empty(), arguments.modes};
 }
 
-void say_written(const std::filesystem::path& folder, const Streams& streams)
+void put_answer(const FeAnswer& answer, const FeArguments& arguments, const Scene& scene, const FieldSeries& fields,
+                const std::function<Page()>& page, const Streams& streams)
 {
-    if (folder.empty() || streams.quiet) return;
-    streams.talk << "written: " << (folder / "summary.json").string()
-                 << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n";
+    streams.out << (streams.form == Form::json ? answer.json.dump(2) + "\n" : answer.text);
+    if (arguments.out.empty()) return;
+    write_fe_files(arguments.out, scene, answer, fields, page());
+    if (streams.quiet) return;
+    streams.talk << "written: " << (arguments.out / "summary.json").string()
+                 << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n"
+                 << "report: " << (arguments.out / "report.html").string() << "\n";
 }
 
 int fe(const FeArguments& arguments, const Streams& streams)

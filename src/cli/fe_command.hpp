@@ -3,6 +3,9 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "cli/input/run_inputs.hpp"
 #include "cli/terminal/streams.hpp"
+#include "pages/fe/fe_output.hpp"
+
+#include <functional>
 
 namespace damslip::cli {
 
@@ -19,8 +22,10 @@ struct FeArguments {
 
 FeOptions fe_options(const FeArguments& arguments);
 
-/// The line that says where the files are; nothing for an empty folder.
-void say_written(const std::filesystem::path& folder, const Streams& streams);
+/// The answer on standard output, and in the folder, if there is one, beside what the runs left there.
+/// @param page  made where there is a folder
+void put_answer(const pages::FeAnswer& answer, const FeArguments& arguments, const Scene& scene,
+                const pages::FieldSeries& fields, const std::function<pages::Page()>& page, const Streams& streams);
 
 /// Staged finite-element run of every record of the scene, both polarities beside each other. @returns exit_no_answer when a run did not end properly; what was
 /// computed is written all the same.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 #include <string_view>
 #include <utility>
 
@@ -18,17 +19,6 @@ double without_round_off(double force, double scale)
     return std::abs(force) <= force_round_off * std::abs(scale) ? 0.0 : force;
 }
 
-Cell in_mm(double metres)
-{
-    return std::isfinite(metres) ? Cell(1e3 * metres) : Cell();
-}
-
-/// A slip of the run in mm, where its status has one.
-Cell slip_cell(const ContactRun& r, double metres)
-{
-    return in_mm(reported(r.fe.status, metres).value_or(std::numeric_limits<double>::quiet_NaN()));
-}
-
 double least(const std::vector<double>& normal_force)
 {
     return without_round_off(*std::min_element(normal_force.begin(), normal_force.end()), normal_force.front());
@@ -37,11 +27,6 @@ double least(const std::vector<double>& normal_force)
 double largest(const std::vector<double>& values)
 {
     return *std::max_element(values.begin(), values.end());
-}
-
-std::int64_t count(std::int64_t n)
-{
-    return n;
 }
 
 Table with_columns(const Table& from, std::initializer_list<std::string_view> keys)
@@ -59,22 +44,28 @@ Table with_columns(const Table& from, std::initializer_list<std::string_view> ke
     return t;
 }
 
-const Column record_column{"record", "record", "", 4};
-const Column polarity_column{"polarity", "polarity", "", 4};
+const ContactColumn record_column{{"record", "record"}, &ContactRun::record};
+const ContactColumn polarity_column{{"polarity", "polarity"}, &ContactRun::polarity};
 
 } // namespace
 
-const std::vector<EnergyTerm>& energy_terms()
+Cell slip_cell(const ContactRun& r, double metres)
+{
+    const std::optional<double> slip = reported(r.fe.status, metres);
+    return slip ? Cell(1e3 * *slip) : Cell();
+}
+
+const std::vector<ColumnOf<fe2d::Energy>>& energy_columns()
 {
     using E = fe2d::Energy;
-    static const std::vector<EnergyTerm> all{{{"kinetic_J_m", "kinetic", "J/m", 6}, &E::kinetic},
-                                             {{"strain_J_m", "strain", "J/m", 6}, &E::strain},
-                                             {{"damping_J_m", "damping", "J/m", 6}, &E::damping},
-                                             {{"numerical_J_m", "numerical", "J/m", 6}, &E::numerical},
-                                             {{"friction_J_m", "friction", "J/m", 6}, &E::friction},
-                                             {{"radiated_J_m", "radiated", "J/m", 6}, &E::radiated},
-                                             {{"external_J_m", "external", "J/m", 6}, &E::external},
-                                             {{"contact_normal_J_m", "contact normal", "J/m", 6}, &E::contact_normal}};
+    static const std::vector<ColumnOf<E>> all{{{"kinetic_J_m", "kinetic", "J/m", 6}, &E::kinetic},
+                                              {{"strain_J_m", "strain", "J/m", 6}, &E::strain},
+                                              {{"damping_J_m", "damping", "J/m", 6}, &E::damping},
+                                              {{"numerical_J_m", "numerical", "J/m", 6}, &E::numerical},
+                                              {{"friction_J_m", "friction", "J/m", 6}, &E::friction},
+                                              {{"radiated_J_m", "radiated", "J/m", 6}, &E::radiated},
+                                              {{"external_J_m", "external", "J/m", 6}, &E::external},
+                                              {{"contact_normal_J_m", "contact normal", "J/m", 6}, &E::contact_normal}};
     return all;
 }
 
@@ -97,102 +88,117 @@ fe2d::StageStatus lift_status(const fe2d::StageResult& s, const fe2d::PlaneBalan
     return s.status == fe2d::StageStatus::not_resolved ? s.status : lift.status;
 }
 
+std::string stage_word(fe2d::StageStatus status)
+{
+    switch (status) {
+    case fe2d::StageStatus::ok:
+        return "stands";
+    case fe2d::StageStatus::slides:
+        return "SLIDES";
+    case fe2d::StageStatus::floats:
+        return "FLOATS";
+    case fe2d::StageStatus::overturns:
+        return "OVERTURNS";
+    case fe2d::StageStatus::not_resolved:
+        return "NOT RESOLVED";
+    }
+    return "";
+}
+
+/// The base or a lift joint at the end of a stage.
+struct StageRow {
+    std::string record;
+    Cell polarity;
+    std::string stage;
+    fe2d::StageStatus end;
+    bool solved;
+    const fe2d::PlaneBalance& plane;
+};
+
+void add_stage(const std::string& record, const Cell& polarity, const fe2d::StageResult& s, std::vector<StageRow>& rows)
+{
+    const bool solved = s.status == fe2d::StageStatus::ok;
+    rows.push_back({record, polarity, s.name, s.base_fails || s.lifts.empty() ? s.status : base_status(s), solved, s});
+    for (const fe2d::PlaneBalance& lift : s.lifts)
+        rows.push_back({record, polarity, s.name + ", " + lift.plane, lift_status(s, lift), solved, lift});
+}
+
 } // namespace
 
 Table contact_stage_table(const std::vector<ContactRun>& runs)
 {
-    Table t;
-    t.title = "Static stages";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"stage", "stage", "", 4},
-                 {"status", "status", "", 4},
-                 {"normal_force_kN_m", "N'", "kN/m", 6},
-                 {"shear_force_kN_m", "T", "kN/m", 6},
-                 {"friction_needed", "critical μ", "–", 6},
-                 {"sliding_factor", "FS sliding", "–", 4},
-                 {"slip_mm", "mean slip so far", "mm", 4},
-                 {"open_length_m", "open", "m", 4},
-                 {"slipping_length_m", "slipping", "m", 4}};
-    const auto status = [](fe2d::StageStatus s) -> std::string {
-        switch (s) {
-        case fe2d::StageStatus::ok:
-            return "stands";
-        case fe2d::StageStatus::slides:
-            return "SLIDES";
-        case fe2d::StageStatus::floats:
-            return "FLOATS";
-        case fe2d::StageStatus::overturns:
-            return "OVERTURNS";
-        case fe2d::StageStatus::not_resolved:
-            return "NOT RESOLVED";
-        }
-        return "";
-    };
-    const double weight = runs.empty() ? 0.0 : first_normal_force(runs.front());
-    const auto row = [&](const std::string& record, const Cell& polarity, const std::string& stage,
-                         fe2d::StageStatus end, bool solved, const fe2d::PlaneBalance& b) {
-        const double normal = without_round_off(b.resultant.normal_force, weight);
-        const auto pressed = [&](double value) { return normal > 0.0 ? Cell(value) : Cell(); };
-        const auto found = [&](double value) { return solved ? Cell(value) : Cell(); };
-        t.rows.push_back({record, polarity, stage, status(end), normal / 1e3,
-                          without_round_off(b.resultant.shear_force, weight) / 1e3, pressed(b.critical_friction),
-                          pressed(b.sliding_factor), found(1e3 * b.slip), found(b.open_length),
-                          found(b.slipping_length)});
-    };
-    const auto add = [&](const std::string& record, const Cell& polarity, const fe2d::StageResult& s) {
-        const bool solved = s.status == fe2d::StageStatus::ok;
-        row(record, polarity, s.name, s.base_fails || s.lifts.empty() ? s.status : base_status(s), solved, s);
-        for (const fe2d::PlaneBalance& lift : s.lifts)
-            row(record, polarity, s.name + ", " + lift.plane, lift_status(s, lift), solved, lift);
-    };
+    using R = StageRow;
+    std::vector<R> rows;
     if (!runs.empty())
-        for (const fe2d::StageResult& s : runs.front().fe.stages) add("all", {}, s);
+        for (const fe2d::StageResult& s : runs.front().fe.stages) add_stage("all", {}, s, rows);
     for (const ContactRun& r : runs)
-        if (!r.fe.after.name.empty()) add(r.record, count(r.polarity), r.fe.after);
-    t.notes.push_back("after the earthquake: residual friction, ruptured curtain, ineffective drains; slip since the "
-                      "start of the stages.");
-    return t;
+        if (!r.fe.after.name.empty()) add_stage(r.record, r.polarity, r.fe.after, rows);
+    const double weight = runs.empty() ? 0.0 : first_normal_force(runs.front());
+    const auto normal = [=](const R& r) { return without_round_off(r.plane.resultant.normal_force, weight); };
+    const auto shear = [=](const R& r) { return without_round_off(r.plane.resultant.shear_force, weight); };
+    const auto if_pressed = [=](double fe2d::PlaneBalance::*value) {
+        return [=](const R& r) { return normal(r) > 0.0 ? Cell(r.plane.*value) : Cell(); };
+    };
+    const auto if_solved = [](double fe2d::PlaneBalance::*value) {
+        return [=](const R& r) { return r.solved ? Cell(r.plane.*value) : Cell(); };
+    };
+    using B = fe2d::PlaneBalance;
+    return table_of<R>(
+        "Static stages",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"stage", "stage"}, &R::stage},
+         {{"status", "status"}, [](const R& r) { return stage_word(r.end); }},
+         {{"normal_force_kN_m", "N'", "kN/m", 6}, [=](const R& r) { return normal(r) / 1e3; }},
+         {{"shear_force_kN_m", "T", "kN/m", 6}, [=](const R& r) { return shear(r) / 1e3; }},
+         {{"friction_needed", "critical μ", "–", 6}, if_pressed(&B::friction_needed)},
+         {{"sliding_factor", "FS sliding", "–", 4}, if_pressed(&B::sliding_factor)},
+         {{"slip_mm", "mean slip so far", "mm", 4},
+          [](const R& r) { return r.solved ? Cell(1e3 * r.plane.slip) : Cell(); }},
+         {{"open_length_m", "open", "m", 4}, if_solved(&B::open_length)},
+         {{"slipping_length_m", "slipping", "m", 4}, if_solved(&B::slipping_length)}},
+        rows,
+        {"after the earthquake: residual friction, ruptured curtain, ineffective drains; slip since the start of the "
+         "stages."});
+}
+
+std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable)
+{
+    using R = ContactRun;
+    const auto rigid_slip = [](const R& r) {
+        const std::optional<double> slip = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
+        return slip ? Cell(1e3 * *slip) : Cell();
+    };
+    return {
+        record_column,
+        polarity_column,
+        {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
+        {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+        {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
+        {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
+        {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
+        {{"error_parts", "error holds"}, [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
+        {{"max_slip_m", "largest slip on the way", "m", 5},
+         [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
+        {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
+        {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
+        {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
+        {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
+        {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
+        {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
+        {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
+        {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }}};
 }
 
 Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
-    Table t;
     const bool gives_way =
         std::any_of(runs.begin(), runs.end(), [](const ContactRun& r) { return r.exact.has_value(); });
-    t.title = gives_way ? "Earthquake runs" : "Earthquake runs, exact contact";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"status", "status", "", 4},
-                 {"slip_mm", "slip at end (mean of base)", "mm", 5},
-                 {"slip_error_mm", "± step", "mm", 2},
-                 {"mesh_error_mm", "± mesh", "mm", 2},
-                 {"total_error_mm", "± total", "mm", 2},
-                 {"error_parts", "error holds", "", 4},
-                 {"max_slip_m", "largest slip on the way", "m", 5},
-                 {"slip_rigid_mm", "rigid block at end", "mm", 5},
-                 {"verdict", "verdict", "", 4},
-                 {"steps", "steps", "", 4},
-                 {"dt_s", "step", "s", 4},
-                 {"unresolved", "unresolved", "", 4},
-                 {"residual", "residual", "–", 2},
-                 {"energy_error", "energy", "–", 2},
-                 {"seconds", "time", "s", 3}};
-    for (const ContactRun& r : runs) {
-        const auto& s = r.fe.seconds;
-        const SlipError error = slip_error(r);
-        const std::optional<double> rigid = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
-        const std::optional<double> most = reported(r.fe.status, r.fe.max_slip);
-        t.rows.push_back({r.record, count(r.polarity), word(r.fe.status), slip_cell(r, r.fe.slip),
-                          slip_cell(r, error.step), slip_cell(r, error.mesh), slip_cell(r, error.total),
-                          has_slip(r) ? Cell(error.parts()) : Cell(), most ? Cell(*most) : Cell(),
-                          rigid ? Cell(1e3 * *rigid) : Cell(), word(verdict_of(r, allowable)), count(r.fe.counts.steps),
-                          r.fe.dt, count(r.fe.counts.unresolved), r.fe.counts.largest_residual, r.fe.energy_error,
-                          s.statics + s.dynamics});
-    }
+    Table t = table_of(gives_way ? "Earthquake runs" : "Earthquake runs, exact contact", contact_run_columns(allowable),
+                       runs);
     t.notes.push_back(
-        "slip: area mean over the base since the static state, positive downstream; ± step: what the time "
-        "step leaves open (estimate); ± mesh: change against elements of twice the size.");
+        "slip: area mean over the base since the static state, positive downstream; ± step: what the time step leaves "
+        "open (estimate); ± mesh: change against elements of twice the size.");
     for (std::string& note : error_notes(runs)) t.notes.push_back(std::move(note));
     if (allowable)
         t.notes.push_back(
@@ -224,142 +230,143 @@ Table solution_part(const Table& run_table)
 
 Table contact_slip_table(const std::vector<ContactRun>& runs)
 {
-    Table t;
-    t.title = "Slip along the base and rocking";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"slip_mm", "slip at end (mean)", "mm", 5},
-                 {"slip_heel_mm", "heel", "mm", 5},
-                 {"slip_middle_mm", "middle", "mm", 5},
-                 {"slip_toe_mm", "toe", "mm", 5},
-                 {"largest_rocking_rad", "rocking", "rad", 3},
-                 {"largest_opening_mm", "opening", "mm", 3},
-                 {"largest_open_length_m", "open", "m", 4},
-                 {"smallest_normal_force_kN_m", "least N'", "kN/m", 4}};
-    for (const ContactRun& r : runs) {
-        const fe2d::RunHistory& h = r.fe.history;
-        if (h.time.empty()) continue;
-        const double rocking = *std::max_element(h.rocking.begin(), h.rocking.end(),
-                                                 [](double a, double b) { return std::abs(a) < std::abs(b); });
-        t.rows.push_back({r.record, count(r.polarity), slip_cell(r, r.fe.slip), slip_cell(r, h.slip_heel.back()),
-                          slip_cell(r, h.slip_middle.back()), slip_cell(r, h.slip_toe.back()), rocking,
-                          1e3 * largest(h.largest_opening), largest(h.open_length), 1e-3 * least(h.normal_force)});
-    }
-    t.notes.push_back("slips at the end; rocking, opening and open length: largest on the way, rocking positive where "
-                      "the heel opens; N' effective, compression positive.");
-    return t;
+    using R = ContactRun;
+    const auto last_of = [](std::vector<double> fe2d::RunHistory::*slips) {
+        return [=](const R& r) { return slip_cell(r, (r.fe.history.*slips).back()); };
+    };
+    const auto rocking = [](const R& r) {
+        const std::vector<double>& all = r.fe.history.rocking;
+        return *std::max_element(all.begin(), all.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    };
+    using H = fe2d::RunHistory;
+    return table_of<R>(
+        "Slip along the base and rocking",
+        {record_column,
+         polarity_column,
+         {{"slip_mm", "slip at end (mean)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+         {{"slip_heel_mm", "heel", "mm", 5}, last_of(&H::slip_heel)},
+         {{"slip_middle_mm", "middle", "mm", 5}, last_of(&H::slip_middle)},
+         {{"slip_toe_mm", "toe", "mm", 5}, last_of(&H::slip_toe)},
+         {{"largest_rocking_rad", "rocking", "rad", 3}, rocking},
+         {{"largest_opening_mm", "opening", "mm", 3},
+          [](const R& r) { return 1e3 * largest(r.fe.history.largest_opening); }},
+         {{"largest_open_length_m", "open", "m", 4}, [](const R& r) { return largest(r.fe.history.open_length); }},
+         {{"smallest_normal_force_kN_m", "least N'", "kN/m", 4},
+          [](const R& r) { return 1e-3 * least(r.fe.history.normal_force); }}},
+        runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
+        {"slips at the end; rocking, opening and open length: largest on the way, rocking positive where the heel "
+         "opens; "
+         "N' effective, compression positive."});
 }
 
 Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
-    Table t;
-    t.title = "Lift joints";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"plane", "plane", "", 4},
-                 {"name", "name", "", 4},
-                 {"slip_mm", "slip at end (mean)", "mm", 5},
-                 {"slip_error_mm", "± step", "mm", 2},
-                 {"mesh_error_mm", "± mesh", "mm", 2},
-                 {"total_error_mm", "± total", "mm", 2},
-                 {"largest_slip_mm", "largest slip on the way", "mm", 5},
-                 {"verdict", "verdict", "", 4},
-                 {"largest_rocking_rad", "rocking", "rad", 3},
-                 {"largest_opening_mm", "opening", "mm", 3},
-                 {"smallest_normal_force_kN_m", "least N'", "kN/m", 4}};
+    struct Row {
+        const ContactRun& run;
+        std::size_t number;
+        const fe2d::LiftResult& lift;
+        SlipError error;
+    };
+    std::vector<Row> rows;
     for (const ContactRun& r : runs)
-        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) {
-            const fe2d::LiftResult& lift = r.fe.lifts[k];
-            const SlipError error = lift_error(r, k);
-            t.rows.push_back({r.record, count(r.polarity), lift.plane, lift.name, slip_cell(r, lift.slip),
-                              slip_cell(r, error.step), slip_cell(r, error.mesh), slip_cell(r, error.total),
-                              slip_cell(r, lift.largest_slip),
-                              word(judge(r.fe.status, lift.largest_slip, error.total, allowable)), lift.largest_rocking,
-                              1e3 * lift.largest_opening, 1e-3 * least(r.fe.history.lifts[k].normal_force)});
-        }
-    t.notes.push_back("of what stands above the joint against what is below; area mean since the static state, "
-                      "positive downstream; rocking and opening: largest on the way.");
-    return t;
+        for (std::size_t k = 0; k < r.fe.lifts.size(); ++k) rows.push_back({r, k, r.fe.lifts[k], lift_error(r, k)});
+    const auto verdict = [&](const Row& r) {
+        return word(judge(r.run.fe.status, r.lift.largest_slip, r.error.total, allowable));
+    };
+    return table_of<Row>(
+        "Lift joints",
+        {{{"record", "record"}, [](const Row& r) { return r.run.record; }},
+         {{"polarity", "polarity"}, [](const Row& r) { return r.run.polarity; }},
+         {{"plane", "plane"}, [](const Row& r) { return r.lift.plane; }},
+         {{"name", "name"}, [](const Row& r) { return r.lift.name; }},
+         {{"slip_mm", "slip at end (mean)", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.lift.slip); }},
+         {{"slip_error_mm", "± step", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.step); }},
+         {{"mesh_error_mm", "± mesh", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.mesh); }},
+         {{"total_error_mm", "± total", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.error.total); }},
+         {{"largest_slip_mm", "largest slip on the way", "mm", 5},
+          [](const Row& r) { return slip_cell(r.run, r.lift.largest_slip); }},
+         {{"verdict", "verdict"}, verdict},
+         {{"largest_rocking_rad", "rocking", "rad", 3}, [](const Row& r) { return r.lift.largest_rocking; }},
+         {{"largest_opening_mm", "opening", "mm", 3}, [](const Row& r) { return 1e3 * r.lift.largest_opening; }},
+         {{"smallest_normal_force_kN_m", "least N'", "kN/m", 4},
+          [](const Row& r) { return 1e-3 * least(r.run.fe.history.lifts[r.number].normal_force); }}},
+        rows,
+        {"of what stands above the joint against what is below; area mean since the static state, positive downstream; "
+         "rocking and opening: largest on the way."});
 }
 
 Table contact_count_table(const std::vector<ContactRun>& runs)
 {
-    Table t;
-    t.title = "Steps by how the contact was solved";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"steps", "steps", "", 4},
-                 {"sub_steps", "sub-steps", "", 4},
-                 {"newton", "Newton", "", 4},
-                 {"worst_violator", "worst violator", "", 4},
-                 {"gauss_seidel", "Gauss-Seidel", "", 4},
-                 {"lemke", "Lemke", "", 4},
-                 {"unresolved", "unresolved", "", 4},
-                 {"halved", "halved", "", 4},
-                 {"residual", "residual", "–", 2},
-                 {"iterations", "iterations", "", 4},
-                 {"largest_iterations", "largest", "", 4},
-                 {"factorisations", "factorisations", "", 4},
-                 {"bytes", "bytes", "", 4}};
-    for (const ContactRun& r : runs) {
-        const fe2d::DynamicCounts& c = r.fe.counts;
-        const auto path = [&](fe2d::ContactPath p) { return count(c.by_path[static_cast<int>(p)]); };
-        t.rows.push_back({r.record, count(r.polarity), count(c.steps), std::int64_t{1} << r.fe.halvings,
-                          path(fe2d::ContactPath::newton), path(fe2d::ContactPath::worst_violator),
-                          path(fe2d::ContactPath::gauss_seidel), path(fe2d::ContactPath::lemke), count(c.unresolved),
-                          count(c.halved), c.largest_residual, count(c.contact_iterations), count(c.largest_iterations),
-                          count(c.factorisations), static_cast<std::int64_t>(r.fe.bytes)});
-    }
-    t.notes.push_back(
-        "of the pass that is reported; sub-steps: by step of the record; halved: steps made in two halves "
-        "because they were not resolved whole; iterations: linear solutions of the contact problem.");
-    return t;
+    using R = ContactRun;
+    const auto steps_by = [](fe2d::ContactPath path) {
+        return [=](const R& r) { return r.fe.counts.by_path[static_cast<int>(path)]; };
+    };
+    const auto counted = [](int fe2d::DynamicCounts::*number) {
+        return [=](const R& r) { return r.fe.counts.*number; };
+    };
+    using C = fe2d::DynamicCounts;
+    return table_of<R>("Steps by how the contact was solved",
+                       {record_column,
+                        polarity_column,
+                        {{"steps", "steps"}, counted(&C::steps)},
+                        {{"sub_steps", "sub-steps"}, [](const R& r) { return std::int64_t{1} << r.fe.halvings; }},
+                        {{"newton", "Newton"}, steps_by(fe2d::ContactPath::newton)},
+                        {{"worst_violator", "worst violator"}, steps_by(fe2d::ContactPath::worst_violator)},
+                        {{"gauss_seidel", "Gauss-Seidel"}, steps_by(fe2d::ContactPath::gauss_seidel)},
+                        {{"lemke", "Lemke"}, steps_by(fe2d::ContactPath::lemke)},
+                        {{"unresolved", "unresolved"}, counted(&C::unresolved)},
+                        {{"halved", "halved"}, counted(&C::halved)},
+                        {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
+                        {{"iterations", "iterations"}, counted(&C::contact_iterations)},
+                        {{"largest_iterations", "largest"}, counted(&C::largest_iterations)},
+                        {{"factorisations", "factorisations"}, counted(&C::factorisations)},
+                        {{"bytes", "bytes"}, [](const R& r) { return count_cell(r.fe.bytes); }}},
+                       runs,
+                       {"of the pass that is reported; sub-steps: by step of the record; halved: steps made in two "
+                        "halves because they "
+                        "were not resolved whole; iterations: linear solutions of the contact problem."});
 }
 
 Table contact_energy_table(const std::vector<ContactRun>& runs)
 {
-    Table t;
-    t.title = "Energy at the end";
-    t.columns = {record_column, polarity_column};
-    for (const EnergyTerm& term : energy_terms()) t.columns.push_back(term.column);
-    t.columns.push_back({"imbalance_J_m", "imbalance", "J/m", 3});
-    t.columns.push_back({"imbalance_share", "of the largest", "–", 2});
-    for (const ContactRun& r : runs) {
-        if (r.fe.history.energy.empty()) continue;
-        std::vector<Cell>& row = t.rows.emplace_back(std::vector<Cell>{r.record, count(r.polarity)});
-        for (const EnergyTerm& term : energy_terms()) row.emplace_back(r.fe.history.energy.back().*term.value);
-        row.emplace_back(r.fe.history.imbalance.back());
-        row.emplace_back(r.fe.energy_error);
-    }
-    t.notes.push_back(
-        "kinetic + strain + damping + numerical + friction + radiated = external + contact normal, since the "
-        "static state; what is left is the imbalance.");
-    return t;
+    using R = ContactRun;
+    std::vector<ContactColumn> columns{record_column, polarity_column};
+    for (const auto& [column, value] : energy_columns())
+        columns.push_back({column, [value](const R& r) { return value(r.fe.history.energy.back()); }});
+    columns.push_back(
+        {{"imbalance_J_m", "imbalance", "J/m", 3}, [](const R& r) { return r.fe.history.imbalance.back(); }});
+    columns.push_back({{"imbalance_share", "of the largest", "–", 2}, [](const R& r) { return r.fe.energy_error; }});
+    return table_of("Energy at the end", columns,
+                    runs | std::views::filter([](const R& r) { return !r.fe.history.energy.empty(); }),
+                    {"kinetic + strain + damping + numerical + friction + radiated = external + contact normal, since "
+                     "the static state; what is left is the imbalance."});
 }
 
 Table contact_law_table(const std::vector<ContactRun>& runs)
 {
-    Table t;
-    t.title = "Error of the contact law";
-    t.columns = {record_column,
-                 polarity_column,
-                 {"slip_mm", "slip", "mm", 5},
-                 {"slip_exact_mm", "slip, exact", "mm", 5},
-                 {"status_exact", "exact run", "", 4},
-                 {"law_error_mm", "error", "mm", 3},
-                 {"law_error_percent", "error", "%", 3}};
-    for (const ContactRun& r : runs) {
-        if (!r.exact) continue;
-        const std::optional<double> own = reported(r.fe.status, r.fe.slip),
-                                    exact = reported(r.exact->status, r.exact->slip);
-        const std::optional<double> error = own && exact ? std::optional(*own - *exact) : std::nullopt;
-        t.rows.push_back({r.record, count(r.polarity), slip_cell(r, r.fe.slip), exact ? Cell(1e3 * *exact) : Cell(),
-                          word(r.exact->status), error ? Cell(1e3 * *error) : Cell(),
-                          error && *exact != 0.0 ? Cell(100.0 * *error / std::abs(*exact)) : Cell()});
-    }
-    t.notes.push_back("slip without its elastic part; exact: the same run, but pairs that stick do not give way and "
-                      "the joint is hard across.");
-    return t;
+    using R = ContactRun;
+    const auto exact_slip = [](const R& r) { return reported(r.exact->status, r.exact->slip); };
+    const auto error = [=](const R& r) {
+        const std::optional<double> own = reported(r.fe.status, r.fe.slip), exact = exact_slip(r);
+        return own && exact ? std::optional(*own - *exact) : std::nullopt;
+    };
+    const auto in_mm = [](const std::optional<double>& metres) { return metres ? Cell(1e3 * *metres) : Cell(); };
+    const auto error_share = [=](const R& r) {
+        const std::optional<double> e = error(r);
+        return e && *exact_slip(r) != 0.0 ? Cell(100.0 * *e / std::abs(*exact_slip(r))) : Cell();
+    };
+    return table_of<R>("Error of the contact law",
+                       {record_column,
+                        polarity_column,
+                        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+                        {{"slip_exact_mm", "slip, exact", "mm", 5}, [=](const R& r) { return in_mm(exact_slip(r)); }},
+                        {{"status_exact", "exact run"}, [](const R& r) { return word(r.exact->status); }},
+                        {{"law_error_mm", "error", "mm", 3}, [=](const R& r) { return in_mm(error(r)); }},
+                        {{"law_error_percent", "error", "%", 3}, error_share}},
+                       runs | std::views::filter([](const R& r) { return r.exact.has_value(); }),
+                       {"slip without its elastic part; exact: the same run, but pairs that stick do not give way and "
+                        "the joint is hard "
+                        "across."});
 }
 
 } // namespace damslip::pages

@@ -3,7 +3,6 @@
 #include "analysis/fe/contact_run.hpp"
 #include "core/table.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,13 +10,15 @@
 /// Results of FE contact runs as tables.
 namespace damslip::pages {
 
-/// One of the terms of the energy.
-struct EnergyTerm {
-    Column column;
-    double fe2d::Energy::*value;
-};
-/// All of them, as tables and files have them.
-const std::vector<EnergyTerm>& energy_terms();
+/// A slip of the run [mm]; nothing where its status has none.
+Cell slip_cell(const ContactRun& run, double metres);
+
+/// The terms of the energy, as tables and files have them.
+const std::vector<ColumnOf<fe2d::Energy>>& energy_columns();
+
+/// Columns of contact_run_table(); runs on few modes share them.
+using ContactColumn = ColumnOf<ContactRun>;
+std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable);
 
 // One row per run (or stage).
 Table contact_stage_table(const std::vector<ContactRun>& runs);

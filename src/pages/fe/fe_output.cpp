@@ -3,13 +3,16 @@
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "fe2d/statics/stress.hpp"
+#include "pages/report/page_html.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/report_provenance.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 namespace damslip::pages {
 
@@ -36,17 +39,16 @@ Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water)
                     .elements = water->reservoir.mesh.element_count(),
                     .unknowns = water->unknowns(),
                     .nonzeros = water->mass.nonZeros() + water->damping.nonZeros() + water->stiffness.nonZeros()});
-    Table t;
-    t.title = "Model";
-    t.columns = {{"effect", "effect", "", 4},
-                 {"elements", "elements", "", 4},
-                 {"unknowns", "unknowns", "", 4},
-                 {"nonzeros", "non-zeros", "", 4},
-                 {"bytes", "bytes", "", 4}};
-    for (const fe2d::EffectCount& e : counts.effects)
-        t.rows.push_back({e.effect, e.elements, e.unknowns, e.nonzeros, e.bytes});
-    t.rows.push_back({std::string("sum"), counts.elements, counts.unknowns, counts.nonzeros, counts.bytes});
-    return t;
+    using E = fe2d::EffectCount;
+    std::vector<E> rows = counts.effects;
+    rows.push_back({"sum", counts.elements, counts.unknowns, counts.nonzeros, counts.bytes});
+    return table_of<E>("Model",
+                       {{{"effect", "effect"}, &E::effect},
+                        {{"elements", "elements"}, &E::elements},
+                        {{"unknowns", "unknowns"}, &E::unknowns},
+                        {{"nonzeros", "non-zeros"}, &E::nonzeros},
+                        {{"bytes", "bytes"}, &E::bytes}},
+                       rows);
 }
 
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns)
@@ -63,6 +65,9 @@ Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::Vector
     return node_vectors(model.dofs, displacement).col(model.mesh.crest.back());
 }
 
+namespace {
+
+/// The worst run by record and polarity, with its status, slip, error and verdict; null without runs.
 nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
 {
     if (runs.empty()) return nullptr;
@@ -79,9 +84,38 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
             {"verdict", word(verdict_of(worst, allowable))}};
 }
 
-std::string headline_text(const Headline& headline)
+} // namespace
+
+FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
-    return headline.sentence + "\n" + headline.verdict + "\n";
+    const Table counts = count_table(frame.model.counts, frame.water);
+    FeAnswer answer{json_header("fe", frame.scene), frame.scene.title + "\n\n" + text(counts)};
+    answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
+    if (kind == FeKind::reduced) answer.json["reduced"] = true;
+    answer.json["effects"] = json_of(effect_table(frame.plan));
+    answer.json["model"] = json_of(counts);
+    return answer;
+}
+
+void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
+                 FeAnswer& answer)
+{
+    answer.json["headline"] = headline.sentence;
+    answer.json["verdict"] = word(verdict_of(runs, allowable));
+    answer.json["worst"] = worst_json(runs, allowable);
+}
+
+void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer)
+{
+    answer.json["messages"] = messages;
+    for (const std::string& message : messages) answer.text += "note: " + message + "\n";
+}
+
+std::string texts(const std::vector<Table>& tables)
+{
+    std::string all;
+    for (const Table& table : tables) all += (all.empty() ? "" : "\n") + text(table);
+    return all;
 }
 
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,
@@ -103,13 +137,13 @@ void FieldSeries::write_collection() const
     if (!folder_.empty() && !entries_.empty()) fe2d::write_pvd(folder_ / "fields.pvd", entries_);
 }
 
-void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json,
-                   const FieldSeries& fields)
+void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const FeAnswer& answer,
+                    const FieldSeries& fields, const Page& page)
 {
-    if (folder.empty()) return;
     fields.write_collection();
-    write_file(folder / "summary.json", summary_json);
+    write_file(folder / "summary.json", answer.json.dump(2) + "\n");
     write_file(folder / "scene.resolved.toml", resolved_toml(scene));
+    write_file(folder / "report.html", page_html(page));
 }
 
 } // namespace damslip::pages

@@ -1,18 +1,16 @@
 #pragma once
 
-#include "fe2d/fluid/fluid_model.hpp"
-#include "fe2d/model/model.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_page.hpp"
 #include "pages/report/json_object.hpp"
-#include "pages/report/page.hpp"
-#include "scene/scene.hpp"
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
+/// What all kinds of FE runs write: counts, the frame of the answer, fields for ParaView.
 namespace damslip::pages {
 
-/// What both kinds of FE runs write: fields for ParaView, counts, crest motion.
 /// @param water  acoustic, a row of its own; null: none
 Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water = nullptr);
 
@@ -22,11 +20,26 @@ Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::Vector
 /// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
 
-/// The worst run by record and polarity, with its status, slip, error and verdict; null without runs.
-nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+enum class FeKind { contact, reduced, tied };
 
-/// Sentence and verdict for a terminal.
-std::string headline_text(const Headline& headline);
+/// The answer of `fe`: one object for --json and summary.json, and text for a terminal.
+struct FeAnswer {
+    nlohmann::ordered_json json;
+    std::string text;
+};
+
+/// Scene, base, effects and counts of the model.
+FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame);
+
+/// Headline, verdict and worst run, in the object.
+void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
+                 FeAnswer& answer);
+
+/// Messages last; in the text as notes.
+void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
+
+/// Tables for a terminal, an empty line between them.
+std::string texts(const std::vector<Table>& tables);
 
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {
@@ -45,8 +58,8 @@ private:
     std::vector<fe2d::PvdEntry> entries_;
 };
 
-/// summary.json, fields.pvd and the resolved scene, and a line that says so; nothing for an empty folder.
-void finish_output(const std::filesystem::path& folder, const Scene& scene, const std::string& summary_json,
-                   const FieldSeries& fields);
+/// summary.json, fields.pvd, the resolved scene and report.html.
+void write_fe_files(const std::filesystem::path& folder, const Scene& scene, const FeAnswer& answer,
+                    const FieldSeries& fields, const Page& page);
 
 } // namespace damslip::pages

@@ -4,7 +4,8 @@
 #include "pages/fe/base_charts.hpp"
 #include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_page.hpp"
-#include "pages/scene/open_records.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "scene/exact_contact.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -161,6 +162,11 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     return list;
 }
 
+std::string headline_text(const Headline& headline)
+{
+    return headline.sentence + "\n" + headline.verdict + "\n";
+}
+
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
@@ -206,19 +212,23 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     }
 }
 
-Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
-                    const std::vector<std::string>& messages) const
+FePageFrame contact_frame(const FeReport::Input& in)
 {
-    const FePageFrame frame{in_.scene,
-                            in_.plan,
-                            in_.records,
-                            in_.model.model(),
-                            in_.model.water() ? &in_.model.water()->water : nullptr,
-                            in_.uplift,
-                            "finite elements with contact",
-                            fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for "
-                                        "comparison with events located exactly",
-                                        in_.model.model().dofs.count, in_.model.structure().pairs())};
+    return {in.scene,
+            in.plan,
+            in.records,
+            in.model.model(),
+            in.model.water() ? &in.model.water()->water : nullptr,
+            in.uplift,
+            "finite elements with contact",
+            fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs; rigid block for comparison with "
+                        "events located exactly",
+                        in.model.model().dofs.count, in.model.structure().pairs())};
+}
+
+Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages) const
+{
+    const FePageFrame frame = contact_frame(in_);
     Page page = begin_fe_page(frame);
     page.headline = fe_headline(in_.scene, runs);
     page.key_figures = fe_key_figures(in_.scene, runs);
@@ -240,7 +250,9 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<Table
     }
     for (const Section& section : sections_) page.sections.push_back(section);
     std::vector<Table> how{without_seconds(solution_part(table))};
-    how.insert(how.end(), tables.begin(), tables.end());
+    if (with_exact_contact(in_.scene)) how.push_back(contact_law_table(runs));
+    how.push_back(contact_energy_table(runs));
+    how.push_back(contact_count_table(runs));
     end_fe_page(frame, motions_, how, page);
     return page;
 }

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "analysis/prepare/rigid_model.hpp"
-#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_output.hpp"
 #include "pages/fe/mesh_drawing.hpp"
-#include "pages/report/page.hpp"
-#include "scene/effect_plan.hpp"
 
 /// An FE contact run as the report that is handed in.
 namespace damslip::pages {
@@ -14,6 +12,9 @@ namespace damslip::pages {
 /// a run, or the state after it, without an answer, or an allowable slip within the error.
 /// @param step  what the step's part of the error holds
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step = "step");
+
+/// Sentence and verdict for a terminal.
+std::string headline_text(const Headline& headline);
 
 /// Slips, friction, opening of the worst run: for the top of the page.
 std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,
@@ -36,10 +37,8 @@ public:
     /// @param run  with the history of its pairs @param motion  it ran with
     void add(const ContactRun& run, const GroundMotion& motion);
 
-    /// @param runs  all of them, in the order of add() @param tables  further ones on how the runs went
-    /// @param messages  shown as warnings
-    Page page(const std::vector<ContactRun>& runs, const std::vector<Table>& tables,
-              const std::vector<std::string>& messages) const;
+    /// @param runs  all of them, in the order of add() @param messages  shown as warnings
+    Page page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages) const;
 
 private:
     Input in_;
@@ -48,5 +47,22 @@ private:
     std::vector<Section> sections_;
     std::vector<GroundMotion> motions_;
 };
+
+/// What the page, and the answer, of contact runs begin from.
+FePageFrame contact_frame(const FeReport::Input& input);
+
+/// What has to be said of scene and runs beside the tables.
+/// @param of_rock  warnings on the rock
+std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
+                                          const std::vector<std::string>& of_rock);
+
+/// All runs of one call as the answer of `fe`.
+FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,
+                        const std::vector<std::string>& messages);
+
+/// What is kept of one run beside its figures: its tables as CSV files, and fields at the end.
+/// @param folder  empty: no files
+void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input& input, const ContactRun& run,
+                      FieldSeries& fields);
 
 } // namespace damslip::pages

@@ -1,19 +1,97 @@
 #include "pages/fe/reduced_report.hpp"
 
+#include "core/file.hpp"
+#include "core/version.hpp"
 #include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_page.hpp"
 #include "pages/fe/fe_report.hpp"
-#include "pages/scene/open_records.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 
 namespace damslip::pages {
 
-Page reduced_page(const ReducedReportInput& in)
+namespace {
+
+/// With the part of the modes, which the step's holds in a reduced run.
+std::string error_words(const SlipError& error)
+{
+    const std::string words = error.parts();
+    return words.starts_with("step") ? "modes, " + words : words;
+}
+
+Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<double>& allowable)
+{
+    struct Row {
+        const fe2d::ReducedResult& reduced;
+        ContactRun run; ///< in the form of a full one
+    };
+    std::vector<Row> rows;
+    for (const ReducedRecord& r : runs) rows.push_back({r.result, as_contact_run(r)});
+    const auto shared = [full = contact_run_columns(allowable)](std::string_view key) {
+        const auto at =
+            std::find_if(full.begin(), full.end(), [=](const ContactColumn& c) { return c.column.key == key; });
+        return ColumnOf<Row>{at->column, [value = at->value](const Row& r) { return value(r.run); }};
+    };
+    const auto error_parts = [](const Row& r) {
+        return reported(r.run.fe.status, r.run.fe.slip) ? Cell(error_words(slip_error(r.run))) : Cell();
+    };
+    Table t = table_of<Row>(
+        "Earthquake runs, reduced, exact contact",
+        {shared("record"),
+         shared("polarity"),
+         shared("status"),
+         shared("slip_mm"),
+         {{"truncation_error_mm", "± modes", "mm", 2},
+          [](const Row& r) { return slip_cell(r.run, r.reduced.truncation_error); }},
+         {{"slip_error_mm", "± step", "mm", 2}, [](const Row& r) { return slip_cell(r.run, r.reduced.step_error); }},
+         shared("mesh_error_mm"),
+         shared("total_error_mm"),
+         {{"error_parts", "error holds"}, error_parts},
+         shared("max_slip_m"),
+         shared("verdict"),
+         {{"modes", "modes"}, [](const Row& r) { return r.reduced.modes; }},
+         {{"highest_frequency_Hz", "up to", "Hz", 4}, [](const Row& r) { return r.reduced.highest_frequency; }},
+         shared("steps"),
+         shared("dt_s"),
+         shared("unresolved"),
+         shared("seconds")},
+        rows);
+    t.notes.push_back(
+        "slip: area mean over the base since the static state, positive downstream; ± modes: what the elastic modes "
+        "left "
+        "out change (estimate), ± step: what the time step leaves open; ± mesh: change against elements of twice the "
+        "size.");
+    for (std::string& note : error_notes(as_contact_runs(runs))) t.notes.push_back(std::move(note));
+    t.notes.push_back("polarity -1: the record's horizontal component is flipped.");
+    t.notes.push_back("time without the shared set-up of model and modes.");
+    return t;
+}
+
+Table history_table(const fe2d::ReducedHistory& h)
+{
+    const auto of = [](const std::vector<double>& values) {
+        return [&values](std::size_t row) { return values[row]; };
+    };
+    return table_of<std::size_t>("",
+                                 {{{"time_s", "time", "s", 6}, of(h.time)},
+                                  {{"slip_m", "slip", "m", 6}, of(h.slip)},
+                                  {{"crest_x_m", "crest x", "m", 6}, of(h.crest_x)},
+                                  {{"normal_force_N_m", "N'", "N/m", 6}, of(h.normal_force)},
+                                  {{"shear_force_N_m", "T", "N/m", 6}, of(h.shear_force)}},
+                                 std::views::iota(std::size_t{0}, h.time.size()));
+}
+
+FePageFrame reduced_frame(const ReducedReportInput& in)
 {
     const int modes = in.runs.empty() ? 0 : in.runs.front().result.modes;
-    const FePageFrame frame{
+    return {
         in.scene,
         in.plan,
         in.records,
@@ -21,10 +99,52 @@ Page reduced_page(const ReducedReportInput& in)
         nullptr,
         in.uplift,
         fmt::format("finite elements with contact on {} elastic modes of the dam", modes),
-        fmt::format(
-            "plane-strain finite elements, {} unknowns, {} contact pairs, of the dam's modes {} elastic ones and "
-            "the rigid ones; static stages by the full model; rigid block for comparison",
-            in.full.model().dofs.count, in.full.structure().pairs(), modes)};
+        fmt::format("plane-strain finite elements, {} unknowns, {} contact pairs, of the dam's modes {} elastic ones "
+                    "and the rigid ones; static stages by the full model; rigid block for comparison",
+                    in.full.model().dofs.count, in.full.structure().pairs(), modes)};
+}
+
+/// What the step's part of the error holds.
+constexpr const char* error_source = "step and modes";
+
+} // namespace
+
+void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run)
+{
+    const ContactRun as_full = as_contact_run(run);
+    write_file(folder / ("history_" + file_word(run.record) + as_full.suffix() + ".csv"),
+               csv(history_table(run.result.history),
+                   {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                    "record " + as_full.label(), "status " + word(run.result.status)}));
+}
+
+std::vector<std::string> reduced_messages(const Scene& scene, const std::vector<ReducedRecord>& runs)
+{
+    std::vector<std::string> messages = note_texts(scene.notes);
+    for (const ContactRun& run : as_contact_runs(runs))
+        if (run.fe.status != Status::at_rest) messages.push_back(run.label() + ": " + run.fe.message);
+    return messages;
+}
+
+FeAnswer reduced_answer(const ReducedReportInput& in)
+{
+    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
+    const std::vector<ContactRun> runs = as_contact_runs(in.runs);
+    const Headline headline = fe_headline(in.scene, runs, error_source);
+    const Table stages = contact_stage_table(runs), table = reduced_table(in.runs, allowable);
+    FeAnswer answer = begin_fe_answer(FeKind::reduced, reduced_frame(in));
+    answer.json["contact_pairs"] = in.full.structure().plane().pairs();
+    add_verdict(headline, runs, allowable, answer);
+    answer.json["stages"] = json_of(stages);
+    answer.json["runs"] = json_of(table);
+    answer.text += texts({stages, table}) + "\n" + headline_text(headline);
+    end_fe_answer(in.messages, answer);
+    return answer;
+}
+
+Page reduced_page(const ReducedReportInput& in)
+{
+    const FePageFrame frame = reduced_frame(in);
     Page page = begin_fe_page(frame);
     page.warnings.insert(page.warnings.begin(), in.messages.begin(), in.messages.end());
     std::vector<ContactRun> runs;
@@ -45,14 +165,15 @@ Page reduced_page(const ReducedReportInput& in)
             for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
         sections.push_back(std::move(section));
     }
-    page.headline = fe_headline(in.scene, runs, "step and modes");
+    page.headline = fe_headline(in.scene, runs, error_source);
     page.key_figures = fe_key_figures(in.scene, runs);
     std::erase_if(page.key_figures,
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept
-    page.key_figures.emplace_back("Elastic modes", fmt::format("{}", modes));
-    page.sections.push_back({"Slip", {TablePart{without_seconds(in.table), Layout::rows, 1, Fold::open}}, Fold::open});
-    page.sections.push_back(
-        {"Static stages", {TablePart{contact_stage_table(runs), Layout::rows, 1, Fold::open}}, Fold::open});
+    page.key_figures.emplace_back("Elastic modes",
+                                  fmt::format("{}", in.runs.empty() ? 0 : in.runs.front().result.modes));
+    const Table table = reduced_table(in.runs, in.scene.criteria.allowable_slip);
+    page.sections.push_back({"Slip", {rows_part(without_seconds(table))}, Fold::open});
+    page.sections.push_back({"Static stages", {rows_part(contact_stage_table(runs))}, Fold::open});
     for (Section& section : sections) page.sections.push_back(std::move(section));
     end_fe_page(frame, motions, {}, page);
     return page;

@@ -1,7 +1,12 @@
 #include "pages/fe/tied_report.hpp"
 
+#include "core/file.hpp"
 #include "core/units.hpp"
-#include "pages/scene/open_records.hpp"
+#include "core/version.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/record_charts.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,14 +100,106 @@ Headline headline(const std::vector<TiedRun>& runs)
         Outcome::none, "A bonded base has no slip to judge."};
 }
 
+Table stage_table(const fe2d::Model& model, const fe2d::StaticSolution& statics)
+{
+    struct Row {
+        const fe2d::StaticStage& stage;
+        Eigen::Vector2d crest; ///< [m]
+    };
+    std::vector<Row> rows;
+    for (const fe2d::StaticStage& s : statics.stages) rows.push_back({s, crest_displacement(model, s.displacement)});
+    return table_of<Row>(
+        "Static stages",
+        {{{"stage", "stage"}, [](const Row& r) { return r.stage.name; }},
+         {{"force_x_kN_m", "sum Fx", "kN/m", 6}, [](const Row& r) { return r.stage.resultant.x() / 1e3; }},
+         {{"force_y_kN_m", "sum Fy", "kN/m", 6}, [](const Row& r) { return r.stage.resultant.y() / 1e3; }},
+         {{"crest_x_mm", "crest x", "mm", 5}, [](const Row& r) { return 1e3 * r.crest.x(); }},
+         {{"crest_y_mm", "crest y", "mm", 5}, [](const Row& r) { return 1e3 * r.crest.y(); }}},
+        rows, {"forces: x downstream, y up; crest: its upstream end, relative to the zero state of stages.geostatic."});
+}
+
+/// Energy that left through the boundaries of water and rock over the largest energy of the run; empty where there are none.
+Cell radiated_share(const fe2d::History& history)
+{
+    if (history.rows.empty() || history.energy_scale == 0.0) return {};
+    const double radiated = history.rows.back().energy.radiated;
+    if (history.peak_water_force == 0.0 && radiated == 0.0) return {};
+    return radiated / history.energy_scale;
+}
+
+Table run_table(const std::vector<TiedRun>& runs)
+{
+    using R = TiedRun;
+    const auto status = [](const R& r) {
+        return r.history.status == fe2d::TiedRunStatus::complete ? std::string("complete") : r.history.status_text;
+    };
+    return table_of<R>(
+        "Earthquake runs, tied base",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"status", "status"}, status},
+         {{"method", "method"}, [](const R& r) { return r.history.method; }},
+         {{"steps", "steps"}, [](const R& r) { return r.history.steps; }},
+         {{"dt_s", "step", "s", 4}, [](const R& r) { return r.history.time_step; }},
+         {{"peak_crest_x_mm", "peak crest x", "mm", 5}, [](const R& r) { return 1e3 * r.history.peak_crest_x; }},
+         {{"peak_crest_accel_x_m_s2", "peak crest a_x", "m/s²", 5},
+          [](const R& r) { return r.history.peak_crest_accel_x; }},
+         {{"peak_base_shear_kN_m", "peak base shear", "kN/m", 5},
+          [](const R& r) { return r.history.peak_base_shear / 1e3; }},
+         {{"radiated_share", "radiated", "–", 3}, [](const R& r) { return radiated_share(r.history); }},
+         {{"energy_imbalance", "energy imbalance", "–", 2}, [](const R& r) { return r.history.largest_imbalance; }},
+         {{"factorisations", "factorisations"}, [](const R& r) { return count_cell(r.history.factorisations); }},
+         {{"seconds", "time", "s", 3}, &R::seconds}},
+        runs,
+        {"crest x relative to the ground, from the static state; accelerations absolute; energy imbalance over the "
+         "largest "
+         "energy of the run.",
+         "one polarity: the model is linear, so the other turns the part of the horizontal motion round; --polarity -1 "
+         "runs it."});
+}
+
 } // namespace
 
-Page tied_page(const FePageFrame& frame, const std::vector<TiedRun>& runs, const Table& stages, const Table& table)
+FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records,
+                       const fe2d::Model& model, const fe2d::FluidModel* water)
+{
+    return {scene,
+            plan,
+            records,
+            model,
+            water,
+            {}, // a bonded base takes its uplift with the loads
+            "finite elements, base bonded to the rock",
+            fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};
+}
+
+void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const TiedRun& run)
+{
+    write_file(folder / ("history_" + file_word(run.record) + ".csv"),
+               csv(fe2d::tabulate(run.history), {"damslip " + program_version() + " fe --base tied",
+                                                 "scene " + scene_hash(scene), "record " + run.record}));
+}
+
+FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
+{
+    const Table stages = stage_table(frame.model, statics), table = run_table(runs);
+    FeAnswer answer = begin_fe_answer(FeKind::tied, frame);
+    answer.json["stages"] = json_of(stages);
+    answer.json["runs"] = json_of(table);
+    for (const TiedRun& r : runs) answer.json["notes"][r.record] = r.notes;
+    answer.text += "\n" + texts({stages, table});
+    end_fe_answer(note_texts(frame.scene.notes), answer);
+    for (const TiedRun& r : runs)
+        for (const std::string& note : r.notes) answer.text += "note: " + r.record + ": " + note + "\n";
+    return answer;
+}
+
+Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)
 {
     Page page = begin_fe_page(frame);
     page.headline = headline(runs);
-    page.sections.push_back({"Runs", {TablePart{without_seconds(table), Layout::rows, 1, Fold::open}}, Fold::open});
-    page.sections.push_back({"Static stages", {TablePart{stages, Layout::rows, 1, Fold::open}}, Fold::open});
+    page.sections.push_back({"Runs", {rows_part(without_seconds(run_table(runs)))}, Fold::open});
+    page.sections.push_back({"Static stages", {rows_part(stage_table(frame.model, statics))}, Fold::open});
     std::vector<GroundMotion> motions;
     for (const TiedRun& r : runs) {
         motions.push_back(r.motion);
@@ -114,6 +211,8 @@ Page tied_page(const FePageFrame& frame, const std::vector<TiedRun>& runs, const
         page.sections.push_back(std::move(section));
     }
     end_fe_page(frame, motions, {}, page);
+    const std::vector<std::string> messages = note_texts(frame.scene.notes);
+    page.warnings.insert(page.warnings.begin(), messages.begin(), messages.end());
     return page;
 }
 

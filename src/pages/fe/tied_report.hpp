@@ -1,12 +1,19 @@
 #pragma once
 
 #include "analysis/fe/tied_runs.hpp"
-#include "pages/fe/fe_page.hpp"
+#include "pages/fe/fe_output.hpp"
 
 namespace damslip::pages {
 
+FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::vector<RecordPair>& records,
+                       const fe2d::Model& model, const fe2d::FluidModel* water);
+
+FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);
+
+/// The history of one run as a CSV file.
+void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const TiedRun& run);
+
 /// Histories of crest, base forces and energies of runs that cannot slide.
-/// @param stages, table  of the static stages and of the runs
-Page tied_page(const FePageFrame& frame, const std::vector<TiedRun>& runs, const Table& stages, const Table& table);
+Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);
 
 } // namespace damslip::pages

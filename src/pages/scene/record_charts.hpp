@@ -7,6 +7,9 @@
 /// Records as tables and spectra.
 namespace damslip::pages {
 
+/// Sections of records that a report shows unfolded.
+inline constexpr std::size_t open_records = 3;
+
 /// Response spectra of the horizontal components, pseudo-acceleration, 5 %: each record up to 6, beyond that median, 16/84 %
 /// and all records faintly. @param jobs  threads, 0: all cores
 Chart spectra(const std::vector<GroundMotion>& motions, int jobs);

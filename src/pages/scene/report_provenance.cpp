@@ -1,6 +1,9 @@
 #include "pages/scene/report_provenance.hpp"
 
+#include "scene/write.hpp"
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -13,6 +16,13 @@ std::string component_text(const Record& r)
 }
 
 } // namespace
+
+nlohmann::ordered_json json_header(const std::string& what, const Scene& given)
+{
+    nlohmann::ordered_json j = json_header(what);
+    j["scene"] = {{"title", given.title}, {"file", given.file.string()}, {"hash", scene_hash(given)}};
+    return j;
+}
 
 void add_record_provenance(const std::vector<RecordPair>& records,
                            std::vector<std::pair<std::string, std::string>>& list)

@@ -7,7 +7,6 @@
 #include "core/version.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/scene/effect_table.hpp"
-#include "pages/scene/open_records.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"

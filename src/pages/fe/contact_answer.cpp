@@ -1,0 +1,111 @@
+// The answer of contact runs: one JSON object, text, and the files of each run.
+#include "pages/fe/fe_report.hpp"
+
+#include "analysis/prepare/contact_law.hpp"
+#include "core/file.hpp"
+#include "core/version.hpp"
+#include "pages/fe/acoustic_modes.hpp"
+#include "pages/report/table_text.hpp"
+#include "scene/exact_contact.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
+
+#include <fmt/format.h>
+
+namespace damslip::pages {
+
+namespace {
+
+/// CSV files of one run, and its fields.
+void write_run(const std::filesystem::path& folder, const Scene& scene, const ContactRun& r)
+{
+    const auto write = [&](const std::string& kind, const Table& table, const std::string& legend = {}) {
+        std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
+                                          "record " + r.label(), "status " + word(r.fe.status)};
+        if (!legend.empty()) comments.push_back(legend);
+        write_file(folder / (kind + "_" + file_word(r.record) + r.suffix() + ".csv"), csv(table, comments));
+    };
+    const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
+                      signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
+                              "downstream slip; slip positive downstream";
+    write("history", contact_history_table(r.fe.history));
+    write("base", base_table(r.fe), signs);
+    write("contact", pair_table(r.fe), signs + "; " + letters);
+    write("states", state_map(r.fe.history), letters);
+}
+
+/// Values of the pairs on the dam's contact nodes, zero elsewhere.
+std::vector<fe2d::VtuArray> contact_arrays(const fe2d::Mesh& mesh, const fe2d::RunResult& r)
+{
+    const auto on_nodes = [&](const std::string& name, const Eigen::VectorXd& values) {
+        Eigen::MatrixXd at = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(mesh.nodes.size()));
+        for (Eigen::Index i = 0; i < values.size(); ++i)
+            at(0, mesh.contact.dam_nodes[static_cast<std::size_t>(i)]) = values[i];
+        return fe2d::VtuArray{name, at};
+    };
+    return {on_nodes("contact_pressure_Pa", r.pair_pressure), on_nodes("contact_shear_Pa", r.pair_shear),
+            on_nodes("contact_slip_m", r.pair_slip), on_nodes("contact_opening_m", r.pair_opening)};
+}
+
+} // namespace
+
+void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input& in, const ContactRun& r,
+                      FieldSeries& fields)
+{
+    if (!folder.empty()) write_run(folder, in.scene, r);
+    if (r.fe.displacement.size() == 0) return;
+    Eigen::VectorXd elastic = r.fe.displacement; // gravity's part carries stress where it does not count as motion
+    if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
+    fields.add(r.record + r.suffix() + "_end", r.fe.end_time, r.fe.displacement, elastic,
+               contact_arrays(in.model.model().mesh, r.fe));
+}
+
+std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
+                                          const std::vector<std::string>& of_rock)
+{
+    std::vector<std::string> messages = note_texts(scene.notes);
+    for (std::string& note : contact_law_notes(scene)) messages.push_back(std::move(note));
+    messages.insert(messages.end(), of_rock.begin(), of_rock.end());
+    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
+        for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
+    for (const ContactRun& r : runs)
+        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + r.fe.message);
+    return messages;
+}
+
+FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& runs,
+                        const std::vector<std::string>& messages)
+{
+    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
+    const fe2d::RayleighConstants& damping = in.model.damping();
+    const Eigen::Index pairs = in.model.structure().pairs();
+    const Table stages = contact_stage_table(runs), table = contact_run_table(runs, allowable),
+                slips = contact_slip_table(runs), lifts = contact_lift_table(runs, allowable),
+                law = contact_law_table(runs);
+    const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
+    const Headline headline = fe_headline(in.scene, runs);
+
+    FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
+    auto& j = answer.json;
+    j["contact_pairs"] = pairs;
+    j["damping"] = {{"mass_coefficient_1_s", damping.mass}, {"stiffness_coefficient_s", damping.stiffness}};
+    add_verdict(headline, runs, allowable, answer);
+    j["stages"] = json_of(stages);
+    j["runs"] = json_of(table);
+    j["slip"] = json_of(slips);
+    if (has_lifts) j["lift_joints"] = json_of(lifts);
+    j["counts"] = json_of(contact_count_table(runs));
+    j["energy"] = json_of(contact_energy_table(runs));
+    if (gives_way) j["contact_law"] = json_of(law);
+
+    std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips};
+    if (has_lifts) shown.push_back(lifts);
+    if (gives_way) shown.push_back(law);
+    answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n", pairs, damping.mass,
+                               damping.stiffness) +
+                   texts(shown) + "\n" + headline_text(headline);
+    end_fe_answer(messages, answer);
+    return answer;
+}
+
+} // namespace damslip::pages
