@@ -10,14 +10,10 @@
 #include "core/stopwatch.hpp"
 #include "core/units.hpp"
 #include "core/usage_error.hpp"
-#include "core/version.hpp"
 #include "pages/accuracy/accuracy_report.hpp"
 #include "pages/accuracy/accuracy_tables.hpp"
 #include "pages/accuracy/cost_figure.hpp"
-#include "pages/fe/fe_output.hpp"
-#include "pages/report/json_object.hpp"
 #include "pages/report/page_html.hpp"
-#include "pages/report/table_text.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -125,39 +121,10 @@ void write_rung_scenes(const std::filesystem::path& out, const Scene& scene, con
             write_file(out / "rungs" / (file_word(rung_id(r.rung)) + ".toml"), resolved_toml(scene_of(scene, r.rung)));
 }
 
-nlohmann::ordered_json ladder_json(const AccuracyArguments& a, const Loaded& loaded,
-                                   const std::vector<RungResult>& results, const Judgement& j,
-                                   const std::vector<std::string>& messages)
-{
-    auto out = json_header("accuracy");
-    out["scene"] = {
-        {"title", loaded.scene.title}, {"file", loaded.scene.file.string()}, {"hash", scene_hash(loaded.scene)}};
-    out["records"] = nlohmann::ordered_json::array();
-    for (const RecordPair& pair : *loaded.records) out["records"].push_back(pair.files.name);
-    out["tolerance"] = a.tolerance;
-    out["top"] = nullptr;
-    out["top_open"] = nullptr;
-    out["choice"] = nullptr;
-    if (j.top) out["top"] = rung_id(results[*j.top].rung);
-    if (j.top_error) out["top_open"] = *j.top_error;
-    if (j.choice)
-        out["choice"] = {{"rung", rung_id(results[*j.choice].rung)},
-                         {"command", command_of(a, results[*j.choice].rung)}};
-    out["rungs"] = json_of(rung_table(results, j));
-    out["models"] = json_of(model_table(results, j));
-    std::vector<std::string> names;
-    for (const RecordPair& pair : *loaded.records) names.push_back(pair.files.name);
-    out["slips"] = json_of(slip_table(results, names));
-    out["messages"] = messages;
-    return out;
-}
-
-void write_csv(const std::filesystem::path& out, const Loaded& loaded, const std::vector<RungResult>& results,
+void write_csv(const std::filesystem::path& out, const Scene& scene, const std::vector<RungResult>& results,
                double tolerance)
 {
-    write_file(out / "accuracy.csv",
-               pages::csv(rung_table(results, judge(results, tolerance)),
-                          {"damslip " + program_version() + " accuracy", "scene " + scene_hash(loaded.scene)}));
+    write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge(results, tolerance)));
 }
 
 /// One rung alone: its slip, by record.
@@ -167,22 +134,8 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     ClimbCalls calls;
     calls.run = [&](const Rung& r) { return runner.run(r); };
     const RungResult result = run_repeatedly(rung, 1, calls);
-    Table t;
-    t.title = "Rung " + rung_id(rung);
-    t.columns = {{"record", "record", "", 4}, {"slip_mm", "slip", "mm", 6}, {"seconds", "time, all records", "s", 3}};
-    for (std::size_t i = 0; i < result.slip.size(); ++i)
-        t.rows.push_back({(*loaded.records)[i].files.name, result.slip[i] / units::mm, result.seconds});
-    if (streams.form == Form::json) {
-        auto j = json_header("accuracy");
-        j["rung"] = rung_id(rung);
-        j["runs"] = json_of(t);
-        j["status"] = word(result.status);
-        j["remark"] = result.remark;
-        streams.out << j.dump(2) << "\n";
-    } else {
-        streams.out << pages::text(t) << "status: " << word(result.status) << "\n";
-        if (!result.remark.empty()) streams.out << "note: " << result.remark << "\n";
-    }
+    streams.out << (streams.form == Form::json ? one_rung_json(result, *loaded.records).dump(2) + "\n"
+                                               : one_rung_text(result, *loaded.records));
     if (!a.out.empty()) {
         write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
         if (!streams.quiet && rung.family == RungFamily::finite_elements)
@@ -227,7 +180,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
             *streams.bar << "\r  " << said << "\n";
         else if (line_is_due())
             streams.talk << "accuracy: " << said << "\n" << std::flush;
-        if (!a.out.empty()) write_csv(a.out, loaded, results, a.tolerance); // what is finished is not lost
+        if (!a.out.empty()) write_csv(a.out, loaded.scene, results, a.tolerance); // what is finished is not lost
     };
     const Stopwatch start;
     std::vector<RungResult> results = climb(facts, options, calls);
@@ -252,27 +205,16 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const Judgement judgement = judge(results, a.tolerance);
     const std::vector<std::string> messages = messages_of(facts, loaded, results, watch.stop_asked());
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
-    const auto j = ladder_json(a, loaded, results, judgement, messages);
-    if (streams.form == Form::json)
-        streams.out << j.dump(2) << "\n";
-    else {
-        streams.out << loaded.scene.title << "\n\n"
-                    << pages::text(rung_table(results, judgement)) << "\n"
-                    << pages::text(model_table(results, judgement)) << "\n"
-                    << choice_sentence(results, judgement, a.tolerance) << "\n";
-        if (!command.empty()) streams.out << "  " << command << "\n";
-        for (const std::string& message : messages) streams.out << "note: " << message << "\n";
-    }
-    const auto page = [&] {
-        return pages::page_html(
-            accuracy_page({loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages}));
-    };
+    const AccuracyReportInput answer{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
+    const std::string json = accuracy_json(answer).dump(2) + "\n";
+    streams.out << (streams.form == Form::json ? json : accuracy_text(answer));
+    const auto page = [&] { return page_html(accuracy_page(answer)); };
     const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, *loaded.records),
                                            FigureStyle::standalone);
     if (!a.svg.empty() && !figure.empty()) write_file(a.svg, figure);
     if (!a.out.empty()) {
-        write_csv(a.out, loaded, results, a.tolerance);
-        write_file(a.out / "summary.json", j.dump(2) + "\n");
+        write_csv(a.out, loaded.scene, results, a.tolerance);
+        write_file(a.out / "summary.json", json);
         write_file(a.out / "scene_resolved.toml", resolved_toml(loaded.scene));
         if (!figure.empty()) write_file(a.out / "accuracy.svg", figure);
         write_rung_scenes(a.out, loaded.scene, results);

@@ -1,8 +1,8 @@
 #include "cli/record_command.hpp"
 
 #include "core/file.hpp"
-#include "core/units.hpp"
 #include "core/usage_error.hpp"
+#include "pages/record/record_tables.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "records/generate/spectrum_file.hpp"
@@ -84,41 +84,6 @@ RecordOutput record_output(const std::string& word, const std::filesystem::path&
         {{"csv", RecordOutput::csv}, {"csv-time", RecordOutput::csv_with_time}, {"at2", RecordOutput::at2}});
 }
 
-Table record_info_table(const std::vector<Record>& records)
-{
-    Table table;
-    table.title = "Accelerograms";
-    table.columns = {{"name", "name", "", 4},
-                     {"format", "format", "", 4},
-                     {"unit", "unit", "", 4},
-                     {"component", "component", "", 4},
-                     {"samples", "samples", "–", 4},
-                     {"dt_s", "dt", "s", 4},
-                     {"duration_s", "duration", "s", 4},
-                     {"pga_m_s2", "PGA", "m/s²", 4},
-                     {"pga_g", "PGA", "g", 3},
-                     {"pgv_m_s", "PGV", "m/s", 3},
-                     {"pgd_m", "PGD", "m", 3},
-                     {"arias_intensity_m_s", "Arias", "m/s", 3},
-                     {"cav_m_s", "CAV", "m/s", 3},
-                     {"duration_5_75_s", "D5-75", "s", 3},
-                     {"duration_5_95_s", "D5-95", "s", 3},
-                     {"mean_period_s", "Tm", "s", 3},
-                     {"sha256", "sha256", "", 4}};
-    for (const Record& r : records) {
-        const records::Measures m = records::measure(r);
-        table.rows.push_back({r.name, r.source.format, r.source.unit, r.source.component,
-                              static_cast<std::int64_t>(r.acceleration.size()), r.dt, m.duration, m.pga,
-                              m.pga / units::standard_gravity, m.pgv, m.pgd, m.arias_intensity, m.cumulative_velocity,
-                              m.duration_5_75, m.duration_5_95, m.mean_period ? Cell(*m.mean_period) : Cell(),
-                              r.source.sha256});
-        for (const std::string& warning : r.warnings) table.notes.push_back(r.name + ": " + warning);
-    }
-    table.notes.push_back("PGV and PGD start from rest and are not baseline-corrected; all but Tm are exact for the "
-                          "piecewise-linear record.");
-    return table;
-}
-
 int record_info(const RecordInfoArguments& arguments, const Streams& streams)
 {
     std::vector<Record> records;
@@ -131,9 +96,7 @@ int record_info(const RecordInfoArguments& arguments, const Streams& streams)
         streams.out << j.dump(2) << "\n";
         return exit_ok;
     }
-    table.columns.pop_back(); // 64 digits are for machines
-    for (auto& row : table.rows) row.pop_back();
-    streams.out << pages::text(table);
+    streams.out << text(without_checksums(std::move(table)));
     return exit_ok;
 }
 
@@ -206,19 +169,9 @@ Table record_spectrum_table(const Record& record, const RecordSpectrumArguments&
                      "write seconds");
     if (a.count < 2 || a.count > 10000)
         refuse_usage(fmt::format("--count {} is not allowed.", a.count), "2 to 10000", "leave it out");
-    Table table;
-    table.title = fmt::format("Response spectrum of {}, {} % damping", record.name, 100.0 * a.ratio);
-    table.columns = {{"period_s", "T", "s", 4},
-                     {"pseudo_acceleration_m_s2", "PSA", "m/s²", 4},
-                     {"absolute_acceleration_m_s2", "Sa", "m/s²", 4},
-                     {"velocity_m_s", "Sv", "m/s", 4},
-                     {"displacement_m", "Sd", "m", 4}};
     const auto periods = records::logarithmic_periods(a.from, a.to, a.count);
-    for (const auto& p : records::response_spectrum(record.acceleration, record.dt, periods, a.ratio).points)
-        table.rows.push_back({p.period, p.pseudo_acceleration, p.absolute_acceleration, p.velocity, p.displacement});
-    table.notes.push_back("exact for the piecewise-linear record (Nigam & Jennings 1969), free vibration of one period "
-                          "after its end included");
-    return table;
+    return spectrum_table(record, records::response_spectrum(record.acceleration, record.dt, periods, a.ratio),
+                          a.ratio);
 }
 
 int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& streams)
@@ -226,14 +179,14 @@ int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& str
     const Record record = read(arguments.input);
     remark(record, streams);
     const Table table = record_spectrum_table(record, arguments);
-    if (!arguments.out.empty()) write_file(arguments.out, pages::csv(table, {table.title}));
+    if (!arguments.out.empty()) write_file(arguments.out, csv(table, {table.title}));
     if (streams.form == Form::json) {
         auto j = json_header("record-spectrum");
         j["damping_ratio"] = arguments.ratio;
         j["points"] = json_of(table);
         streams.out << j.dump(2) << "\n";
     } else if (arguments.out.empty()) {
-        streams.out << pages::text(table);
+        streams.out << text(table);
     }
     return exit_ok;
 }

@@ -39,7 +39,6 @@ RecordOutput record_output(const std::string& word, const std::filesystem::path&
 struct RecordInfoArguments {
     std::vector<RecordInput> inputs;
 };
-Table record_info_table(const std::vector<Record>& records);
 int record_info(const RecordInfoArguments& arguments, const Streams& streams);
 
 struct RecordConvertArguments {

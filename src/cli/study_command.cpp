@@ -6,13 +6,11 @@
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
-#include "pages/report/json_object.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
+#include "pages/sweep/sweep_tables.hpp"
 #include "records/measure/peaks.hpp"
-#include "scene/plausible.hpp"
-#include "scene/write.hpp"
 #include "study/study_page.hpp"
 
 #include <fmt/format.h>
@@ -60,37 +58,6 @@ void check_scene(const Scene& scene)
         usage("there is no record.", "a [[motion.record]] in the scene or --record", "add  --record FILE");
 }
 
-Table rows_table(const Grid& grid, const SweepOutcome& outcome)
-{
-    Table table = sweep_table();
-    for (const FinishedRow& row : outcome.rows) table.rows.push_back(table_row(grid, row.id, row.results));
-    return table;
-}
-
-std::string json_text(const Scene& scene, const Table& rows, const std::vector<Finding>& findings,
-                      const std::vector<ModelModes>& modes, const std::vector<SettingsStep>& settings)
-{
-    auto j = json_header("study");
-    j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
-    j["findings"] = json_of(findings_table(findings));
-    j["modes"] = {{"table_4_3", json_of(modes_table(modes, 1.0))}, {"table_4_4", json_of(modes_table(modes, 2.0))}};
-    j["settings"] = json_of(settings_table(settings));
-    j["rows"] = json_of(rows);
-    j["notes"] = note_texts(scene.notes);
-    return j.dump(2) + "\n";
-}
-
-void talk_of(const std::vector<Finding>& findings, const Streams& streams)
-{
-    for (const Finding& f : findings) {
-        if (!f.here) continue;
-        streams.out << fmt::format("{}: {}\n  {}: {}\n", f.where, f.printed, word(f.here->holds), f.here->numbers);
-        if (f.as_source)
-            streams.out << fmt::format("  with the source's settings {}: {}\n", word(f.as_source->holds),
-                                       f.as_source->numbers);
-    }
-}
-
 } // namespace
 
 int study(const StudyArguments& arguments, const Streams& streams)
@@ -106,7 +73,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const Records records = load_records(scene, Method::rigid_block);
 
     // 2. its rows
-    const Sweep inputs{scene, axes, tasks, records, std::nullopt, std::nullopt};
+    const Sweep inputs{scene, axes, tasks, records};
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     std::filesystem::create_directories(arguments.out);
@@ -124,7 +91,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
 
     // 3. what they say of the chapter's findings
     const StudyRows rows(grid, outcome);
-    const Table table = rows_table(grid, outcome);
+    const Table table = sweep_table(grid, wanted, outcome);
     const std::vector<StudyUplift> uplifts = study_uplifts(scene);
     const std::vector<ModelModes> modes = study_modes(scene);
     const RegressionsBeside regressions = regressions_beside_block(scene, records->front());
@@ -135,16 +102,13 @@ int study(const StudyArguments& arguments, const Streams& streams)
     if (axes.finite_elements()) settings = settings_ladder(scene, records, arguments.jobs, watch);
 
     // 4. files
-    write_file(sweep.out, pages::csv(table, csv_comments(identity)));
-    write_file(arguments.out / "findings.csv", pages::csv(findings_table(findings)));
+    write_file(sweep.out, csv(table, csv_comments(identity)));
+    write_file(arguments.out / "findings.csv", csv(findings_table(findings)));
     const std::filesystem::path page = arguments.out / "report.html";
-    write_file(page, pages::page_html(
-                         study_page({scene, rows, table, *records, uplifts, modes, regressions, findings, settings})));
+    const StudyPageInput in{scene, rows, table, *records, uplifts, modes, regressions, findings, settings};
+    write_file(page, page_html(study_page(in)));
     journal.mark_done();
-    if (streams.form == Form::json)
-        streams.out << json_text(scene, table, findings, modes, settings);
-    else
-        talk_of(findings, streams);
+    streams.out << (streams.form == Form::json ? study_json(in).dump(2) + "\n" : findings_text(findings));
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),
                                     page.string());

@@ -1,16 +1,15 @@
 #include "cli/sweep_command.hpp"
 
 #include "cli/input/make_axes.hpp"
-#include "cli/sweep_parts.hpp"
 #include "cli/sweep_plan.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
-#include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/sweep/sweep_comparison.hpp"
+#include "pages/sweep/sweep_parts.hpp"
 #include "pages/sweep/sweep_report.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
+#include "pages/sweep/sweep_tables.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -118,17 +117,6 @@ int print_plan(const SweepArguments& arguments, const TaskList& tasks, const Str
     return exit_ok;
 }
 
-/// Rows in order; ids that were not reached say so.
-Table table_of(const Grid& grid, const std::vector<std::size_t>& wanted, const SweepOutcome& outcome)
-{
-    Table table = sweep_table();
-    for (const std::size_t id : wanted) {
-        const FinishedRow* row = outcome.find(id);
-        table.rows.push_back(table_row(grid, id, row ? row->results : not_run()));
-    }
-    return table;
-}
-
 std::vector<SlipHistory> histories_of(const std::vector<std::size_t>& wanted, const SweepOutcome& outcome)
 {
     std::vector<SlipHistory> histories;
@@ -138,35 +126,6 @@ std::vector<SlipHistory> histories_of(const std::vector<std::size_t>& wanted, co
         histories.push_back(row ? row->history : SlipHistory{});
     }
     return histories;
-}
-
-std::string json_text(const Scene& scene, const Grid& grid, const Table& table, const SweepOutcome& outcome)
-{
-    auto j = json_header("sweep");
-    j["scene"] = {{"title", scene.title}, {"file", scene.file.string()}, {"hash", scene_hash(scene)}};
-    j["rows"] = json_of(table);
-    j["notes"] = note_texts(scene.notes);
-    if (outcome.fe) {
-        j["comparison"] = json_of(comparison(scene, grid, outcome));
-        j["counts"] = json_of(count_table(*outcome.fe))[0];
-    }
-    return j.dump(2) + "\n";
-}
-
-constexpr std::size_t most_compared = 100; ///< lines that people read
-
-/// Tables for people; the rows have standard output for themselves.
-void talk_of(const FeSweepCounts& c, const Table& compared, const Streams& streams)
-{
-    if (compared.rows.size() <= most_compared)
-        streams.talk << "\n" << pages::text(compared) << "\n";
-    else
-        streams.talk << fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
-    streams.talk << pages::text(count_table(c));
-    for (const std::string& choice : c.choices) streams.talk << "  " << choice << "\n";
-    streams.talk << fmt::format(
-        "  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
-        1e3 * c.static_seconds / static_cast<double>(std::max<std::int64_t>(1, c.runs)), c.dynamic_seconds);
 }
 
 void talk_of_journal(const Journal& journal, const SweepOutcome& outcome, const Streams& streams)
@@ -201,12 +160,13 @@ struct Job {
 };
 
 /// The report beside the table: results.csv -> results.html. A part has none, nor has a table too large to be looked at.
-void put_report(const Job& job, const std::vector<RecordPair>& records, const Grid& grid, const Table& table,
+/// @param compared  FE against the rigid block
+void put_report(const Job& job, const std::vector<RecordPair>& records, const Table& compared, const Table& table,
                 const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
     if (job.out.empty() || job.shard || table.rows.size() > largest_report) return;
     std::vector<Table> tables;
-    if (outcome.fe) tables = {comparison(job.scene, grid, outcome), count_table(*outcome.fe)};
+    if (outcome.fe) tables = {compared, count_table(*outcome.fe)};
     std::filesystem::path page = job.out;
     page.replace_extension(".html");
     write_file(page, sweep_report({&job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}));
@@ -216,24 +176,25 @@ void put_report(const Job& job, const std::vector<RecordPair>& records, const Gr
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
            const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
-    const Table table = table_of(grid, wanted, outcome);
+    const Table table = sweep_table(grid, wanted, outcome);
+    Table compared;
+    if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
     if (streams.form == Form::json)
-        put(job.out, json_text(job.scene, grid, table, outcome), streams);
+        put(job.out, sweep_json(job.scene, table, compared, outcome).dump(2) + "\n", streams);
     else if (job.shard) {
         const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
-        put(job.out,
-            part_text(identity, *job.shard, pages::csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
+        put(job.out, part_text(identity, *job.shard, csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
             streams);
     } else {
-        put(job.out, pages::csv(table, csv_comments(identity)), streams);
+        put(job.out, csv(table, csv_comments(identity)), streams);
     }
     if (!streams.quiet) {
-        if (outcome.fe && !job.shard) talk_of(*outcome.fe, comparison(job.scene, grid, outcome), streams);
+        if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
     talk_of_answers(table, outcome, streams);
-    put_report(job, records, grid, table, wanted, outcome, streams);
+    put_report(job, records, compared, table, wanted, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
 

@@ -3,7 +3,7 @@
 #include "analysis/fe/tied_runs.hpp"
 #include "analysis/prepare/rock_warnings.hpp"
 #include "cli/terminal/terminal_watch.hpp"
-#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/water_notes.hpp"
 #include "pages/fe/tied_report.hpp"
 
 #include <algorithm>

@@ -43,18 +43,25 @@ std::string tolerance_text(const Check& check)
     return "";
 }
 
-Table table_of(const std::vector<Outcome>& outcomes)
+Table check_table(const std::vector<Outcome>& outcomes)
 {
-    Table table;
-    table.columns = {{"case", "case", "", 4},           {"quantity", "quantity", "", 4},
-                     {"unit", "unit", "", 4},           {"expected", "expected", "", 7},
-                     {"computed", "computed", "", 7},   {"error", "error", "", 2},
-                     {"tolerance", "tolerance", "", 2}, {"passed", "", "", 4}};
+    struct Row {
+        const Case& subject;
+        const Check& check;
+    };
+    std::vector<Row> rows;
     for (const Outcome& o : outcomes)
-        for (const Check& c : o.checks)
-            table.rows.push_back({o.subject->id, c.quantity, c.unit, c.expected, c.computed, c.error(),
-                                  tolerance_text(c), std::string(c.passed() ? "pass" : "FAIL")});
-    return table;
+        for (const Check& c : o.checks) rows.push_back({*o.subject, c});
+    return table_of<Row>("",
+                         {{{"case", "case"}, [](const Row& r) { return r.subject.id; }},
+                          {{"quantity", "quantity"}, [](const Row& r) { return r.check.quantity; }},
+                          {{"unit", "unit"}, [](const Row& r) { return r.check.unit; }},
+                          {{"expected", "expected", "", 7}, [](const Row& r) { return r.check.expected; }},
+                          {{"computed", "computed", "", 7}, [](const Row& r) { return r.check.computed; }},
+                          {{"error", "error", "", 2}, [](const Row& r) { return r.check.error(); }},
+                          {{"tolerance", "tolerance", "", 2}, [](const Row& r) { return tolerance_text(r.check); }},
+                          {{"passed", ""}, [](const Row& r) { return r.check.passed() ? "pass" : "FAIL"; }}},
+                         rows);
 }
 
 /// The claims and tolerances, which do not depend on the machine, and the errors of this run.
@@ -104,10 +111,10 @@ int verify(const VerifyArguments& arguments, const Streams& streams)
         j["checks"] = checks;
         j["failed"] = failed;
         j["seconds"] = seconds;
-        j["results"] = json_of(table_of(outcomes));
+        j["results"] = json_of(check_table(outcomes));
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << pages::text(table_of(outcomes))
+        streams.out << pages::text(check_table(outcomes))
                     << fmt::format("{} cases, {} checks, {} failed, {:.2f} s\n", outcomes.size(), checks, failed,
                                    seconds);
     }

@@ -32,33 +32,31 @@ struct HardOutcome {
 
 Table hard_table(const std::vector<HardOutcome>& outcomes)
 {
-    Table table;
-    table.columns = {{"case", "case", "", 4},
-                     {"quantity", "quantity", "", 4},
-                     {"unit", "unit", "", 4},
-                     {"method_a", "method a", "", 4},
-                     {"value_a", "a", "", 7},
-                     {"method_b", "method b", "", 4},
-                     {"value_b", "b", "", 7},
-                     {"difference", "difference", "", 2},
-                     {"tolerance", "tolerance", "", 2},
-                     {"complementarity", "complementarity", "", 2},
-                     {"energy_closure", "energy", "", 2},
-                     {"status", "status", "", 4},
-                     {"seconds", "s", "", 2},
-                     {"passed", "", "", 4}};
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    for (const HardOutcome& o : outcomes) {
-        const HardResult& r = o.result;
-        table.rows.push_back({o.subject->id, o.subject->quantity, o.subject->unit, o.subject->method_a, r.value_a,
-                              o.subject->method_b, r.value_b, std::abs(r.value_a - r.value_b), r.tolerance,
-                              r.complementarity.value_or(none), r.energy_closure.value_or(none), r.status, o.seconds,
-                              std::string(o.passed() ? "pass" : "FAIL")});
-    }
-    table.notes = {fmt::format("complementarity: largest residual of contact and Coulomb's law over N', at most {:g}; "
-                               "energy: largest imbalance over the largest energy, at most {:g}.",
-                               hard::largest_complementarity, hard::largest_energy_closure)};
-    return table;
+    using O = HardOutcome;
+    const auto if_measured = [](std::optional<double> HardResult::*value) {
+        return [=](const O& o) { return (o.result.*value).value_or(std::numeric_limits<double>::quiet_NaN()); };
+    };
+    return table_of<O>(
+        "",
+        {{{"case", "case"}, [](const O& o) { return o.subject->id; }},
+         {{"quantity", "quantity"}, [](const O& o) { return o.subject->quantity; }},
+         {{"unit", "unit"}, [](const O& o) { return o.subject->unit; }},
+         {{"method_a", "method a"}, [](const O& o) { return o.subject->method_a; }},
+         {{"value_a", "a", "", 7}, [](const O& o) { return o.result.value_a; }},
+         {{"method_b", "method b"}, [](const O& o) { return o.subject->method_b; }},
+         {{"value_b", "b", "", 7}, [](const O& o) { return o.result.value_b; }},
+         {{"difference", "difference", "", 2},
+          [](const O& o) { return std::abs(o.result.value_a - o.result.value_b); }},
+         {{"tolerance", "tolerance", "", 2}, [](const O& o) { return o.result.tolerance; }},
+         {{"complementarity", "complementarity", "", 2}, if_measured(&HardResult::complementarity)},
+         {{"energy_closure", "energy", "", 2}, if_measured(&HardResult::energy_closure)},
+         {{"status", "status"}, [](const O& o) { return o.result.status; }},
+         {{"seconds", "s", "", 2}, &O::seconds},
+         {{"passed", ""}, [](const O& o) { return o.passed() ? "pass" : "FAIL"; }}},
+        outcomes,
+        {fmt::format("complementarity: largest residual of contact and Coulomb's law over N', at most {:g}; energy: "
+                     "largest imbalance over the largest energy, at most {:g}.",
+                     hard::largest_complementarity, hard::largest_energy_closure)});
 }
 
 } // namespace

@@ -68,19 +68,17 @@ std::vector<StudyUplift> study_uplifts(const Scene& scene)
 
 Table uplift_table(const std::vector<StudyUplift>& uplifts)
 {
-    Table t;
-    t.title = "Uplift of the full reservoir";
-    t.columns = {{"uplift", "uplift", "", 4},
-                 {"force_MN_m", "U", "MN/m", 4},
-                 {"before_curtain", "p/p₀ before the curtain", "–", 3},
-                 {"behind_curtain", "p/p₀ behind it", "–", 3},
-                 {"critical_friction", "stands from μ", "–", 4}};
-    for (const StudyUplift& u : uplifts)
-        t.rows.push_back({u.model, u.force / 1e6, u.before_curtain, u.behind_curtain, u.critical_friction});
-    t.notes.push_back(
-        "seepage: flow through rock and curtain; curtain: the printed rule, 2/3 of the full pressure at the curtain; "
-        "linear: no curtain. p one curtain thickness to either side of its axis.");
-    return t;
+    using U = StudyUplift;
+    return table_of<U>(
+        "Uplift of the full reservoir",
+        {{{"uplift", "uplift"}, &U::model},
+         {{"force_MN_m", "U", "MN/m", 4}, [](const U& u) { return u.force / 1e6; }},
+         {{"before_curtain", "p/p₀ before the curtain", "–", 3}, &U::before_curtain},
+         {{"behind_curtain", "p/p₀ behind it", "–", 3}, &U::behind_curtain},
+         {{"critical_friction", "stands from μ", "–", 4}, &U::critical_friction}},
+        uplifts,
+        {"seepage: flow through rock and curtain; curtain: the printed rule, 2/3 of the full pressure at the curtain; "
+         "linear: no curtain. p one curtain thickness to either side of its axis."});
 }
 
 pages::Chart uplift_chart(const std::vector<StudyUplift>& uplifts)

@@ -189,29 +189,35 @@ std::vector<Finding> study_findings(const StudyFacts& f)
 
 Table findings_table(const std::vector<Finding>& findings)
 {
-    Table t;
-    t.title = "What the source found, and what came out here";
-    t.columns = {
-        {"where", "where", "", 4}, {"printed", "printed", "", 4}, {"here", "here", "", 4}, {"holds", "holds", "", 4}};
-    const bool source =
-        std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.as_source.has_value(); });
-    if (source) {
-        t.columns.push_back({"as_source", "with the source's settings", "", 4});
-        t.columns.push_back({"holds_as_source", "holds", "", 4});
+    using F = Finding;
+    const auto numbers = [](std::optional<Judged> F::*judged) {
+        return [=](const F& f) { return f.*judged ? (f.*judged)->numbers : std::string(); };
+    };
+    const auto holds = [](std::optional<Judged> F::*judged) {
+        return [=](const F& f) { return f.*judged ? word((f.*judged)->holds) : ""; };
+    };
+    std::vector<ColumnOf<F>> columns{{{"where", "where"}, &F::where},
+                                     {{"printed", "printed"}, &F::printed},
+                                     {{"here", "here"}, numbers(&F::here)},
+                                     {{"holds", "holds"}, holds(&F::here)}};
+    if (std::any_of(findings.begin(), findings.end(), [](const F& f) { return f.as_source.has_value(); })) {
+        columns.push_back({{"as_source", "with the source's settings"}, numbers(&F::as_source)});
+        columns.push_back({{"holds_as_source", "holds"}, holds(&F::as_source)});
     }
-    t.columns.push_back({"why", "why not, or with what reserve", "", 4});
+    columns.push_back({{"why", "why not, or with what reserve"}, &F::why});
+    return table_of("What the source found, and what came out here", columns, findings);
+}
+
+std::string findings_text(const std::vector<Finding>& findings)
+{
+    std::string all;
     for (const Finding& f : findings) {
-        std::vector<Cell> row{f.where, f.printed};
-        const auto add = [&row](const std::optional<Judged>& judged) {
-            row.emplace_back(judged ? judged->numbers : std::string());
-            row.emplace_back(std::string(judged ? word(judged->holds) : ""));
-        };
-        add(f.here);
-        if (source) add(f.as_source);
-        row.emplace_back(f.why);
-        t.rows.push_back(std::move(row));
+        if (!f.here) continue;
+        all += fmt::format("{}: {}\n  {}: {}\n", f.where, f.printed, word(f.here->holds), f.here->numbers);
+        if (f.as_source)
+            all += fmt::format("  with the source's settings {}: {}\n", word(f.as_source->holds), f.as_source->numbers);
     }
-    return t;
+    return all;
 }
 
 } // namespace damslip::study

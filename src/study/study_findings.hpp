@@ -36,5 +36,6 @@ struct StudyFacts {
 std::vector<Finding> study_findings(const StudyFacts& facts);
 
 Table findings_table(const std::vector<Finding>& findings);
+std::string findings_text(const std::vector<Finding>& findings);
 
 } // namespace damslip::study

@@ -1,11 +1,11 @@
 #include "study/study_modes.hpp"
 
+#include "analysis/modes/modes.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
-#include "pages/fe/acoustic_modes.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
@@ -74,35 +74,37 @@ std::vector<ModelModes> study_modes(const Scene& scene)
 
 Table modes_table(const std::vector<ModelModes>& models, double size)
 {
-    Table t;
-    t.title = size == 1.0 ? "Natural frequencies and Rayleigh damping, 62.5 m (table 4-3)"
-                          : "Natural frequencies and Rayleigh damping, 125 m (table 4-4)";
-    t.columns = {{"water", "water", "", 4},
-                 {"mode", "mode", "", 4},
-                 {"printed_frequency_Hz", "f printed", "Hz", 3},
-                 {"frequency_Hz", "f here", "Hz", 4},
-                 {"printed_mass_sum_percent", "mass sum printed", "%", 3},
-                 {"mass_sum_percent", "mass sum here", "%", 3},
-                 {"printed_mass_coefficient_1_s", "a_M printed", "1/s", 3},
-                 {"mass_coefficient_1_s", "a_M here", "1/s", 4},
-                 {"printed_stiffness_coefficient_s", "b_K printed", "s", 3},
-                 {"stiffness_coefficient_s", "b_K here", "s", 3}};
-    for (const ModelModes& model : models) {
-        if (model.size != size) continue;
-        for (std::size_t i = 0; i < model.modes.size(); ++i) {
-            const ModeBeside& m = model.modes[i];
-            const bool first = i == 0;
-            t.rows.push_back({model.water, static_cast<std::int64_t>(i + 1), m.printed_frequency, m.frequency,
-                              m.printed_mass_sum, m.mass_sum, first ? Cell(model.printed_mass_coefficient) : Cell(),
-                              first ? Cell(model.mass_coefficient) : Cell(),
-                              first ? Cell(model.printed_stiffness_coefficient) : Cell(),
-                              first ? Cell(model.stiffness_coefficient) : Cell()});
-        }
-    }
-    t.notes.push_back("tied base. mass sum: of everything that moves in x, the mass of incompressible water included, "
-                      "over the listed "
-                      "modes; what the source divides by is not printed.");
-    return t;
+    struct Row {
+        const ModelModes& model;
+        std::size_t number; ///< from 0
+        const ModeBeside& mode;
+    };
+    std::vector<Row> rows;
+    for (const ModelModes& model : models)
+        for (std::size_t i = 0; model.size == size && i < model.modes.size(); ++i)
+            rows.push_back({model, i, model.modes[i]});
+    const auto once = [](double ModelModes::*coefficient) { // of a model, beside its first mode
+        return [=](const Row& r) { return r.number == 0 ? Cell(r.model.*coefficient) : Cell(); };
+    };
+    const auto of_mode = [](double ModeBeside::*value) { return [=](const Row& r) { return r.mode.*value; }; };
+    using M = ModeBeside;
+    return table_of<Row>(
+        size == 1.0 ? "Natural frequencies and Rayleigh damping, 62.5 m (table 4-3)"
+                    : "Natural frequencies and Rayleigh damping, 125 m (table 4-4)",
+        {{{"water", "water"}, [](const Row& r) { return r.model.water; }},
+         {{"mode", "mode"}, [](const Row& r) { return count_cell(r.number + 1); }},
+         {{"printed_frequency_Hz", "f printed", "Hz", 3}, of_mode(&M::printed_frequency)},
+         {{"frequency_Hz", "f here", "Hz", 4}, of_mode(&M::frequency)},
+         {{"printed_mass_sum_percent", "mass sum printed", "%", 3}, of_mode(&M::printed_mass_sum)},
+         {{"mass_sum_percent", "mass sum here", "%", 3}, of_mode(&M::mass_sum)},
+         {{"printed_mass_coefficient_1_s", "a_M printed", "1/s", 3}, once(&ModelModes::printed_mass_coefficient)},
+         {{"mass_coefficient_1_s", "a_M here", "1/s", 4}, once(&ModelModes::mass_coefficient)},
+         {{"printed_stiffness_coefficient_s", "b_K printed", "s", 3}, once(&ModelModes::printed_stiffness_coefficient)},
+         {{"stiffness_coefficient_s", "b_K here", "s", 3}, once(&ModelModes::stiffness_coefficient)}},
+        rows,
+        {"tied base. mass sum: of everything that moves in x, the mass of incompressible water included, over the "
+         "listed "
+         "modes; what the source divides by is not printed."});
 }
 
 } // namespace damslip::study

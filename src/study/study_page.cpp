@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace damslip::study {
 
@@ -247,6 +248,18 @@ pages::Page study_page(const StudyPageInput& in)
         {"source", "M. Goldgruber, Nonlinear Seismic Modelling of Concrete Dams, TU Graz 2015, chapter 4"}};
     add_record_provenance(in.records, page.provenance);
     return page;
+}
+
+nlohmann::ordered_json study_json(const StudyPageInput& in)
+{
+    auto j = json_header("study", in.scene);
+    j["findings"] = json_of(findings_table(in.findings));
+    j["modes"] = {{"table_4_3", json_of(modes_table(in.modes, 1.0))},
+                  {"table_4_4", json_of(modes_table(in.modes, 2.0))}};
+    j["settings"] = json_of(settings_table(in.settings));
+    j["rows"] = json_of(in.table);
+    j["notes"] = note_texts(in.scene.notes);
+    return j;
 }
 
 } // namespace damslip::study

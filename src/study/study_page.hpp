@@ -4,6 +4,8 @@
 #include "study/study_findings.hpp"
 #include "study/study_settings.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace damslip::study {
 
 struct StudyPageInput {
@@ -20,5 +22,7 @@ struct StudyPageInput {
 
 /// Chapter 4 of Goldgruber (2015) with our numbers: findings, figures 4-2, 4-6, 4-7, 4-11 ... 4-19, tables 4-3 and 4-4.
 pages::Page study_page(const StudyPageInput& input);
+
+nlohmann::ordered_json study_json(const StudyPageInput& input);
 
 } // namespace damslip::study

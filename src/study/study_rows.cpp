@@ -10,9 +10,6 @@ using namespace pages;
 
 namespace {
 
-/// As in sweep_table: results of FE and rigid rows.
-enum ResultColumn : std::size_t { slip_column = 0, max_slip_column = 1, step_error_column = 5 };
-
 template <class List, class Matches>
 std::optional<std::size_t> place(const List& list, Matches&& matches)
 {
@@ -50,8 +47,7 @@ std::optional<double> StudyRows::slip(const StudyCase& at) const
 {
     const FinishedRow* found = row(at);
     if (!found || !found->good) return std::nullopt;
-    const double* slip = std::get_if<double>(&found->results[max_slip_column]);
-    if (!slip) slip = std::get_if<double>(&found->results[slip_column]);
+    const std::optional<double>& slip = found->results.max_slip ? found->results.max_slip : found->results.slip;
     return slip ? std::optional(1e3 * *slip) : std::nullopt;
 }
 
@@ -81,8 +77,7 @@ std::string StudyRows::slip_words(const StudyCase& at) const
 std::optional<double> StudyRows::step_error(const StudyCase& at) const
 {
     const FinishedRow* found = row(at);
-    const double* error = found ? std::get_if<double>(&found->results[step_error_column]) : nullptr;
-    return error ? std::optional(1e3 * *error) : std::nullopt;
+    return found && found->results.slip_error ? std::optional(1e3 * *found->results.slip_error) : std::nullopt;
 }
 
 const SlipHistory* StudyRows::history(const StudyCase& at) const

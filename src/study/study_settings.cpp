@@ -82,25 +82,25 @@ std::vector<SettingsStep> settings_ladder(const Scene& given, const Records& rec
 
 Table settings_table(const std::vector<SettingsStep>& steps)
 {
-    Table t;
-    t.title = "From the accurate settings to the source's, one after the other";
-    t.columns = {{"change", "change", "", 4}, {"water", "water", "", 4}};
-    for (const double friction : chapter_4::frictions)
-        t.columns.push_back({fmt::format("slip_mm_at_{:.2f}", friction), fmt::format("μ = {:.2f}", friction), "mm", 3});
-    for (const SettingsStep& step : steps)
-        for (const auto& [water, slips] :
-             {std::pair{"acoustic", &step.acoustic}, std::pair{"westergaard", &step.westergaard}}) {
-            std::vector<Cell> row{step.change, std::string(water)};
-            for (const double slip : *slips) {
-                row.emplace_back();
-                if (std::isfinite(slip)) row.back() = slip;
-            }
-            t.rows.push_back(std::move(row));
-        }
-    t.notes.push_back("largest slips, with curtain, size 1; each line has the changes of the lines above it too. The "
-                      "second changes nothing "
-                      "where there is no acoustic water.");
-    return t;
+    struct Row {
+        std::string change, water;
+        const std::vector<double>& slips; ///< of chapter_4::frictions [mm]
+    };
+    std::vector<Row> rows;
+    for (const SettingsStep& step : steps) {
+        rows.push_back({step.change, "acoustic", step.acoustic});
+        rows.push_back({step.change, "westergaard", step.westergaard});
+    }
+    std::vector<ColumnOf<Row>> columns{{{"change", "change"}, &Row::change}, {{"water", "water"}, &Row::water}};
+    for (std::size_t i = 0; i < chapter_4::frictions.size(); ++i) {
+        const double friction = chapter_4::frictions[i];
+        columns.push_back({{fmt::format("slip_mm_at_{:.2f}", friction), fmt::format("μ = {:.2f}", friction), "mm", 3},
+                           [i](const Row& r) { return finite_cell(r.slips[i]); }});
+    }
+    return table_of(
+        "From the accurate settings to the source's, one after the other", columns, rows,
+        {"largest slips, with curtain, size 1; each line has the changes of the lines above it too. The second "
+         "changes nothing where there is no acoustic water."});
 }
 
 pages::Chart settings_chart(const std::vector<SettingsStep>& steps, const std::string& water)

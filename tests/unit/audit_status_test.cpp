@@ -368,7 +368,7 @@ TEST(Audit, B1_rows_take_slip_and_exit_code_from_the_status)
         const FinishedRow finished = fe_row(3, slip);
         EXPECT_EQ(finished.good, is_answer(row.status)) << row.word;
         EXPECT_EQ(status_of(finished), row.status);
-        EXPECT_EQ(slip_of(finished).has_value(), row.slip != SlipMeaning::none) << row.word;
+        EXPECT_EQ(finished.results.slip.has_value(), row.slip != SlipMeaning::none) << row.word;
     }
     EXPECT_EQ(FeSlip{}.status, Status::interrupted); // what was not reached is no result
 }

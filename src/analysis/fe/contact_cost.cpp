@@ -1,8 +1,8 @@
 #include "analysis/fe/contact_cost.hpp"
 
+
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 namespace damslip {
@@ -20,52 +20,32 @@ GroundMotion trial_motion(double dt)
     return motion;
 }
 
-Table part_table(const fe2d::EarthquakeRun& model, const fe2d::RunResult& trial)
+void add_parts(const fe2d::EarthquakeRun& model, const fe2d::RunResult& trial, ContactCost& cost)
 {
     const fe2d::ContactStructure& structure = model.structure();
-    const auto contact = static_cast<std::int64_t>(2 * structure.pairs());
-    const auto rock = static_cast<std::int64_t>(model.model().dofs.count - structure.dam_unknowns());
-    Table t;
-    t.title = "Contact run";
-    t.columns = {{"part", "part", "", 4},
-                 {"unknowns", "unknowns", "", 4},
-                 {"become", "become", "", 4},
-                 {"made", "made", "", 4},
-                 {"bytes", "bytes", "", 4}};
-    const auto add = [&](std::string part, std::int64_t unknowns, std::string made, std::size_t bytes) {
-        t.rows.push_back({std::move(part), unknowns, contact, std::move(made), static_cast<std::int64_t>(bytes)});
-    };
-    const auto dam = static_cast<std::int64_t>(structure.dam_unknowns());
-    if (structure.has_rock()) add("rock, condensed exactly", rock, "once", structure.rock_bytes());
-    add("dam at rest, inside eliminated", dam, "once", structure.static_factor().bytes());
-    const auto moving = static_cast<std::int64_t>(model.in_motion().dam_unknowns());
-    const char* in_motion = model.in_motion().rock_moves() ? "dam and rock in motion, inside eliminated"
-                                                           : "dam in motion, inside eliminated";
-    add(in_motion, moving, "once a step size, solved every step", trial.bytes);
-    add("contact problem, dense", contact, "every step", sizeof(double) * static_cast<std::size_t>(contact * contact));
-    t.notes.push_back("the contact problem's bytes are its matrix V, which the motion of the dam holds already.");
-    return t;
+    const auto contact = static_cast<std::int64_t>(2 * structure.pairs()),
+               dam = static_cast<std::int64_t>(structure.dam_unknowns()),
+               rock = static_cast<std::int64_t>(model.model().dofs.count - structure.dam_unknowns()),
+               moving = static_cast<std::int64_t>(model.in_motion().dam_unknowns());
+    cost.contact_unknowns = contact;
+    if (structure.has_rock()) cost.parts.push_back({"rock, condensed exactly", rock, "once", structure.rock_bytes()});
+    cost.parts.push_back({"dam at rest, inside eliminated", dam, "once", structure.static_factor().bytes()});
+    cost.parts.push_back({model.in_motion().rock_moves() ? "dam and rock in motion, inside eliminated"
+                                                         : "dam in motion, inside eliminated",
+                          moving, "once a step size, solved every step", trial.bytes});
+    cost.parts.push_back({"contact problem, dense", contact, "every step",
+                          sizeof(double) * static_cast<std::size_t>(contact * contact)});
 }
 
-Table record_table(const Ready& ready, double seconds_per_step)
+void add_records(const Ready& ready, double seconds_per_step, ContactCost& cost)
 {
-    Table t;
-    t.title = "Estimate by record";
-    t.columns = {{"record", "record", "", 4},
-                 {"steps", "steps", "", 4},
-                 {"pass_seconds", "one pass", "s", 2},
-                 {"least_seconds", "run", "s", 2}};
-    t.notes.push_back("run: two passes, whole and half steps; each halving more that the slip asks for costs twice the "
-                      "one before.");
     for (const RecordPair& pair : ready.records()) {
         const GroundMotion motion = ready.motion(pair);
         const double dt = ready.scene.time.dt.value_or(motion.dt);
         const auto steps = static_cast<std::int64_t>(
             std::ceil(motion.dt * static_cast<double>(motion.accel_h.size() - 1) / dt - 1e-9));
-        const double pass = static_cast<double>(steps) * seconds_per_step;
-        t.rows.push_back({pair.files.name, steps, pass, 3 * pass});
+        cost.records.push_back({pair.files.name, steps, static_cast<double>(steps) * seconds_per_step});
     }
-    return t;
 }
 
 } // namespace
@@ -95,8 +75,8 @@ ContactCost contact_cost(const Ready& ready)
     ContactCost cost;
     cost.set_up_seconds = model.seconds();
     if (steps > 0) cost.seconds_per_step = trial.seconds.dynamics / static_cast<double>(steps);
-    cost.parts = part_table(model, trial);
-    if (cost.seconds_per_step) cost.records = record_table(ready, *cost.seconds_per_step);
+    add_parts(model, trial, cost);
+    if (cost.seconds_per_step) add_records(ready, *cost.seconds_per_step, cost);
     return cost;
 }
 

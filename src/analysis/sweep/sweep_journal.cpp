@@ -29,34 +29,42 @@ std::string head_of(const SweepIdentity& i, const Shard& shard)
                        i.scene, i.records, i.grid, i.rows, shard.index, shard.count);
 }
 
-std::string line_of(const FinishedRow& row)
+/// The numbers of a row, in the order of its line; the status stands before the last.
+constexpr std::optional<double> RowResults::*numbers[] = {
+    &RowResults::slip,      &RowResults::max_slip,   &RowResults::upstream_slip,    &RowResults::slip_low,
+    &RowResults::slip_high, &RowResults::slip_error, &RowResults::truncation_error, &RowResults::critical_friction,
+    &RowResults::lift_slip};
+constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
+
+nlohmann::json cells_of(const RowResults& results)
 {
     nlohmann::json cells = nlohmann::json::array();
-    for (const Cell& cell : row.results)
-        std::visit(
-            [&cells](const auto& v) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
-                    cells.push_back(nullptr);
-                else
-                    cells.push_back(v);
-            },
-            cell);
-    nlohmann::json line{row.id, row.good, cells};
+    for (const auto number : numbers)
+        cells.push_back(results.*number ? nlohmann::json(*(results.*number)) : nlohmann::json());
+    cells.insert(cells.begin() + status_place,
+                 results.status.empty() ? nlohmann::json() : nlohmann::json(results.status));
+    return cells;
+}
+
+RowResults results_of(nlohmann::json cells)
+{
+    RowResults results;
+    if (cells[status_place].is_string()) results.status = cells[status_place].get<std::string>();
+    cells.erase(status_place);
+    for (std::size_t i = 0; i < std::size(numbers); ++i)
+        if (cells[i].is_number()) results.*numbers[i] = cells[i].get<double>();
+    return results;
+}
+
+std::string line_of(const FinishedRow& row)
+{
+    nlohmann::json line{row.id, row.good, cells_of(row.results)};
     if (row.history.interval > 0.0) {
         line.push_back(row.history.interval);
         line.push_back(row.history.slip);
     }
     const std::string text = line.dump();
     return sha256(text).substr(0, checksum_digits) + " " + text + "\n";
-}
-
-Cell cell_of(const nlohmann::json& value)
-{
-    if (value.is_number_integer()) return value.get<std::int64_t>();
-    if (value.is_number()) return value.get<double>();
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_boolean()) return value.get<bool>();
-    return {};
 }
 
 /// Nothing for a line that is not what line_of wrote.
@@ -67,11 +75,10 @@ std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
     if (sha256(text).substr(0, checksum_digits) != line.substr(0, checksum_digits)) return std::nullopt;
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_array() || (json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() ||
-        !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_columns ||
+        !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_count ||
         json[0].get<std::size_t>() >= rows)
         return std::nullopt;
-    FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), {}, {}};
-    for (const auto& value : json[2]) row.results.push_back(cell_of(value));
+    FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), results_of(json[2]), {}};
     if (json.size() == 5) {
         if (!json[3].is_number() || !json[4].is_array()) return std::nullopt;
         row.history = {json[3].get<double>(), json[4].get<std::vector<double>>()};

@@ -2,22 +2,31 @@
 
 #include "analysis/sweep/slip_history.hpp"
 #include "analysis/sweep/sweep_identity.hpp"
-#include "core/table.hpp"
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 
 namespace damslip {
 
-/// What a method gave for one row.
+/// What a method gave for one row; what it does not give is empty.
+struct RowResults {
+    std::optional<double> slip, max_slip, upstream_slip, slip_low, slip_high; ///< [m]
+    std::optional<double> slip_error, truncation_error;                       ///< [m]
+    std::optional<double> critical_friction;                                  ///< [-]
+    std::string status;              ///< of the list, or a remark of the method
+    std::optional<double> lift_slip; ///< [m]
+
+    friend bool operator==(const RowResults&, const RowResults&) = default;
+};
+
 struct FinishedRow {
     std::size_t id = 0;
-    bool good = true;          ///< false: the method did not end properly
-    std::vector<Cell> results; ///< of the columns after the axes and the yield acceleration, result_columns of them
-    SlipHistory history = {};  ///< of slides and FE runs of sweeps of few rows
+    bool good = true; ///< false: the method did not end properly
+    RowResults results;
+    SlipHistory history = {}; ///< of slides and FE runs of sweeps of few rows
 };
-constexpr std::size_t result_columns = 10;
 
 enum class JournalStart {
     fresh, ///< an unfinished journal in its place is refused, one that is done or empty replaced

@@ -3,6 +3,7 @@
 #include "core/units.hpp"
 #include "core/version.hpp"
 #include "pages/ablation/tornado.hpp"
+#include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "scene/write.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -192,6 +194,36 @@ Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& ef
         {"program", "damslip " + program_version()}, {"scene", given.file.string()}, {"scene hash", scene_hash(given)}};
     add_record_provenance(in.records, page.provenance);
     return page;
+}
+
+nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, const EffectPlan& effects)
+{
+    auto j = json_header("explain", given);
+    j["method"] = in.plan.method == Method::rigid_block ? "rigid" : "fe";
+    j["effects"] = json_of(effect_table(effects));
+    auto& a = j["ablation"];
+    a["removals"] = json_of(removal_table(in));
+    if (in.runs.step)
+        a["step"] = {{"substeps", in.runs.step->halvings},
+                     {"dt_s", in.runs.step->largest_dt},
+                     {"chosen", in.runs.step->chosen},
+                     {"error_from_substeps", in.runs.step->other}};
+    if (in.plan.method == Method::rigid_block) a["yield"] = json_of(yield_change_table(in));
+    a["changes"] = json_of(change_table_of_all(in));
+    a["notes"] = ablation_notes(in);
+    a["seconds"] = {{"jobs", in.runs.jobs}, {"scenes", json_of(seconds_table(in))}};
+    return j;
+}
+
+std::string ablation_text(const Ablations& in, const EffectPlan& effects)
+{
+    std::vector<Table> tables{effect_table(effects), removal_table(in)};
+    if (in.plan.method == Method::rigid_block) tables.push_back(yield_change_table(in));
+    for (std::size_t r = 0; r < in.records.size(); ++r) tables.push_back(change_table(in, r));
+    tables.push_back(seconds_table(in));
+    std::string all = in.plan.full.title + "\n\n" + texts(tables);
+    for (const std::string& note : ablation_notes(in)) all += "note: " + note + "\n";
+    return all;
 }
 
 } // namespace damslip::pages

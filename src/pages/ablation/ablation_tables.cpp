@@ -12,11 +12,6 @@ namespace {
 
 using units::mm;
 
-Cell cell(const std::optional<double>& value, double unit = 1.0)
-{
-    return value ? Cell(*value / unit) : Cell();
-}
-
 bool fe(const Ablations& in)
 {
     return in.plan.method == Method::finite_elements;
@@ -29,163 +24,167 @@ std::string name_of(const AblationPlan& plan, const std::optional<Effect>& effec
     return "";
 }
 
-Table change_columns(const Ablations& in)
+/// A scene under one record, or the sum of the changes.
+struct ChangeRow {
+    std::string record, name, status;
+    Change slip, crest;
+    std::optional<double> slip_error, change_error; ///< [m]
+    std::vector<Change> lifts;
+    std::string remark;
+
+    Change lift(std::size_t k) const { return k < lifts.size() ? lifts[k] : Change{}; }
+};
+
+ChangeRow sum_row(const AblationPlan& plan, const std::vector<AblationRow>& rows, const std::string& record)
 {
-    Table t;
-    t.columns = {{"effect", "without", "", 4},
-                 {"status", "status", "", 4},
-                 {"slip_mm", "slip", "mm", 5},
-                 {"change_mm", "change", "mm", 4},
-                 {"change_percent", "change", "%", 3}};
+    ChangeRow row{record, "(sum of changes)", "sum", {}, {}, {}, {}, {}, "some run has no final slip"};
+    const double full = rows.front().slip.value.value_or(0.0);
+    if (const std::optional<double> sum = sum_of_changes(plan, rows)) {
+        row.slip.change = sum;
+        if (full != 0.0) row.slip.percent = 100.0 * *sum / std::abs(full);
+        row.remark = "without rows that are part of another";
+    }
+    return row;
+}
+
+/// The sum stands before the row of the simplest scene, which it compares with.
+void add_changes(const Ablations& in, std::size_t number, std::vector<ChangeRow>& list)
+{
+    const std::string& record = in.records[number].files.name;
+    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, number);
+    for (const AblationRow& r : rows) {
+        if (in.plan.simplest && &r == &rows.back()) list.push_back(sum_row(in.plan, rows, record));
+        list.push_back(
+            {record, r.name, word(r.status), r.slip, r.crest, r.slip_error, r.change_error, r.lifts, r.remark});
+    }
+}
+
+std::vector<ColumnOf<ChangeRow>> change_columns(const Ablations& in)
+{
+    using R = ChangeRow;
+    const ColumnOf<R> slip_error{{"slip_error_mm", "± step", "mm", 2},
+                                 [](const R&r) { return optional_cell(r.slip_error, mm); }},
+        change_error{{"change_error_mm", "± step", "mm", 2},
+                     [](const R&r) { return optional_cell(r.change_error, mm); }};
+    std::vector<ColumnOf<R>> columns{
+        {{"effect", "without"}, &R::name},
+        {{"status", "status"}, &R::status},
+        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return optional_cell(r.slip.value, mm); }}};
+    if (fe(in)) columns.push_back(slip_error);
+    columns.push_back({{"change_mm", "change", "mm", 4}, [](const R& r) { return optional_cell(r.slip.change, mm); }});
+    if (fe(in)) columns.push_back(change_error);
+    columns.push_back({{"change_percent", "change", "%", 3}, [](const R& r) { return optional_cell(r.slip.percent); }});
     if (fe(in)) {
-        t.columns.insert(t.columns.begin() + 3, {"slip_error_mm", "± step", "mm", 2});
-        t.columns.insert(t.columns.begin() + 5, {"change_error_mm", "± step", "mm", 2});
-        t.columns.push_back({"crest_mm", "crest", "mm", 4});
-        t.columns.push_back({"crest_change_mm", "change", "mm", 3});
-        t.columns.push_back({"crest_change_percent", "change", "%", 3});
+        columns.push_back(
+            {{"crest_mm", "crest", "mm", 4}, [](const R& r) { return optional_cell(r.crest.value, mm); }});
+        columns.push_back(
+            {{"crest_change_mm", "change", "mm", 3}, [](const R& r) { return optional_cell(r.crest.change, mm); }});
+        columns.push_back(
+            {{"crest_change_percent", "change", "%", 3}, [](const R& r) { return optional_cell(r.crest.percent); }});
         for (std::size_t k = 0; k < in.plan.full.lift_joints.size(); ++k) {
-            const std::string& name = in.plan.full.lift_joints[k].name;
-            t.columns.push_back({fmt::format("lift_joint_{}_slip_mm", k + 1), "slip, " + name, "mm", 5});
-            t.columns.push_back({fmt::format("lift_joint_{}_change_mm", k + 1), "change", "mm", 4});
+            const std::string key = fmt::format("lift_joint_{}_", k + 1);
+            columns.push_back({{key + "slip_mm", "slip, " + in.plan.full.lift_joints[k].name, "mm", 5},
+                               [k](const R& r) { return optional_cell(r.lift(k).value, mm); }});
+            columns.push_back({{key + "change_mm", "change", "mm", 4},
+                               [k](const R& r) { return optional_cell(r.lift(k).change, mm); }});
         }
     }
-    t.columns.push_back({"remark", "remark", "", 4});
-    return t;
-}
-
-std::vector<Cell> cells_of(const AblationRow& r, const Ablations& in)
-{
-    std::vector<Cell> cells{r.name, word(r.status), cell(r.slip.value, mm)};
-    if (fe(in)) cells.push_back(cell(r.slip_error, mm));
-    cells.push_back(cell(r.slip.change, mm));
-    if (fe(in)) cells.push_back(cell(r.change_error, mm));
-    cells.push_back(cell(r.slip.percent));
-    if (fe(in)) {
-        cells.push_back(cell(r.crest.value, mm));
-        cells.push_back(cell(r.crest.change, mm));
-        cells.push_back(cell(r.crest.percent));
-        for (std::size_t k = 0; k < in.plan.full.lift_joints.size(); ++k) {
-            const Change lift = k < r.lifts.size() ? r.lifts[k] : Change{};
-            cells.push_back(cell(lift.value, mm));
-            cells.push_back(cell(lift.change, mm));
-        }
-    }
-    cells.emplace_back(r.remark);
-    return cells;
-}
-
-/// The sum of the changes in one column of a change table.
-Cell sum_cell(const std::string& key, const std::optional<double>& sum, const std::optional<double>& full)
-{
-    if (key == "effect") return std::string("(sum of changes)");
-    if (key == "status") return std::string("sum");
-    if (key == "change_mm") return cell(sum, mm);
-    if (key == "change_percent" && sum && full.value_or(0.0) != 0.0) return 100.0 * *sum / std::abs(*full);
-    if (key == "remark")
-        return std::string(sum ? "without rows that are part of another" : "some run has no final slip");
-    return {};
-}
-
-/// Stands before the row of the simplest scene, which it compares with.
-std::vector<Cell> sum_cells(const AblationPlan& plan, const std::vector<AblationRow>& rows, const Table& t)
-{
-    const std::optional<double> sum = sum_of_changes(plan, rows);
-    std::vector<Cell> cells;
-    for (const Column& c : t.columns) cells.push_back(sum_cell(c.key, sum, rows.front().slip.value));
-    return cells;
+    columns.push_back({{"remark", "remark"}, &R::remark});
+    return columns;
 }
 
 } // namespace
 
 Table removal_table(const Ablations& in)
 {
-    Table t;
-    t.title = "What takes the place of each effect";
-    t.columns = {{"effect", "effect", "", 4}, {"part_of", "part of", "", 4}, {"instead", "instead", "", 4}};
-    for (const Ablation& a : in.plan.removals) t.rows.push_back({a.name, name_of(in.plan, a.part_of), a.instead});
-    for (const KeptEffect& k : in.plan.kept) t.rows.push_back({k.name, std::string(), "stays: " + k.why});
-    return t;
+    struct Row {
+        std::string effect, part_of, instead;
+    };
+    std::vector<Row> rows;
+    for (const Ablation& a : in.plan.removals) rows.push_back({a.name, name_of(in.plan, a.part_of), a.instead});
+    for (const KeptEffect& k : in.plan.kept) rows.push_back({k.name, "", "stays: " + k.why});
+    return table_of<Row>("What takes the place of each effect",
+                         {{{"effect", "effect"}, &Row::effect},
+                          {{"part_of", "part of"}, &Row::part_of},
+                          {{"instead", "instead"}, &Row::instead}},
+                         rows);
 }
 
 Table change_table(const Ablations& in, std::size_t record)
 {
-    Table t = change_columns(in);
-    t.title = "Record " + in.records[record].files.name;
-    const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, record);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (in.plan.simplest && i + 1 == rows.size()) t.rows.push_back(sum_cells(in.plan, rows, t));
-        t.rows.push_back(cells_of(rows[i], in));
-    }
-    return t;
+    std::vector<ChangeRow> rows;
+    add_changes(in, record, rows);
+    return table_of("Record " + in.records[record].files.name, change_columns(in), rows);
 }
 
 Table change_table_of_all(const Ablations& in)
 {
-    Table t = change_columns(in);
-    t.title = "Changes by effect";
-    t.columns.insert(t.columns.begin(), {"record", "record", "", 4});
-    for (std::size_t r = 0; r < in.records.size(); ++r)
-        for (std::vector<Cell>& row : change_table(in, r).rows) {
-            row.insert(row.begin(), in.records[r].files.name);
-            t.rows.push_back(std::move(row));
-        }
-    return t;
+    std::vector<ChangeRow> rows;
+    for (std::size_t r = 0; r < in.records.size(); ++r) add_changes(in, r, rows);
+    std::vector<ColumnOf<ChangeRow>> columns = change_columns(in);
+    columns.insert(columns.begin(), {{"record", "record"}, &ChangeRow::record});
+    return table_of("Changes by effect", columns, rows);
 }
 
 Table yield_change_table(const Ablations& in)
 {
-    Table t;
-    t.title = "Yield acceleration";
-    t.columns = {{"effect", "without", "", 4},
-                 {"yield_acceleration_m_s2", "a_y", "m/s²", 6},
-                 {"change_m_s2", "change", "m/s²", 4},
-                 {"change_percent", "change", "%", 3},
-                 {"critical_friction", "critical μ", "–", 6},
-                 {"critical_friction_change", "change", "–", 4}};
+    struct Row {
+        std::string name;
+        Change yield, critical_friction;
+    };
     const std::vector<std::string> names = scene_names(in.plan);
     const SceneRuns& full = in.runs.scenes.front();
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<Row> rows{{names[0], {full.yield_acceleration, {}, {}}, {full.critical_friction, {}, {}}}};
+    for (std::size_t i = 1; i < names.size(); ++i) {
         const SceneRuns& own = in.runs.scenes[i];
-        const Change a = change_from(full.yield_acceleration, own.yield_acceleration),
-                     mu = change_from(full.critical_friction, own.critical_friction);
-        if (i == 0)
-            t.rows.push_back({names[i], cell(a.value), {}, {}, cell(mu.value), {}});
-        else
-            t.rows.push_back(
-                {names[i], cell(a.value), cell(a.change), cell(a.percent), cell(mu.value), cell(mu.change)});
+        rows.push_back({names[i], change_from(full.yield_acceleration, own.yield_acceleration),
+                        change_from(full.critical_friction, own.critical_friction)});
     }
-    t.notes.push_back("before any slip, downstream, without vertical motion; negative: slides without earthquake.");
-    return t;
+    return table_of<Row>(
+        "Yield acceleration",
+        {{{"effect", "without"}, &Row::name},
+         {{"yield_acceleration_m_s2", "a_y", "m/s²", 6}, [](const Row& r) { return optional_cell(r.yield.value); }},
+         {{"change_m_s2", "change", "m/s²", 4}, [](const Row& r) { return optional_cell(r.yield.change); }},
+         {{"change_percent", "change", "%", 3}, [](const Row& r) { return optional_cell(r.yield.percent); }},
+         {{"critical_friction", "critical μ", "–", 6},
+          [](const Row& r) { return optional_cell(r.critical_friction.value); }},
+         {{"critical_friction_change", "change", "–", 4},
+          [](const Row& r) { return optional_cell(r.critical_friction.change); }}},
+        rows, {"before any slip, downstream, without vertical motion; negative: slides without earthquake."});
 }
 
 Table seconds_table(const Ablations& in)
 {
-    Table t;
-    t.title = "Seconds";
-    t.columns = {{"effect", "without", "", 4},       {"set_up_seconds", "set-up", "s", 3},
-                 {"run_seconds", "runs", "s", 3},    {"seconds", "sum", "s", 3},
-                 {"saved_seconds", "saved", "s", 2}, {"saved_percent", "saved", "%", 2}};
-    if (fe(in)) {
-        t.columns.push_back({"unknowns", "unknowns", "", 4});
-        t.columns.push_back({"unknowns_saved", "saved", "", 4});
-    }
+    struct Row {
+        std::string name;
+        SceneSeconds seconds;
+        std::optional<double> saved;
+        std::int64_t unknowns;
+        std::optional<std::int64_t> unknowns_saved;
+    };
     const std::vector<std::string> names = scene_names(in.plan);
     const SceneRuns& full = in.runs.scenes.front();
-    const double whole = seconds_of(full).sum();
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<Row> rows{{names[0], seconds_of(full), {}, full.unknowns, {}}};
+    for (std::size_t i = 1; i < names.size(); ++i) {
         const SceneRuns& own = in.runs.scenes[i];
-        const SceneSeconds s = seconds_of(own);
-        std::optional<double> saved;
-        if (i > 0) saved = saved_seconds(full, own);
-        std::vector<Cell> row{names[i], s.set_up, s.runs, s.sum(), cell(saved), cell(saved, 0.01 * whole)};
-        if (fe(in)) {
-            row.emplace_back(own.unknowns);
-            row.push_back(i > 0 ? Cell(full.unknowns - own.unknowns) : Cell());
-        }
-        t.rows.push_back(std::move(row));
+        rows.push_back(
+            {names[i], seconds_of(own), saved_seconds(full, own), own.unknowns, full.unknowns - own.unknowns});
     }
-    t.notes.push_back("processor time of one thread, so other work on the machine does not count; saved is positive "
-                      "where the simpler scene is faster.");
+    const double percent = 0.01 * seconds_of(full).sum();
+    std::vector<ColumnOf<Row>> columns{
+        {{"effect", "without"}, &Row::name},
+        {{"set_up_seconds", "set-up", "s", 3}, [](const Row& r) { return r.seconds.set_up; }},
+        {{"run_seconds", "runs", "s", 3}, [](const Row& r) { return r.seconds.runs; }},
+        {{"seconds", "sum", "s", 3}, [](const Row& r) { return r.seconds.sum(); }},
+        {{"saved_seconds", "saved", "s", 2}, [](const Row& r) { return optional_cell(r.saved); }},
+        {{"saved_percent", "saved", "%", 2}, [=](const Row& r) { return optional_cell(r.saved, percent); }}};
+    if (fe(in)) {
+        columns.push_back({{"unknowns", "unknowns"}, &Row::unknowns});
+        columns.push_back({{"unknowns_saved", "saved"}, [](const Row& r) { return optional_cell(r.unknowns_saved); }});
+    }
+    Table t = table_of("Seconds", columns, rows,
+                       {"processor time of one thread, so other work on the machine does not count; saved is positive "
+                        "where the simpler scene is faster."});
     if (in.runs.jobs > 1)
         t.notes.push_back(fmt::format("measured with up to {} scenes side by side, which share caches and memory: use "
                                       "--jobs 1 for seconds to rely on.",

@@ -5,23 +5,13 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 
 namespace damslip::pages {
 
 namespace {
 
 using units::mm;
-
-Cell millimetres(const std::optional<double>& metres)
-{
-    return metres ? Cell(*metres / mm) : Cell();
-}
-
-template <class Number>
-Cell optional_cell(const std::optional<Number>& value)
-{
-    return value ? Cell(*value) : Cell();
-}
 
 /// Of the list; empty for a rung that was skipped, and for a regression, which gives an estimate and no run.
 Cell status_cell(const RungResult& r)
@@ -46,68 +36,64 @@ std::string remark_of(const RungResult& r)
     return "";
 }
 
-Cell of_record(const std::vector<double>& values, std::size_t record)
-{
-    return record < values.size() ? Cell(values[record] / mm) : Cell();
-}
+struct RungRow {
+    const RungResult& result;
+    const RungVerdict& verdict;
+    const Judgement& judgement;
 
-std::vector<Cell> rung_row(const RungResult& r, const RungVerdict& v, const Judgement& j)
+    Cell of_record(const std::vector<double>& values) const
+    {
+        return judgement.record < values.size() ? Cell(values[judgement.record] / mm) : Cell();
+    }
+    /// Of its slip from the top's, over the top's [%].
+    Cell off_top_percent() const
+    {
+        if (!result.done() || !judgement.top || !verdict.off_top) return {};
+        const double top = std::abs(result.slip[judgement.record] - *verdict.off_top);
+        return top >= least_slip ? Cell(100.0 * *verdict.off_top / top) : Cell();
+    }
+};
+
+std::vector<ColumnOf<RungRow>> rung_columns()
 {
-    const bool done = r.done();
-    const std::optional<double> top =
-        done && j.top && v.off_top ? std::optional(r.slip[j.record] - *v.off_top) : std::nullopt;
-    const bool relative = top && std::abs(*top) >= least_slip;
-    return {rung_id(r.rung),
-            of_record(r.slip, j.record),
-            of_record(r.low, j.record),
-            of_record(r.high, j.record),
-            millimetres(v.error),
-            millimetres(v.model_difference),
-            millimetres(v.off_top),
-            relative ? Cell(100.0 * *v.off_top / std::abs(*top)) : Cell(),
-            v.deviation ? Cell(100.0 * *v.deviation) : Cell(),
-            v.front ? Cell(true) : Cell(),
-            done ? Cell(r.seconds) : Cell(),
-            done ? Cell(r.set_up_seconds) : Cell(),
-            done ? Cell(std::int64_t{r.repeats}) : Cell(),
-            done && r.bytes ? Cell(*r.bytes / 1e6) : Cell(),
-            optional_cell(r.unknowns),
-            optional_cell(r.time_step),
-            optional_cell(r.steps),
-            status_cell(r),
-            remark_of(r)};
+    using R = RungRow;
+    const auto if_done = [](auto RungResult::*value) {
+        return [=](const R& r) { return r.result.done() ? Cell(r.result.*value) : Cell(); };
+    };
+    const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
+    const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
+    return {{{"rung", "rung"}, [](const R& r) { return rung_id(r.result.rung); }},
+            {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_record(r.result.slip); }},
+            {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.low); }},
+            {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.high); }},
+            {{"error_mm", "± steps, mesh", "mm", 2}, [](const R& r) { return optional_cell(r.verdict.error, mm); }},
+            {{"model_difference_mm", "model − top's", "mm", 3},
+             [](const R& r) { return optional_cell(r.verdict.model_difference, mm); }},
+            {{"off_top_mm", "slip − top's", "mm", 3}, [](const R& r) { return optional_cell(r.verdict.off_top, mm); }},
+            {{"off_top_percent", "slip − top's", "%", 3}, &R::off_top_percent},
+            {{"deviation_percent", "deviation", "%", 3}, deviation},
+            {{"front", "front"}, [](const R& r) { return r.verdict.front ? Cell(true) : Cell(); }},
+            {{"seconds", "time", "s", 3}, if_done(&RungResult::seconds)},
+            {{"set_up_seconds", "set-up", "s", 2}, if_done(&RungResult::set_up_seconds)},
+            {{"repeats", "runs"}, if_done(&RungResult::repeats)},
+            {{"megabytes", "memory", "MB", 3}, megabytes},
+            {{"unknowns", "unknowns"}, [](const R& r) { return optional_cell(r.result.unknowns); }},
+            {{"time_step_s", "step", "s", 4}, [](const R& r) { return optional_cell(r.result.time_step); }},
+            {{"steps", "steps"}, [](const R& r) { return optional_cell(r.result.steps); }},
+            {{"status", "status"}, [](const R& r) { return status_cell(r.result); }},
+            {{"remark", "remark"}, [](const R& r) { return remark_of(r.result); }}};
 }
 
 } // namespace
 
 Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
 {
-    Table t;
-    t.title = "Rungs";
-    t.columns = {{"rung", "rung", "", 4},
-                 {"slip_mm", "slip", "mm", 5},
-                 {"slip_16_mm", "16 %", "mm", 3},
-                 {"slip_84_mm", "84 %", "mm", 3},
-                 {"error_mm", "± steps, mesh", "mm", 2},
-                 {"model_difference_mm", "model − top's", "mm", 3},
-                 {"off_top_mm", "slip − top's", "mm", 3},
-                 {"off_top_percent", "slip − top's", "%", 3},
-                 {"deviation_percent", "deviation", "%", 3},
-                 {"front", "front", "", 4},
-                 {"seconds", "time", "s", 3},
-                 {"set_up_seconds", "set-up", "s", 2},
-                 {"repeats", "runs", "", 4},
-                 {"megabytes", "memory", "MB", 3},
-                 {"unknowns", "unknowns", "", 4},
-                 {"time_step_s", "step", "s", 4},
-                 {"steps", "steps", "", 4},
-                 {"status", "status", "", 4},
-                 {"remark", "remark", "", 4}};
-    for (std::size_t i = 0; i < results.size(); ++i) t.rows.push_back(rung_row(results[i], j.rungs[i], j));
+    std::vector<RungRow> rows;
+    for (std::size_t i = 0; i < results.size(); ++i) rows.push_back({results[i], j.rungs[i], j});
+    Table t = table_of("Rungs", rung_columns(), rows);
     t.notes = {
         "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the rungs of the same "
-        "model; "
-        "model − top's: difference of the limits of both models.",
+        "model; model − top's: difference of the limits of both models.",
         "deviation: (|slip − top's| + what the top rung leaves open) over the top's slip, the worst record; front: no "
         "rung as fast deviates less.",
         "time: processor time of all that this rung costs alone, reading and set-up included, median of the runs; "
@@ -124,45 +110,64 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
 
 Table model_table(const std::vector<RungResult>& results, const Judgement& j)
 {
-    Table t;
-    t.title = "Models and their limits";
-    t.columns = {{"model", "model", "", 4},
-                 {"limit_mm", "limit", "mm", 5},
-                 {"open_mm", "± open", "mm", 2},
-                 {"off_top_percent", "model − top's", "%", 3},
-                 {"order_step", "order in step", "", 3},
-                 {"order_mesh", "in mesh", "", 3},
-                 {"order_penalty", "in 1/penalty", "", 3},
-                 {"order_modes", "in 1/modes", "", 3}};
+    using M = ModelLimit;
+    double reference = 0.0; // of the limits: the top's own, or its slip
+    if (j.top) {
+        reference = results[*j.top].slip[j.record];
+        const std::string top = model_of(results[*j.top].rung);
+        for (const M& m : j.models)
+            if (m.model == top) reference = m.slip[j.record];
+    }
+    const auto off_top = [&](const M& m) {
+        return std::abs(reference) >= least_slip ? Cell(100.0 * (m.slip[j.record] - reference) / std::abs(reference))
+                                                 : Cell();
+    };
+    Table t = table_of<M>(
+        "Models and their limits",
+        {{{"model", "model"}, &M::model},
+         {{"limit_mm", "limit", "mm", 5}, [&](const M& m) { return m.slip[j.record] / mm; }},
+         {{"open_mm", "± open", "mm", 2}, [&](const M& m) { return m.open[j.record] / mm; }},
+         {{"off_top_percent", "model − top's", "%", 3}, off_top},
+         {{"order_step", "order in step", "", 3}, [](const M& m) { return optional_cell(m.order_step); }},
+         {{"order_mesh", "in mesh", "", 3}, [](const M& m) { return optional_cell(m.order_mesh); }},
+         {{"order_penalty", "in 1/penalty", "", 3}, [](const M& m) { return optional_cell(m.order_penalty); }},
+         {{"order_modes", "in 1/modes", "", 3}, [](const M& m) { return optional_cell(m.order_modes); }}},
+        j.top ? j.models : std::vector<M>{});
     if (!j.top) return t;
-    const std::string top = model_of(results[*j.top].rung);
-    double reference = results[*j.top].slip[j.record];
-    for (const ModelLimit& m : j.models)
-        if (m.model == top) reference = m.slip[j.record];
-    for (const ModelLimit& m : j.models)
-        t.rows.push_back({m.model, m.slip[j.record] / mm, m.open[j.record] / mm,
-                          std::abs(reference) >= least_slip
-                              ? Cell(100.0 * (m.slip[j.record] - reference) / std::abs(reference))
-                              : Cell(),
-                          optional_cell(m.order_step), optional_cell(m.order_mesh), optional_cell(m.order_penalty),
-                          optional_cell(m.order_modes)});
-    t.notes.push_back(
-        "limit: step and element size to zero, by Richardson's extrapolation with the observed order (held "
-        "between 1 and 2); the rigid block is located exactly. Orders are those the last three rungs show.");
-    for (const ModelLimit& m : j.models)
+    t.notes.push_back("limit: step and element size to zero, by Richardson's extrapolation with the observed order "
+                      "(held between 1 and "
+                      "2); the rigid block is located exactly. Orders are those the last three rungs show.");
+    for (const M& m : j.models)
         if (!m.mesh_known && m.model.starts_with("fe-"))
             t.notes.push_back(m.model + ": the limit is that of the scene's mesh, no other mesh was run.");
     return t;
 }
 
-Table slip_table(const std::vector<RungResult>& results, const std::vector<std::string>& records)
+Table slip_table(const std::vector<RungResult>& results, const std::vector<RecordPair>& records)
 {
-    Table t;
-    t.columns = {{"rung", "rung", "", 4}, {"record", "record", "", 4}, {"slip_m", "slip", "m", 6}};
+    struct Row {
+        std::string rung, record;
+        double slip; ///< [m]
+    };
+    std::vector<Row> rows;
     for (const RungResult& r : results)
         for (std::size_t i = 0; i < r.slip.size() && i < records.size(); ++i)
-            t.rows.push_back({rung_id(r.rung), records[i], r.slip[i]});
-    return t;
+            rows.push_back({rung_id(r.rung), records[i].files.name, r.slip[i]});
+    return table_of<Row>("",
+                         {{{"rung", "rung"}, &Row::rung},
+                          {{"record", "record"}, &Row::record},
+                          {{"slip_m", "slip", "m", 6}, &Row::slip}},
+                         rows);
+}
+
+Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records)
+{
+    using Number = std::size_t;
+    return table_of<Number>("Rung " + rung_id(result.rung),
+                            {{{"record", "record"}, [&](Number i) { return records[i].files.name; }},
+                             {{"slip_mm", "slip", "mm", 6}, [&](Number i) { return result.slip[i] / mm; }},
+                             {{"seconds", "time, all records", "s", 3}, [&](Number) { return result.seconds; }}},
+                            std::views::iota(Number{0}, result.slip.size()));
 }
 
 bool all_fail_statically(const std::vector<RungResult>& results)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/accuracy/judge.hpp"
+#include "analysis/prepare/records.hpp"
 #include "core/table.hpp"
 
 namespace damslip::pages {
@@ -12,7 +13,10 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& judgem
 Table model_table(const std::vector<RungResult>& results, const Judgement& judgement);
 
 /// Slip of every rung for every record [m], for files.
-Table slip_table(const std::vector<RungResult>& results, const std::vector<std::string>& records);
+Table slip_table(const std::vector<RungResult>& results, const std::vector<RecordPair>& records);
+
+/// Slips of one rung, by record.
+Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records);
 
 /// Did some rung run, and every one that did find that the dam does not stand without an earthquake? That is an answer.
 bool all_fail_statically(const std::vector<RungResult>& results);

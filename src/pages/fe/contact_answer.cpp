@@ -4,7 +4,7 @@
 #include "analysis/prepare/contact_law.hpp"
 #include "core/file.hpp"
 #include "core/version.hpp"
-#include "pages/fe/acoustic_modes.hpp"
+#include "pages/fe/water_notes.hpp"
 #include "pages/report/table_text.hpp"
 #include "scene/exact_contact.hpp"
 #include "scene/plausible.hpp"

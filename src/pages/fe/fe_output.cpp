@@ -111,13 +111,6 @@ void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer)
     for (const std::string& message : messages) answer.text += "note: " + message + "\n";
 }
 
-std::string texts(const std::vector<Table>& tables)
-{
-    std::string all;
-    for (const Table& table : tables) all += (all.empty() ? "" : "\n") + text(table);
-    return all;
-}
-
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,
                       const Eigen::VectorXd& elastic, std::vector<fe2d::VtuArray> more)
 {

@@ -38,9 +38,6 @@ void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, 
 /// Messages last; in the text as notes.
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
 
-/// Tables for a terminal, an empty line between them.
-std::string texts(const std::vector<Table>& tables);
-
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {
 public:

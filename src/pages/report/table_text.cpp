@@ -133,6 +133,13 @@ std::string text(const Table& table)
     return framed(table, aligned(lines, header, right));
 }
 
+std::string texts(const std::vector<Table>& tables)
+{
+    std::string all;
+    for (const Table& table : tables) all += (all.empty() ? "" : "\n") + text(table);
+    return all;
+}
+
 std::string text_by_columns(const Table& table, std::size_t labels)
 {
     std::vector<TextLine> lines;

@@ -16,6 +16,9 @@ bool is_number(const Cell& cell);
 /// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
 std::string text(const Table& table);
 
+/// Several, an empty line between them.
+std::string texts(const std::vector<Table>& tables);
+
 /// The same turned by a quarter, for tables of many quantities and few rows: one line per column with its unit, one column per row;
 /// a rule below the first `labels` lines.
 std::string text_by_columns(const Table& table, std::size_t labels);

@@ -3,6 +3,8 @@
 #include "analysis/screen/screening.hpp"
 #include "pages/report/page.hpp"
 
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 /// The screening as the report that is handed in.
@@ -27,5 +29,11 @@ Page screen_page(const ScreenReportInput& input);
 
 /// The page as one HTML file.
 std::string screen_report(const ScreenReportInput& input);
+
+nlohmann::ordered_json screen_json(const ScreenReportInput& input);
+std::string screen_text(const ScreenReportInput& input);
+
+/// summary.json, displacements.csv, flexible_block.csv of a flexible mass, scene.resolved.toml, report.html.
+void write_screening(const std::filesystem::path& folder, const ScreenReportInput& input);
 
 } // namespace damslip::pages

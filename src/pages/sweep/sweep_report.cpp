@@ -35,60 +35,78 @@ std::string join(const std::vector<std::string>& words)
     return out;
 }
 
-/// Rows of one method that have a slip, failed statically, or have no answer.
+/// Rows of one method: how many have a slip, failed statically, or have no answer.
+struct MethodRows {
+    std::string method;
+    std::int64_t rows = 0, static_failures = 0, unanswered = 0, above_allowable = 0;
+    std::vector<double> slips; ///< ascending [mm]
+    StatusCount without;
+
+    Cell median() const
+    {
+        const std::size_t n = slips.size();
+        return n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell();
+    }
+};
+
+MethodRows rows_of(const SweepView& view, const std::string& method, const std::optional<double>& allowable)
+{
+    MethodRows m;
+    m.method = method;
+    for (const SweepRow& r : view.rows) {
+        if (r.method != method) continue;
+        ++m.rows;
+        m.static_failures += r.fails_statically();
+        m.unanswered += r.unanswered();
+        if (!r.slip && r.state) m.without.add(*r.state);
+        if (!r.slip) continue;
+        m.above_allowable += allowable && std::abs(*r.slip) > *allowable;
+        m.slips.push_back(std::abs(*r.slip) / mm);
+    }
+    std::sort(m.slips.begin(), m.slips.end());
+    return m;
+}
+
 Table method_table(const SweepView& view, const std::optional<double>& allowable)
 {
-    Table t;
-    t.title = "Rows by method";
-    t.columns = {{"method", "method", "", 4},         {"rows", "rows", "", 4},
-                 {"with_slip", "with a slip", "", 4}, {"static_failures", "slide statically", "", 4},
-                 {"unanswered", "no answer", "", 4},  {"median_mm", "median", "mm", 4},
-                 {"largest_mm", "largest", "mm", 4},  {"without_slip", "without a slip", "", 4}};
-    if (allowable) t.columns.push_back({"above_allowable", "above the allowable", "", 4});
-    for (const std::string& method : view.methods) {
-        std::int64_t rows = 0, with_slip = 0, failures = 0, unanswered = 0, above = 0;
-        std::vector<double> slips;
-        StatusCount without;
-        for (const SweepRow& r : view.rows) {
-            if (r.method != method) continue;
-            ++rows;
-            failures += r.fails_statically();
-            unanswered += r.unanswered();
-            if (!r.slip && r.state) without.add(*r.state);
-            if (!r.slip) continue;
-            ++with_slip;
-            above += allowable && std::abs(*r.slip) > *allowable;
-            slips.push_back(std::abs(*r.slip) / mm);
-        }
-        std::sort(slips.begin(), slips.end());
-        const auto n = slips.size();
-        t.rows.push_back({method, rows, with_slip, failures, unanswered,
-                          n ? Cell(0.5 * (slips[(n - 1) / 2] + slips[n / 2])) : Cell(), n ? Cell(slips.back()) : Cell(),
-                          without.empty() ? Cell() : Cell(without.words())});
-        if (allowable) t.rows.back().push_back(above);
-    }
-    t.notes.push_back(
-        "slips: largest on the way, of rows with an answer; slide statically: there is no equilibrium without an "
-        "earthquake; without a slip: by status.");
-    return t;
+    using M = MethodRows;
+    std::vector<M> rows;
+    for (const std::string& method : view.methods) rows.push_back(rows_of(view, method, allowable));
+    std::vector<ColumnOf<M>> columns{
+        {{"method", "method"}, &M::method},
+        {{"rows", "rows"}, &M::rows},
+        {{"with_slip", "with a slip"}, [](const M& m) { return count_cell(m.slips.size()); }},
+        {{"static_failures", "slide statically"}, &M::static_failures},
+        {{"unanswered", "no answer"}, &M::unanswered},
+        {{"median_mm", "median", "mm", 4}, &M::median},
+        {{"largest_mm", "largest", "mm", 4},
+         [](const M& m) { return m.slips.empty() ? Cell() : Cell(m.slips.back()); }},
+        {{"without_slip", "without a slip"},
+         [](const M& m) { return m.without.empty() ? Cell() : Cell(m.without.words()); }}};
+    if (allowable) columns.push_back({{"above_allowable", "above the allowable"}, &M::above_allowable});
+    return table_of("Rows by method", columns, rows,
+                    {"slips: largest on the way, of rows with an answer; slide statically: there is no equilibrium "
+                     "without an earthquake; without a slip: by status."});
 }
 
 /// The variants with the friction from which they stand.
 Table variant_table(const SweepView& view)
 {
-    Table t;
-    t.title = "Variants";
-    t.columns = {{"level_m", "level", "m", 4},  {"uplift", "uplift", "", 4},
-                 {"reservoir", "water", "", 4}, {"size", "size", "–", 4},
-                 {"scale", "motion ×", "–", 4}, {"critical_friction", "stands from μ", "–", 5}};
-    for (std::size_t v = 0; v < view.variants.size(); ++v) {
-        const SweepVariant& variant = view.variants[v];
+    using V = SweepVariant;
+    const auto stands_from = [&](const V& v) {
+        const auto number = static_cast<std::size_t>(&v - view.variants.data());
         const auto row = std::find_if(view.rows.begin(), view.rows.end(),
-                                      [&](const SweepRow& r) { return r.variant == v && r.critical_friction; });
-        t.rows.push_back({variant.level, variant.uplift, variant.reservoir, variant.size, variant.scale,
-                          row == view.rows.end() ? Cell() : Cell(*row->critical_friction)});
-    }
-    return t;
+                                      [&](const SweepRow& r) { return r.variant == number && r.critical_friction; });
+        return row == view.rows.end() ? Cell() : Cell(*row->critical_friction);
+    };
+    return table_of<V>("Variants",
+                       {{{"level_m", "level", "m", 4}, &V::level},
+                        {{"uplift", "uplift"}, &V::uplift},
+                        {{"reservoir", "water"}, &V::reservoir},
+                        {{"size", "size", "–", 4}, &V::size},
+                        {{"scale", "motion ×", "–", 4}, &V::scale},
+                        {{"critical_friction", "stands from μ", "–", 5}, stands_from}},
+                       view.variants);
 }
 
 const SweepRow* worst_of(const SweepView& view)

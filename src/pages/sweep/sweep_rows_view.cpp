@@ -1,6 +1,6 @@
 #include "pages/sweep/sweep_rows_view.hpp"
 
-#include "analysis/sweep/sweep_rows.hpp"
+#include "pages/sweep/sweep_tables.hpp"
 #include "sliding/empirical/regression.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace damslip::cli {
+namespace damslip::pages {
 
 /// "results.csv", 2/4 -> "results.2-of-4.csv".
 std::filesystem::path part_file(const std::filesystem::path& csv, const Shard& shard);
@@ -30,4 +30,4 @@ MergedSweep merge_parts(const std::vector<std::filesystem::path>& paths);
 /// The rows of a sweep's CSV as they were before it was written. @throws InputError for other columns than sweep_table()
 Table sweep_rows_of(const std::string& csv);
 
-} // namespace damslip::cli
+} // namespace damslip::pages

@@ -1,9 +1,9 @@
-#include "cli/sweep_parts.hpp"
+#include "pages/sweep/sweep_parts.hpp"
 
-#include "analysis/sweep/sweep_rows.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
+#include "pages/sweep/sweep_tables.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,14 +12,14 @@
 #include <regex>
 #include <utility>
 
-namespace damslip::cli {
+namespace damslip::pages {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A part file as read, checked against its own checksum.
-struct Part {
+struct SweepPart {
     fs::path file;
     Shard shard;
     std::string comments, header; ///< of the whole sweep; the row of keys
@@ -42,7 +42,7 @@ std::size_t next_line(const fs::path& file, const std::string& content, std::siz
     return end + 1;
 }
 
-void read_lines(const std::string& body, Part& part)
+void read_lines(const std::string& body, SweepPart& part)
 {
     std::string line;
     std::size_t at = next_line(part.file, body, 0, part.header);
@@ -57,13 +57,13 @@ void read_lines(const std::string& body, Part& part)
     }
 }
 
-Part read_part(const fs::path& file)
+SweepPart read_part(const fs::path& file)
 {
     static const std::regex sweep_line("# sweep [0-9a-f]{64}, ([0-9]{1,12}) rows"),
         part_line("# part ([0-9]{1,7})/([0-9]{1,7}), ([0-9]{1,12}) rows, ([0-9]{1,12}) not converged, sha256 "
                   "([0-9a-f]{64})");
     const std::string content = read_file(file, std::uintmax_t{1} << 40);
-    Part part;
+    SweepPart part;
     part.file = file;
     std::string first, scene, sweep, own;
     std::size_t at = next_line(file, content, 0, first);
@@ -109,11 +109,11 @@ std::vector<fs::path> part_files(const std::vector<fs::path>& paths)
 }
 
 /// All of one sweep, none twice, none missing.
-void check_parts(const std::vector<Part>& parts)
+void check_parts(const std::vector<SweepPart>& parts)
 {
-    const Part& first = parts.front();
-    std::map<std::size_t, const Part*> by_index;
-    for (const Part& part : parts) {
+    const SweepPart& first = parts.front();
+    std::map<std::size_t, const SweepPart*> by_index;
+    for (const SweepPart& part : parts) {
         if (part.comments != first.comments || part.header != first.header || part.shard.count != first.shard.count)
             refuse(part.file,
                    fmt::format("part {}/{} is not of the same sweep as {}.", part.shard.index, part.shard.count,
@@ -140,7 +140,7 @@ void check_parts(const std::vector<Part>& parts)
                "all parts of the sweep", "run them:  " + flags);
 }
 
-/// Fields of a line of pages::csv.
+/// Fields of a line of csv().
 std::vector<std::string> fields_of(const std::string& line)
 {
     std::vector<std::string> fields(1);
@@ -161,7 +161,7 @@ std::vector<std::string> fields_of(const std::string& line)
     return fields;
 }
 
-/// A name that begins like a formula has an apostrophe in front in the file (pages::csv).
+/// A name that begins like a formula has an apostrophe in front in the file (csv()).
 std::string without_apostrophe(const std::string& field)
 {
     const bool put =
@@ -184,7 +184,7 @@ Cell cell_of(const std::string& key, const std::string& field)
 
 Table sweep_rows_of(const std::string& csv)
 {
-    Table table = sweep_table();
+    Table table{"", sweep_columns(), {}, {}};
     bool header = true;
     for (std::size_t at = 0; at < csv.size();) {
         const std::size_t end = std::min(csv.find('\n', at), csv.size());
@@ -225,13 +225,13 @@ std::string part_text(const SweepIdentity& identity, const Shard& shard, const s
 
 MergedSweep merge_parts(const std::vector<fs::path>& paths)
 {
-    std::vector<Part> parts;
+    std::vector<SweepPart> parts;
     for (const fs::path& file : part_files(paths)) parts.push_back(read_part(file));
     check_parts(parts);
     MergedSweep merged;
     merged.parts = parts.size();
     std::map<std::size_t, std::string> lines;
-    for (Part& part : parts) {
+    for (SweepPart& part : parts) {
         merged.not_converged += part.not_converged;
         lines.merge(part.lines);
         if (!part.lines.empty()) // ids that were there before stay behind
@@ -248,4 +248,4 @@ MergedSweep merge_parts(const std::vector<fs::path>& paths)
     return merged;
 }
 
-} // namespace damslip::cli
+} // namespace damslip::pages

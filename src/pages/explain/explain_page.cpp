@@ -1,0 +1,122 @@
+#include "pages/explain/explain_page.hpp"
+
+#include "pages/fe/fe_output.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/report_provenance.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+/// Pairs of nodes of every lift joint.
+Table joint_table(const Explained& in)
+{
+    struct Row {
+        const LiftJoint& joint;
+        const fe2d::LiftPlane& contact;
+    };
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < in.model->mesh.lifts.size(); ++i)
+        rows.push_back({in.given.lift_joints[i], in.model->mesh.lifts[i]});
+    return table_of<Row>(
+        "Lift joints",
+        {{{"joint", "joint"}, [](const Row& r) { return r.joint.name; }},
+         {{"elevation_m", "elevation", "m", 5}, [](const Row& r) { return r.joint.elevation; }},
+         {{"length_m", "length", "m", 5}, [](const Row& r) { return r.contact.distance.back(); }},
+         {{"pairs", "contact pairs"}, [](const Row& r) { return count_cell(r.contact.upper_nodes.size()); }}},
+        rows);
+}
+
+/// Counts from the assembled matrices themselves.
+Table model_counts(const Explained& in)
+{
+    return count_table(in.model->counts, in.water ? &*in.water : nullptr);
+}
+
+Table part_table(const ContactCost& cost)
+{
+    using P = ContactCost::Part;
+    return table_of<P>("Contact run",
+                       {{{"part", "part"}, &P::name},
+                        {{"unknowns", "unknowns"}, &P::unknowns},
+                        {{"become", "become"}, [&](const P&) { return cost.contact_unknowns; }},
+                        {{"made", "made"}, &P::made},
+                        {{"bytes", "bytes"}, [](const P& p) { return count_cell(p.bytes); }}},
+                       cost.parts,
+                       {"the contact problem's bytes are its matrix V, which the motion of the dam holds already."});
+}
+
+Table record_table(const ContactCost& cost)
+{
+    using R = ContactCost::OfRecord;
+    return table_of<R>(
+        "Estimate by record",
+        {{{"record", "record"}, &R::record},
+         {{"steps", "steps"}, &R::steps},
+         {{"pass_seconds", "one pass", "s", 2}, &R::pass_seconds},
+         {{"least_seconds", "run", "s", 2}, [](const R& r) { return 3 * r.pass_seconds; }}},
+        cost.records,
+        {"run: two passes, whole and half steps; each halving more that the slip asks for costs twice the "
+         "one before."});
+}
+
+nlohmann::ordered_json cost_json(const ContactCost& cost)
+{
+    nlohmann::ordered_json j;
+    j["parts"] = json_of(part_table(cost));
+    j["factorisations"] = {{"set_up", cost.set_up_factorisations()}, {"by_step_size", 1}};
+    j["set_up_seconds"] = cost.set_up_seconds;
+    j["seconds_per_step"] = nullptr;
+    if (cost.seconds_per_step) j["seconds_per_step"] = *cost.seconds_per_step;
+    j["records"] = json_of(record_table(cost));
+    return j;
+}
+
+std::string cost_text(const ContactCost& cost)
+{
+    const std::size_t made = cost.set_up_factorisations();
+    std::string all = text(part_table(cost)) +
+                      fmt::format("  {} factorisation{} in the set-up, one for each step size after it; no step "
+                                  "factorises anew.\n  measured here: set-up {:.2g} s",
+                                  made, made == 1 ? "" : "s", cost.set_up_seconds);
+    all += cost.seconds_per_step ? fmt::format(", {:.2g} ms a step of strong shaking.\n", 1e3 * *cost.seconds_per_step)
+                                 : ".\n";
+    return cost.records.empty() ? all : all + "\n" + text(record_table(cost));
+}
+
+} // namespace
+
+nlohmann::ordered_json explain_json(const Explained& in)
+{
+    auto j = json_header("explain", in.given);
+    j["method"] = in.method;
+    j["effects"] = json_of(effect_table(in.plan));
+    if (in.model) j["model"] = json_of(model_counts(in));
+    if (in.model && !in.model->mesh.lifts.empty()) j["lift_joints"] = json_of(joint_table(in));
+    if (in.cost) j["contact"] = cost_json(*in.cost);
+    if (!in.notes.empty()) j["notes"] = in.notes;
+    return j;
+}
+
+std::string explain_text(const Explained& in)
+{
+    const auto& effects = in.plan.effects;
+    const auto on = std::count_if(effects.begin(), effects.end(), [](const PlannedEffect& e) { return e.on; });
+    std::string all =
+        in.given.title + "\n\n" + text(effect_table(in.plan)) +
+        fmt::format("\n{} of {} effects on; the others are neither read, built nor stored.\n", on, effects.size());
+    if (in.model)
+        all += "\n" + text(model_counts(in)) +
+               "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
+    if (in.model && !in.model->mesh.lifts.empty()) all += "\n" + text(joint_table(in));
+    if (in.cost) all += "\n" + cost_text(*in.cost);
+    for (const std::string& note : in.notes) all += "note: " + note + "\n";
+    return all;
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/fe/contact_cost.hpp"
+#include "fe2d/fluid/fluid_model.hpp"
+#include "fe2d/model/model.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+/// The effect plan of a scene and what it costs, as object and text.
+namespace damslip::pages {
+
+struct Explained {
+    const Scene& given; ///< as read
+    std::string method; ///< "rigid" or "fe"
+    EffectPlan plan;
+    std::optional<fe2d::Model> model;      ///< of an FE run
+    std::optional<fe2d::FluidModel> water; ///< acoustic
+    std::optional<ContactCost> cost;       ///< of an FE run
+    std::vector<std::string> notes;
+};
+
+nlohmann::ordered_json explain_json(const Explained& in);
+std::string explain_text(const Explained& in);
+
+} // namespace damslip::pages

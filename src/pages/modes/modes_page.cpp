@@ -1,0 +1,236 @@
+#include "pages/modes/modes_page.hpp"
+
+#include "core/file.hpp"
+#include "core/version.hpp"
+#include "fe2d/output/vtu.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/water_notes.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "scene/plausible.hpp"
+#include "scene/rock_mass.hpp"
+#include "scene/write.hpp"
+#include "sliding/loads/added_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ranges>
+
+namespace damslip::pages {
+
+namespace {
+
+using Mode = Eigen::Index; ///< from 0
+using ModeColumn = ColumnOf<Mode>;
+
+/// Shares of the modes up to each one, summed in their order [-].
+std::vector<double> sums_of(const Eigen::Matrix2Xd& share, Mode direction)
+{
+    std::vector<double> sums;
+    double sum = 0.0;
+    for (Mode i = 0; i < share.cols(); ++i) sums.push_back(sum += share(direction, i));
+    return sums;
+}
+
+auto in_percent(const std::vector<double>& shares)
+{
+    return [&shares](Mode i) { return 100 * shares[static_cast<std::size_t>(i)]; };
+}
+
+/// Columns that natural and coupled modes share. @param m  either, outlives this
+template <class Modes>
+std::vector<ModeColumn> mode_columns(const Modes& m, const std::vector<double>& sum_x)
+{
+    return {{{"mode", "mode"}, [](Mode i) { return static_cast<std::int64_t>(i + 1); }},
+            {{"frequency_Hz", "frequency", "Hz", 5}, [&m](Mode i) { return m.frequency[i]; }},
+            {{"period_s", "period", "s", 5}, [&m](Mode i) { return 1 / m.frequency[i]; }},
+            {{"effective_mass_x_kg_m", "mass x", "kg/m", 5}, [&m](Mode i) { return m.effective_mass(0, i); }},
+            {{"share_x_percent", "share x", "%", 4}, [&m](Mode i) { return 100 * m.effective_share(0, i); }},
+            {{"cumulative_x_percent", "sum x", "%", 4}, in_percent(sum_x)},
+            {{"effective_mass_y_kg_m", "mass y", "kg/m", 5}, [&m](Mode i) { return m.effective_mass(1, i); }},
+            {{"share_y_percent", "share y", "%", 4}, [&m](Mode i) { return 100 * m.effective_share(1, i); }}};
+}
+
+Table natural_mode_table(const fe2d::NaturalModes& m)
+{
+    const std::vector<double> sum_x = sums_of(m.effective_share, 0), sum_y = sums_of(m.effective_share, 1);
+    std::vector<ModeColumn> columns = mode_columns(m, sum_x);
+    columns.push_back({{"cumulative_y_percent", "sum y", "%", 4}, in_percent(sum_y)});
+    return table_of(
+        "Natural modes (tied base)", columns, std::views::iota(Mode{0}, m.frequency.size()),
+        {"shares of everything that moves in that direction, added mass included; massless rock adds no modes."});
+}
+
+Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& leading)
+{
+    const std::vector<double> sum_x = sums_of(m.effective_share, 0);
+    const auto chosen = [&](Mode i) {
+        return std::find(leading.begin(), leading.end(), i) != leading.end() ? Cell("yes") : Cell();
+    };
+    std::vector<ModeColumn> columns = mode_columns(m, sum_x);
+    const ModeColumn of{{"of", "of"}, [&](Mode i) { return m.of_water(i) ? "reservoir" : "dam"; }},
+        energy{{"water_energy_percent", "energy in water", "%", 3}, [&](Mode i) { return 100 * m.water_share[i]; }};
+    columns.insert(columns.begin() + 3, {of, energy}); // before the masses
+    columns.push_back({{"dam_share_x_percent", "of it the dam", "%", 4}, [&](Mode i) { return 100 * m.dam_share[i]; }});
+    columns.push_back({{"leading", "leading"}, chosen});
+    return table_of(
+        "Coupled modes of dam and water (tied base)", columns, std::views::iota(Mode{0}, m.frequency.size()),
+        {fmt::format("real modes: far end closed, bottom rigid and still. leading: the first {} in which the dam's own "
+                     "mass carries at least 0.1 % of the horizontal mass; damping.rayleigh_modes counts these.",
+                     leading.size()),
+         "shares of the dam and the added mass of incompressible water; a mode is the reservoir's when more than half "
+         "of its potential energy is in the water."});
+}
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+/// "2 sign changes of 95 % of the mass"
+std::string damping_remark(const fe2d::ModifiedRayleigh& m)
+{
+    const std::size_t changes = m.sign_changes.size();
+    if (m.status == fe2d::ModifiedRayleighStatus::found)
+        return fmt::format("{} sign change{} of {:.0f} % of the mass", changes, changes == 1 ? "" : "s",
+                           100 * m.mass_share);
+    return fmt::format("no solution: ordinary Rayleigh of {:.0f} % of the mass, |ΔS| {:.2g}", 100 * m.mass_share,
+                       m.relative_imbalance);
+}
+
+std::string criterion_sentence(const Scene& scene, double frequency)
+{
+    const sliding::CompressibilityCriterion c = sliding::compressibility_criterion(
+        {scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus}, frequency);
+    return fmt::format(
+        "compressibility (3-36): Omega_r = {:.3g} {} 2, so compressible water {} (acoustic reservoir{}).",
+        c.frequency_ratio, c.compressible_matters ? "<" : ">=", c.compressible_matters ? "matters" : "does not matter",
+        c.compressible_matters ? "" : " not needed");
+}
+
+/// What has to be said beside the tables.
+std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
+{
+    std::vector<std::string> notes = note_texts(given.notes);
+    if (m.choice) notes.push_back(m.choice->reason);
+    if (m.period)
+        notes.push_back(fmt::format("added_mass.period_s = \"dam\": T = {:.6g} s, f_1 = {:.5g} Hz (incompressible "
+                                    "water: {:.5g} Hz), {} solutions",
+                                    1 / m.period->frequency, m.period->frequency, m.period->incompressible_frequency,
+                                    m.period->iterations));
+    if (rock_has_mass(m.scene))
+        notes.push_back(
+            "foundation.mass = \"with-mass\": modes are those of the dam on massless rock, from which Rayleigh's "
+            "constants come too; rock with mass has the modes of its box, or, where waves leave, none");
+    if (m.coupled && m.coupled->status != fe2d::CoupledModesStatus::ok)
+        notes.push_back("not all coupled modes were found: " + m.coupled->solver.text());
+    if (m.water) {
+        notes.push_back(water_counts(*m.water));
+        for (std::string& warning : reservoir_warnings(m.scene, coupled_modes_to)) notes.push_back(std::move(warning));
+    } else if (m.modes.status != fe2d::ModesStatus::ok) {
+        notes.push_back(
+            fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count, m.modes.solver.text()));
+    }
+    if (m.scene.reservoir && m.modes.frequency.size() && !m.choice && !m.water)
+        notes.push_back(criterion_sentence(m.scene, m.modes.frequency[0]));
+    if (m.damping)
+        for (const DampingOfModes::OfRecord& r : m.damping->modified)
+            for (const std::string& warning : r.found.warnings) notes.push_back(r.record + ": " + warning);
+    return notes;
+}
+
+void write_shapes(const std::filesystem::path& folder, const fe2d::Model& model, const fe2d::NaturalModes& modes)
+{
+    for (Eigen::Index i = 0; i < modes.frequency.size(); ++i)
+        fe2d::write_vtu(folder / fmt::format("mode_{:02d}.vtu", i + 1), model.mesh,
+                        {{"shape", node_vectors(model.dofs, modes.shape.col(i))}}, {});
+}
+
+} // namespace
+
+Table frequency_table(const ModesResult& m)
+{
+    return m.coupled ? coupled_mode_table(*m.coupled, m.leading) : natural_mode_table(m.modes);
+}
+
+Table damping_table(const ModesResult& m)
+{
+    struct Row {
+        std::string method;
+        fe2d::RayleighConstants constants;
+        double first_frequency;                 ///< [rad/s]
+        std::optional<double> second_frequency; ///< [rad/s]; none: no solution
+        std::string remark;
+    };
+    std::vector<Row> rows;
+    if (const auto& d = m.damping) {
+        rows.push_back({"Rayleigh", d->rayleigh, d->first_frequency, d->second_frequency,
+                        fmt::format("modes {} and {}", d->first_mode + 1, d->second_mode + 1)});
+        for (const auto& [record, found] : d->modified)
+            rows.push_back({"modified Rayleigh, " + record, found.constants, d->first_frequency,
+                            found.status == fe2d::ModifiedRayleighStatus::found ? std::optional(found.second_frequency)
+                                                                                : std::nullopt,
+                            damping_remark(found)});
+    }
+    return table_of<Row>(
+        fmt::format("Damping, {:.3g} %", 100 * m.scene.damping.ratio),
+        {{{"method", "method"}, &Row::method},
+         {{"mass_coefficient_1_s", "a_M", "1/s", 5}, [](const Row& r) { return r.constants.mass; }},
+         {{"stiffness_coefficient_s", "b_K", "s", 5}, [](const Row& r) { return r.constants.stiffness; }},
+         {{"first_frequency_Hz", "f_i", "Hz", 5}, [](const Row& r) { return r.first_frequency / two_pi; }},
+         {{"second_frequency_Hz", "f_j", "Hz", 5},
+          [](const Row& r) { return optional_cell(r.second_frequency, two_pi); }},
+         {{"remark", "remark"}, &Row::remark}},
+        rows);
+}
+
+Table transfer_table(const ModesResult& m)
+{
+    using P = fe2d::TransferPoint;
+    const auto degrees = [](std::complex<double> z) { return std::arg(z) * 180.0 / M_PI; };
+    std::vector<ColumnOf<P>> columns{
+        {{"frequency_Hz", "frequency", "Hz", 5}, &P::frequency},
+        {{"crest_amplitude", "crest/ground", "–", 5}, [](const P& p) { return std::abs(p.crest); }},
+        {{"crest_phase_deg", "phase", "deg", 4}, [=](const P& p) { return degrees(p.crest); }}};
+    if (m.water) {
+        columns.push_back({{"water_force_kN_m_per_m_s2", "water force", "kN/m per m/s²", 5},
+                           [](const P& p) { return std::abs(p.water_force) / 1e3; }});
+        columns.push_back(
+            {{"water_force_phase_deg", "phase", "deg", 4}, [=](const P& p) { return degrees(p.water_force); }});
+    }
+    return table_of("Transfer functions of a horizontal ground acceleration (tied base)", columns,
+                    m.transfer | std::views::filter(&P::regular),
+                    {"crest: absolute acceleration of its upstream end in x; both positive downstream."});
+}
+
+nlohmann::ordered_json modes_json(const Scene& given, const ModesResult& m)
+{
+    auto j = json_header("modes", given);
+    j["modes"] = json_of(frequency_table(m));
+    j["damping"] = json_of(damping_table(m));
+    if (!m.transfer.empty()) j["transfer_functions"] = json_of(transfer_table(m));
+    j["model"] = json_of(count_table(m.model.counts, m.water ? &*m.water : nullptr));
+    j["notes"] = modes_notes(given, m);
+    return j;
+}
+
+std::string modes_text(const Scene& given, const ModesResult& m)
+{
+    std::vector<Table> tables{frequency_table(m), damping_table(m),
+                              count_table(m.model.counts, m.water ? &*m.water : nullptr)};
+    if (!m.transfer.empty()) tables.push_back(transfer_table(m));
+    std::string all = given.title + "\n\n" + texts(tables);
+    for (const std::string& note : modes_notes(given, m)) all += "note: " + note + "\n";
+    return all;
+}
+
+void write_modes(const std::filesystem::path& folder, const Scene& given, const ModesResult& m)
+{
+    if (!m.water) write_shapes(folder, m.model, m.modes);
+    if (m.transfer.empty()) return;
+    const std::vector<std::string> comments{"damslip " + program_version() + " modes --frf",
+                                            "scene " + scene_hash(given)};
+    write_file(folder / "transfer_functions.csv", csv(transfer_table(m), comments));
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,129 @@
+// The screening as object, text and CSV files.
+#include "pages/screen/screen_report.hpp"
+
+#include "core/file.hpp"
+#include "core/version.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/screen/screen_tables.hpp"
+#include "pages/screen/wedge_tables.hpp"
+#include "scene/write.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+nlohmann::ordered_json record_provenance(const std::vector<RecordPair>& records)
+{
+    auto list = nlohmann::ordered_json::array();
+    const auto component = [](const Record& r) {
+        return nlohmann::ordered_json{
+            {"file", r.source.file},     {"format", r.source.format},        {"unit", r.source.unit},
+            {"sha256", r.source.sha256}, {"samples", r.acceleration.size()}, {"dt_s", r.dt}};
+    };
+    for (const RecordPair& pair : records) {
+        nlohmann::ordered_json entry{{"name", pair.files.name}, {"horizontal", component(pair.horizontal)}};
+        if (pair.vertical) entry["vertical"] = component(*pair.vertical);
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+std::string effects_line(const EffectPlan& plan)
+{
+    std::string on;
+    for (const PlannedEffect& e : plan.effects)
+        if (e.on) on += (on.empty() ? "" : ", ") + e.name;
+    return "effects on: " + (on.empty() ? "none" : on) + "\n";
+}
+
+/// The verdicts that have a criterion.
+Table judged(Table verdicts)
+{
+    const auto column = std::find_if(verdicts.columns.begin(), verdicts.columns.end(),
+                                     [](const Column& c) { return c.key == "verdict"; });
+    const auto j = static_cast<std::size_t>(column - verdicts.columns.begin());
+    std::erase_if(verdicts.rows, [j](const auto& row) { return row[j] == Cell(std::string("no criterion")); });
+    return verdicts;
+}
+
+} // namespace
+
+nlohmann::ordered_json screen_json(const ScreenReportInput& in)
+{
+    const Screening& s = in.screening;
+    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
+    auto j = json_header("screen", in.scene);
+    j["records"] = record_provenance(in.records);
+    j["effects"] = json_of(effect_table(s.plan));
+    if (in.scene.wedge) {
+        const RigidModel& model = s.bases.front().model;
+        j["wedge"] = json_of(wedge_stability_table(in.scene, model));
+        j["planes"] = json_of(wedge_plane_table(in.scene, *model.wedge));
+        j["yield"] = json_of(wedge_yield_table(in.scene, *model.wedge));
+    } else {
+        j["limit_equilibrium"] = json_of(sliding::equilibrium_table(s.combinations));
+        j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
+        j["yield"] = json_of(yield_table(s));
+        if (!in.given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(in.given));
+        j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
+    }
+    j["displacements"] = json_of(slip_table(s, allowable));
+    if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, allowable));
+    j["statistics"] = json_of(statistics_table(s));
+    j["regressions"] = json_of(regression_table(s));
+    j["warnings"] = s.warnings;
+    return j;
+}
+
+std::string screen_text(const ScreenReportInput& in)
+{
+    const Screening& s = in.screening;
+    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
+    std::string out = in.scene.title + "   (" + in.scene.file.string() + ", scene " +
+                      scene_hash(in.scene).substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
+    const auto show = [&out](const Table& table) {
+        if (!table.rows.empty()) out += text(table) + "\n";
+    };
+    if (in.scene.wedge) {
+        const RigidModel& model = s.bases.front().model;
+        show(wedge_stability_table(in.scene, model));
+        show(wedge_plane_table(in.scene, *model.wedge));
+        show(wedge_yield_table(in.scene, *model.wedge));
+    } else {
+        out += text_by_columns(sliding::equilibrium_table(s.combinations), 3) + "\n";
+        const Table verdicts = judged(sliding::verdict_table(s.combinations));
+        if (verdicts.rows.empty())
+            out += "verdicts: no required values are given; name criteria.document, or required_... in "
+                   "[[combination]]\n\n";
+        show(verdicts);
+        show(yield_table(s));
+        show(lift_joint_table(in.given));
+        show(sliding::uplift_comparison_table(s.uplifts));
+    }
+    show(regression_summary(s));
+    show(slip_table(s, allowable));
+    if (s.flexible) show(flexible_table(s, allowable));
+    show(statistics_table(s));
+    for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
+    return out;
+}
+
+void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in)
+{
+    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + scene_hash(in.scene)};
+    const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
+    write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
+    write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
+    if (in.screening.flexible)
+        write_file(folder / "flexible_block.csv", csv(flexible_table(in.screening, allowable), comments));
+    write_file(folder / "scene.resolved.toml", resolved_toml(in.given));
+    write_file(folder / "report.html", screen_report(in));
+}
+
+} // namespace damslip::pages

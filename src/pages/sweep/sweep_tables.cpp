@@ -1,0 +1,162 @@
+#include "pages/sweep/sweep_tables.hpp"
+
+#include "pages/report/table_text.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "scene/plausible.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+/// A row of the table: its place in the grid and what was found there.
+struct SweepLine {
+    const Grid& grid;
+    std::size_t id;
+    GridIndex at;
+    RowResults results;
+
+    const Axes& axes() const { return grid.axes; }
+    double yield() const { return grid.model(at).downstream.law.constant; }
+};
+
+/// What the numbers of a row do not say by themselves.
+Cell remark(const SweepLine& l)
+{
+    const bool fe = l.axes().method[l.at.method].kind == SweepKind::finite_elements;
+    return fe && l.results.slip && !l.results.slip_error ? Cell(no_error_estimate) : Cell();
+}
+
+std::vector<ColumnOf<SweepLine>> columns()
+{
+    using L = SweepLine;
+    using units::standard_gravity;
+    const auto given = [](std::optional<double> RowResults::*number) {
+        return [=](const L& l) { return optional_cell(l.results.*number); };
+    };
+    using R = RowResults;
+    return {
+        {{"id", "id"}, [](const L& l) { return count_cell(l.id); }},
+        {{"friction", "μ", "–", 4}, [](const L& l) { return l.axes().friction[l.at.friction]; }},
+        {{"level_m", "level", "m", 4},
+         [](const L& l) { return l.axes().level[l.at.level] * l.axes().size[l.at.size]; }},
+        {{"uplift", "uplift"}, [](const L& l) { return l.axes().uplift[l.at.uplift]; }},
+        {{"reservoir", "reservoir"}, [](const L& l) { return l.axes().reservoir[l.at.reservoir]; }},
+        {{"size", "size", "–", 4}, [](const L& l) { return l.axes().size[l.at.size]; }},
+        {{"scale", "scale", "–", 4}, [](const L& l) { return l.axes().scale[l.at.scale]; }},
+        {{"polarity", "polarity"}, [](const L& l) { return l.axes().polarity[l.at.polarity]; }},
+        {{"record", "record"}, [](const L& l) { return l.grid.records[l.at.record]; }},
+        {{"method", "method"}, [](const L& l) { return l.axes().method[l.at.method].id; }},
+        {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, [](const L& l) { return l.yield(); }},
+        {{"yield_coefficient_g", "a_y", "g", 5}, [](const L& l) { return l.yield() / standard_gravity; }},
+        {{"pga_m_s2", "PGA", "m/s²", 4}, [](const L& l) { return l.grid.inputs_of(l.at).pga_g * standard_gravity; }},
+        {{"slip_m", "slip", "m", 5}, given(&R::slip)},
+        {{"max_slip_m", "largest", "m", 5}, given(&R::max_slip)},
+        {{"upstream_slip_m", "upstream", "m", 4}, given(&R::upstream_slip)},
+        {{"slip_low_m", "−1σ", "m", 4}, given(&R::slip_low)},
+        {{"slip_high_m", "+1σ", "m", 4}, given(&R::slip_high)},
+        {{"slip_error_m", "± step", "m", 2}, given(&R::slip_error)},
+        {{"truncation_error_m", "± modes", "m", 2}, given(&R::truncation_error)},
+        {{"critical_friction", "critical μ", "–", 6}, given(&R::critical_friction)},
+        {{"status", "status"}, [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
+        {{"lift_joint_slip_m", "lift joints", "m", 5}, given(&R::lift_slip)},
+        {{"remark", "remark"}, remark}};
+}
+
+} // namespace
+
+Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome)
+{
+    std::vector<SweepLine> lines;
+    for (const std::size_t id : ids) {
+        const FinishedRow* row = outcome.find(id);
+        lines.push_back({grid, id, grid.tasks.index(id), row ? row->results : not_run()});
+    }
+    return table_of("", columns(), lines);
+}
+
+std::vector<Column> sweep_columns()
+{
+    return table_of("", columns(), std::vector<SweepLine>{}).columns;
+}
+
+Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)
+{
+    using C = SweepComparison;
+    const Axes& axes = grid.axes;
+    const auto in_mm = [](double C::*slip) {
+        return [=](const C& c) { return c.motions ? Cell(1e3 * (c.*slip)) : Cell(); };
+    };
+    const auto error = [](const C& c) { return c.largest_error && c.motions ? Cell(1e3 * *c.largest_error) : Cell(); };
+    return table_of<C>(
+        "Slip by finite elements against the rigid block",
+        {{{"friction", "μ", "–", 4}, [&](const C& c) { return axes.friction[c.at.friction]; }},
+         {{"level_m", "level", "m", 4}, [&](const C& c) { return axes.level[c.at.level] * axes.size[c.at.size]; }},
+         {{"uplift", "uplift"}, [&](const C& c) { return axes.uplift[c.at.uplift]; }},
+         {{"reservoir", "reservoir"}, [&](const C& c) { return axes.reservoir[c.at.reservoir]; }},
+         {{"size", "size", "–", 4}, [&](const C& c) { return axes.size[c.at.size]; }},
+         {{"scale", "scale", "–", 4}, [&](const C& c) { return axes.scale[c.at.scale]; }},
+         {{"method", "method"}, [&](const C& c) { return axes.method[c.at.method].id; }},
+         {{"motions", "motions"}, &C::motions},
+         {{"static_failures", "static failures"}, &C::static_failures},
+         {{"critical_friction", "critical μ", "–", 6}, [](const C& c) { return optional_cell(c.critical_friction); }},
+         {{"mean_fe_mm", "FE mean", "mm", 5}, in_mm(&C::mean_fe)},
+         {{"mean_rigid_mm", "rigid mean", "mm", 5}, in_mm(&C::mean_rigid)},
+         {{"ratio_of_means", "ratio", "–", 4}, [](const C& c) { return optional_cell(c.ratio_of_means); }},
+         {{"largest_fe_mm", "FE largest", "mm", 5}, in_mm(&C::largest_fe)},
+         {{"largest_rigid_mm", "rigid largest", "mm", 5}, in_mm(&C::largest_rigid)},
+         {{"largest_slip_error_mm", "± step", "mm", 2}, error},
+         {{"without_slip", "not compared"},
+          [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }}},
+        compared,
+        {"both with the vertical component where the record has one; only motions that both methods carried to their "
+         "end "
+         "count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
+}
+
+Table count_table(const FeSweepCounts& counts)
+{
+    using C = FeSweepCounts;
+    return table_of<C>(
+        "Finite-element runs",
+        {{{"set_ups", "set-ups"}, &C::set_ups},
+         {{"runs", "runs"}, &C::runs},
+         {{"static_failures", "static failures"}, &C::static_failures},
+         {{"steps", "steps"}, &C::steps},
+         {{"factorisations", "factorisations"}, &C::factorisations},
+         {{"unresolved", "unresolved steps"}, &C::unresolved}},
+        std::vector<C>{counts},
+        {"steps: of the pass that is reported of each run; factorisations: step sizes, each made once for "
+         "all runs."});
+}
+
+nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const Table& compared,
+                                  const SweepOutcome& outcome)
+{
+    auto j = json_header("sweep", given);
+    j["rows"] = json_of(rows);
+    j["notes"] = note_texts(given.notes);
+    if (outcome.fe) {
+        j["comparison"] = json_of(compared);
+        j["counts"] = json_of(count_table(*outcome.fe))[0];
+    }
+    return j;
+}
+
+std::string fe_sweep_text(const FeSweepCounts& c, const Table& compared)
+{
+    constexpr std::size_t most_compared = 100; // lines that people read
+    std::string all = compared.rows.size() <= most_compared
+                          ? "\n" + text(compared) + "\n"
+                          : fmt::format("FE against the rigid block: {} lines, with --json\n\n", compared.rows.size());
+    all += text(count_table(c));
+    for (const std::string& choice : c.choices) all += "  " + choice + "\n";
+    const auto runs = static_cast<double>(std::max<std::int64_t>(1, c.runs));
+    return all + fmt::format("  set-up {:.2f} s, statics {:.1f} ms a run, earthquakes {:.1f} s\n\n", c.set_up_seconds,
+                             1e3 * c.static_seconds / runs, c.dynamic_seconds);
+}
+
+} // namespace damslip::pages
