@@ -151,7 +151,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
          {{"status", "status"}, [](const R& r) { return stage_word(r.end); }},
          {{"normal_force_kN_m", "N'", "kN/m", 6}, [=](const R& r) { return normal(r) / 1e3; }},
          {{"shear_force_kN_m", "T", "kN/m", 6}, [=](const R& r) { return shear(r) / 1e3; }},
-         {{"friction_needed", "critical μ", "–", 6}, if_pressed(&B::friction_needed)},
+         {{"friction_needed", "critical μ", "–", 6}, if_pressed(&B::critical_friction)},
          {{"sliding_factor", "FS sliding", "–", 4}, if_pressed(&B::sliding_factor)},
          {{"slip_mm", "mean slip so far", "mm", 4},
           [](const R& r) { return r.solved ? Cell(1e3 * r.plane.slip) : Cell(); }},
