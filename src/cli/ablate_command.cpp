@@ -1,10 +1,9 @@
-#include "cli/ablate_command.hpp"
+#include "cli/explain_command.hpp"
 
 #include "analysis/prepare/ready.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
-#include "pages/ablation/ablation_report.hpp"
 #include "pages/ablation/ablation_tables.hpp"
 #include "pages/report/page_html.hpp"
 

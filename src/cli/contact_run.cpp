@@ -1,4 +1,4 @@
-#include "cli/contact_run.hpp"
+#include "cli/fe_command.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/rock_warnings.hpp"

@@ -2,7 +2,6 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/tied_scheme.hpp"
-#include "cli/ablate_command.hpp"
 #include "core/usage_error.hpp"
 #include "pages/explain/explain_page.hpp"
 #include "scene/water.hpp"

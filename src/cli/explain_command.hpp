@@ -19,4 +19,7 @@ struct ExplainArguments {
 /// The effect plan: which effects are on, why, and what each costs.
 int explain(const ExplainArguments& arguments, const Streams& streams);
 
+/// `explain --ablate`: the scene without each of its effects in turn. @returns an ExitCode
+int ablate(const ExplainArguments& arguments, const Streams& streams);
+
 } // namespace damslip::cli

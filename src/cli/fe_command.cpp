@@ -1,8 +1,5 @@
 #include "cli/fe_command.hpp"
 
-#include "cli/contact_run.hpp"
-#include "cli/reduced_command.hpp"
-#include "cli/tied_run.hpp"
 
 #include <fmt/format.h>
 #include <ostream>

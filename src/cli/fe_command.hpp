@@ -31,4 +31,15 @@ void put_answer(const pages::FeAnswer& answer, const FeArguments& arguments, con
 /// computed is written all the same.
 int fe(const FeArguments& arguments, const Streams& streams);
 
+/// `fe`: the dam slides, opens and rocks on its base. Static stages, earthquake with exact Coulomb contact, run-out, static state after
+/// it; the rigid block's slip beside it.
+int run_contact(const FeArguments& arguments, const Ready& ready, const Streams& streams);
+
+/// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
+/// changes.
+int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams& streams);
+
+/// `fe --base tied`: static stages and the linear earthquake run of a dam bonded to its base.
+int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& streams);
+
 } // namespace damslip::cli

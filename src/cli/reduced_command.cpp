@@ -1,4 +1,4 @@
-#include "cli/reduced_command.hpp"
+#include "cli/fe_command.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
 #include "cli/terminal/terminal_watch.hpp"

@@ -1,4 +1,4 @@
-#include "cli/tied_run.hpp"
+#include "cli/fe_command.hpp"
 
 #include "analysis/fe/tied_runs.hpp"
 #include "analysis/prepare/rock_warnings.hpp"

@@ -2,7 +2,6 @@
 
 #include "cli/select_cases.hpp"
 #include "cli/terminal/progress.hpp"
-#include "cli/verify_hard.hpp"
 #include "core/stopwatch.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"

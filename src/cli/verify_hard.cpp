@@ -1,4 +1,4 @@
-#include "cli/verify_hard.hpp"
+#include "cli/verify_command.hpp"
 
 #include "cli/select_cases.hpp"
 #include "cli/terminal/progress.hpp"

@@ -1,4 +1,4 @@
-#include "study/fe_findings.hpp"
+#include "study/study_findings.hpp"
 
 #include <algorithm>
 #include <cmath>

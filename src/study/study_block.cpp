@@ -33,7 +33,7 @@ RigidModel block_of(const Scene& scene, const std::string& uplift, double level_
 
 pages::Axis axis(const char* label, const char* unit)
 {
-    return {label, unit, Scale::linear, 0.1, {}, {}, {}};
+    return {label, unit};
 }
 
 Curve line(std::string name, Mark mark = Mark::line, Weight weight = Weight::normal, int colour = -1)
@@ -182,7 +182,7 @@ pages::Chart regression_chart(const RegressionsBeside& values)
     pages::Chart chart;
     chart.title = "Regressions beside the rigid block";
     chart.x = axis("yield acceleration a_y", "g");
-    chart.y = {"slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.y = {"slip", "mm", Scale::asinh, 1.0};
     chart.curves.push_back(
         {"rigid block, horizontal", values.yield, values.block, {}, {}, Mark::line_and_points, Weight::strong, -1});
     for (const RegressionsBeside::Curve& r : values.regressions) {

@@ -22,8 +22,8 @@ pages::Chart history_chart(std::string title)
 {
     pages::Chart chart;
     chart.title = std::move(title);
-    chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {"slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.x = {"time", "s"};
+    chart.y = {"slip", "mm", Scale::asinh, 1.0};
     return chart;
 }
 
@@ -82,8 +82,8 @@ pages::Chart over_friction(const StudyRows& rows, const std::string& title, cons
 {
     pages::Chart chart;
     chart.title = title;
-    chart.x = {"friction μ", "", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {"largest slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.x = {"friction μ", ""};
+    chart.y = {"largest slip", "mm", Scale::asinh, 1.0};
     std::vector<double> frictions = chapter_4::frictions;
     std::reverse(frictions.begin(), frictions.end());
     std::vector<double> marked;

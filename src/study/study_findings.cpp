@@ -1,7 +1,6 @@
 #include "study/study_findings.hpp"
 
 #include "core/units.hpp"
-#include "study/fe_findings.hpp"
 
 #include <algorithm>
 #include <cmath>

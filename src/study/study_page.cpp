@@ -1,13 +1,11 @@
 #include "study/study_page.hpp"
 
-#include "core/version.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
 #include "scene/plausible.hpp"
-#include "scene/write.hpp"
 #include "study/study_charts.hpp"
 
 #include <algorithm>
@@ -20,18 +18,7 @@ using namespace pages;
 
 namespace {
 
-using pages::Fold;
-using pages::Layout;
-using pages::Mark;
-using pages::Paragraph;
-using pages::Part;
 using pages::Section;
-using pages::TablePart;
-
-TablePart rows_of(Table table)
-{
-    return {std::move(table), Layout::rows, 1, Fold::open};
-}
 
 /// FE methods of the study, the most accurate first, then the source's settings.
 std::vector<std::string> shown_methods(const StudyRows& rows)
@@ -126,7 +113,7 @@ Section settings_section(const StudyPageInput& in)
     const StudyRows& rows = in.rows;
     Section section{"What each setting changes", {}, Fold::open};
     if (!in.settings.empty()) {
-        section.parts.push_back(rows_of(settings_table(in.settings)));
+        section.parts.push_back(rows_part(settings_table(in.settings)));
         for (const char* water : {"acoustic", "westergaard"})
             section.parts.emplace_back(settings_chart(in.settings, water));
     }
@@ -193,11 +180,7 @@ std::vector<std::string> warnings(const StudyPageInput& in)
 
 pages::Page study_page(const StudyPageInput& in)
 {
-    pages::Page page;
-    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = "The study of Goldgruber (2015), chapter 4, with our numbers. " +
-                    in.scene.file.filename().string() + ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " +
-                    program_version();
+    Page page = begin_page(in.scene, "The study of Goldgruber (2015), chapter 4, with our numbers. ");
     page.headline = headline(in.findings);
     page.key_figures = {{"Rows", fmt::format("{}", in.table.rows.size())},
                         {"FE method", in.rows.accurate().empty() ? "none" : in.rows.accurate()}};
@@ -205,16 +188,16 @@ pages::Page study_page(const StudyPageInput& in)
         page.key_figures.emplace_back("Stands from μ, uplift " + u.model, fmt::format("{:.4f}", u.critical_friction));
     page.warnings = warnings(in);
 
-    page.sections.push_back({"Findings", {rows_of(findings_table(in.findings))}, Fold::open});
+    page.sections.push_back({"Findings", {rows_part(findings_table(in.findings))}, Fold::open});
     page.sections.push_back({"Figures 4-1 and 4-2: section and uplift",
                              {section_drawing(in.scene, in.uplifts.front().profile), uplift_chart(in.uplifts),
-                              rows_of(uplift_table(in.uplifts))},
+                              rows_part(uplift_table(in.uplifts))},
                              Fold::open});
     page.sections.push_back(yield_section(in));
     page.sections.push_back(block_section(in));
     if (!in.rows.accurate().empty()) {
         page.sections.push_back({"Tables 4-3 and 4-4: natural frequencies and damping",
-                                 {rows_of(modes_table(in.modes, 1.0)), rows_of(modes_table(in.modes, 2.0))},
+                                 {rows_part(modes_table(in.modes, 1.0)), rows_part(modes_table(in.modes, 2.0))},
                                  Fold::open});
         page.sections.push_back(
             histories(in.rows, "Figure 4-13: finite elements, 62.5 m, with curtain", "seepage", 1.0));
@@ -232,20 +215,17 @@ pages::Page study_page(const StudyPageInput& in)
         page.sections.push_back(printed_uplift_section(in.rows));
     }
     const std::vector<GroundMotion> motions{ground_motion(in.scene, in.records.front())};
-    page.sections.push_back({"Record", {rows_of(record_table(motions)), spectra(motions, 1)}, Fold::open});
+    page.sections.push_back({"Record", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
     Table table = in.table;
     table.title = "Rows";
-    page.sections.push_back({"Rows", {rows_of(std::move(table))}, Fold::folded});
+    page.sections.push_back({"Rows", {rows_part(std::move(table))}, Fold::folded});
     page.sections.push_back(
         {"Scene",
-         {rows_of(effect_table(make_effect_plan(in.scene, Method::finite_elements))),
-          pages::Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
+         {rows_part(effect_table(make_effect_plan(in.scene, Method::finite_elements))), scene_listing(in.scene)},
          Fold::open});
-    page.provenance = {
-        {"program", "damslip " + program_version()},
-        {"scene", in.scene.file.string()},
-        {"scene hash", scene_hash(in.scene)},
-        {"source", "M. Goldgruber, Nonlinear Seismic Modelling of Concrete Dams, TU Graz 2015, chapter 4"}};
+    page.provenance = scene_provenance(in.scene);
+    page.provenance.emplace_back(
+        "source", "M. Goldgruber, Nonlinear Seismic Modelling of Concrete Dams, TU Graz 2015, chapter 4");
     add_record_provenance(in.records, page.provenance);
     return page;
 }

@@ -107,8 +107,8 @@ pages::Chart settings_chart(const std::vector<SettingsStep>& steps, const std::s
 {
     pages::Chart chart;
     chart.title = "Slip with the source's settings, one after the other: " + water;
-    chart.x = {"friction μ", "", pages::Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {"largest slip", "mm", pages::Scale::asinh, 1.0, {}, {}, {}};
+    chart.x = {"friction μ", ""};
+    chart.y = {"largest slip", "mm", pages::Scale::asinh, 1.0};
     std::vector<double> frictions = chapter_4::frictions;
     std::reverse(frictions.begin(), frictions.end());
     for (const SettingsStep& step : steps) {

@@ -1,5 +1,5 @@
 // `damslip study`: its grid, findings and files on a small dam.
-#include "study/fe_findings.hpp"
+#include "study/study_findings.hpp"
 #include "sweep_scene.hpp"
 
 #include <nlohmann/json.hpp>

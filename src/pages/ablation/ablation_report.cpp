@@ -1,12 +1,10 @@
-#include "pages/ablation/ablation_report.hpp"
+#include "pages/ablation/ablation_tables.hpp"
 
 #include "core/units.hpp"
-#include "core/version.hpp"
 #include "pages/ablation/tornado.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/report_provenance.hpp"
-#include "scene/write.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,38 +158,28 @@ std::vector<std::string> warnings(const Ablations& in)
     return list;
 }
 
-TablePart open_table(Table table)
-{
-    return {std::move(table), Layout::rows, 1, Fold::open};
-}
-
 } // namespace
 
 Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects)
 {
-    Page page;
-    page.title = given.title.empty() ? given.file.filename().string() : given.title;
-    page.subtitle = "What each effect does to the slip, and what it costs. " + given.file.filename().string() +
-                    ", scene " + scene_hash(given).substr(0, 12) + ", damslip " + program_version();
+    Page page = begin_page(given, "What each effect does to the slip, and what it costs. ");
     page.headline = headline(in);
     page.key_figures = key_figures(in);
     page.warnings = warnings(in);
     for (std::size_t r = 0; r < in.records.size(); ++r)
         page.sections.push_back({"Slip, record " + in.records[r].files.name,
-                                 {slip_bars(in, r), open_table(change_table(in, r))},
+                                 {slip_bars(in, r), rows_part(change_table(in, r))},
                                  Fold::open});
     if (in.plan.method == Method::rigid_block)
         page.sections.push_back(
-            {"Yield acceleration", {yield_bars(in), open_table(yield_change_table(in))}, Fold::open});
-    page.sections.push_back({"Seconds", {second_bars(in), open_table(seconds_table(in))}, Fold::open});
-    Section how{"How to read it", {open_table(removal_table(in))}, Fold::open};
+            {"Yield acceleration", {yield_bars(in), rows_part(yield_change_table(in))}, Fold::open});
+    page.sections.push_back({"Seconds", {second_bars(in), rows_part(seconds_table(in))}, Fold::open});
+    Section how{"How to read it", {rows_part(removal_table(in))}, Fold::open};
     for (std::string& note : ablation_notes(in)) how.parts.push_back(Paragraph{std::move(note)});
     page.sections.push_back(std::move(how));
-    page.sections.push_back({"Effects taken into account", {open_table(effect_table(effects))}, Fold::folded});
-    page.sections.push_back(
-        {"Scene", {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(given)}}, Fold::open});
-    page.provenance = {
-        {"program", "damslip " + program_version()}, {"scene", given.file.string()}, {"scene hash", scene_hash(given)}};
+    page.sections.push_back({"Effects taken into account", {rows_part(effect_table(effects))}, Fold::folded});
+    page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
+    page.provenance = scene_provenance(given);
     add_record_provenance(in.records, page.provenance);
     return page;
 }

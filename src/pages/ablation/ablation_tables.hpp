@@ -2,7 +2,9 @@
 
 #include "analysis/ablation/ablation_rows.hpp"
 #include "core/status_count.hpp"
-#include "core/table.hpp"
+#include "pages/report/page.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 /// An ablation as tables.
 namespace damslip::pages {
@@ -30,5 +32,13 @@ std::vector<std::string> ablation_notes(const Ablations& in);
 
 /// Runs without an answer, by their status; one more where the step that all runs share misses time.slip_tolerance.
 StatusCount unanswered_runs(const AblationRuns& runs);
+
+/// The page of an ablation: bars of the slip changes by record, of the seconds saved, and the tables. Seconds differ
+/// from call to call, all else is the same.
+/// @param given  the scene as read
+Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects);
+
+nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, const EffectPlan& effects);
+std::string ablation_text(const Ablations& in, const EffectPlan& effects);
 
 } // namespace damslip::pages

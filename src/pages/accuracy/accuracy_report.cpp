@@ -2,11 +2,9 @@
 
 #include "analysis/accuracy/ladder.hpp"
 #include "core/units.hpp"
-#include "core/version.hpp"
 #include "pages/accuracy/accuracy_tables.hpp"
 #include "pages/accuracy/cost_figure.hpp"
 #include "pages/scene/report_provenance.hpp"
-#include "scene/write.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +23,7 @@ Chart convergence_chart(const AccuracyReportInput& in, const std::string& title,
     Chart chart;
     chart.title = title;
     chart.x = x;
-    chart.y = {"estimated error of the slip", "mm", Scale::log, 0.1, {}, {}, {}};
+    chart.y = {"estimated error of the slip", "mm", Scale::log};
     for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic}) {
         std::vector<const RungResult*> row = rungs(in.results, water);
         if (row.size() < 2) continue;
@@ -49,8 +47,8 @@ Chart cost_chart(const AccuracyReportInput& in)
 {
     Chart chart;
     chart.title = "The same to zoom into: deviation of every rung over its time";
-    chart.x = {"time of this rung alone", "s", Scale::log, 0.1, {}, {}, {}};
-    chart.y = {"deviation from the finest rung", "%", Scale::log, 0.1, {}, {}, {}};
+    chart.x = {"time of this rung alone", "s", Scale::log};
+    chart.y = {"deviation from the finest rung", "%", Scale::log};
     chart.horizontal.push_back({100.0 * in.tolerance, fmt::format("tolerance {:.3g} %", 100.0 * in.tolerance)});
     for (const RungKind kind : {RungKind::regression, RungKind::rigid, RungKind::reduced, RungKind::finite_elements,
                                 RungKind::variant, RungKind::acoustic, RungKind::quadratic}) {
@@ -141,12 +139,11 @@ Section cost_section(const AccuracyReportInput& in)
 Section convergence_section(const AccuracyReportInput& in)
 {
     Section section{"Convergence within each model", {}, Fold::open};
-    section.parts.push_back(TablePart{model_table(in.results, in.judgement), Layout::rows, 1, Fold::open});
-    for (Chart chart : {convergence_chart(in, "Error over the time step",
-                                          {"time step", "ms", Scale::log, 0.1, {}, {}, {}}, step_row, step_size),
-                        convergence_chart(in, "Error over the element size",
-                                          {"element size over the scene's", "–", Scale::log, 0.1, {}, {}, {}},
-                                          mesh_column, element_factor)})
+    section.parts.push_back(rows_part(model_table(in.results, in.judgement)));
+    for (Chart chart :
+         {convergence_chart(in, "Error over the time step", {"time step", "ms", Scale::log}, step_row, step_size),
+          convergence_chart(in, "Error over the element size", {"element size over the scene's", "–", Scale::log},
+                            mesh_column, element_factor)})
         if (!chart.curves.empty()) section.parts.push_back(std::move(chart));
     return section;
 }
@@ -162,26 +159,18 @@ std::string figure_title(const Scene& scene, const std::vector<RecordPair>& reco
 
 Page accuracy_page(const AccuracyReportInput& in)
 {
-    Page page;
-    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = "What accuracy costs: the ladder from regressions to the finest finite elements. " +
-                    in.scene.file.filename().string() + ", scene " + scene_hash(in.scene).substr(0, 12) + ", damslip " +
-                    program_version();
+    Page page =
+        begin_page(in.scene, "What accuracy costs: the ladder from regressions to the finest finite elements. ");
     page.headline = headline(in);
     page.key_figures = key_figures(in);
     page.warnings = in.messages;
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     page.sections.push_back(cost_section(in));
-    page.sections.push_back(
-        {"Rungs", {TablePart{rung_table(in.results, in.judgement), Layout::rows, 1, Fold::open}}, Fold::open});
+    page.sections.push_back({"Rungs", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
     page.sections.push_back(convergence_section(in));
-    page.sections.push_back({"Scene",
-                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
-                             Fold::open});
-    page.provenance = {{"program", "damslip " + program_version()},
-                       {"scene", in.scene.file.string()},
-                       {"scene hash", scene_hash(in.scene)},
-                       {"seconds", "processor time on the machine of this report, one thread"}};
+    page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
+    page.provenance = scene_provenance(in.scene);
+    page.provenance.emplace_back("seconds", "processor time on the machine of this report, one thread");
     add_record_provenance(in.records, page.provenance);
     return page;
 }

@@ -1,4 +1,4 @@
-#include "pages/fe/base_charts.hpp"
+#include "pages/fe/fe_charts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +35,8 @@ Chart chart_of(const RunView& view, const std::string& what, const std::vector<f
     const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
     Chart chart;
     chart.title = view.run.label() + ": " + what + " along the base";
-    chart.x = {"distance from the heel", "m", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {what, "MPa", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"distance from the heel", "m"};
+    chart.y = {what, "MPa"};
     chart.together = view.together + "base";
     const auto add = [&](const std::string& name, std::size_t row, int colour, Mark mark, Weight weight) {
         chart.curves.push_back({name, distance, row_values(h.by_pair, values, row), {}, {}, mark, weight, colour});

@@ -152,8 +152,8 @@ private:
     {
         Chart chart;
         chart.title = view_.run.label() + ": " + title;
-        chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
-        chart.y = {label, unit, Scale::linear, 0.1, {}, {}, {}};
+        chart.x = {"time", "s"};
+        chart.y = {label, unit};
         chart.height = height;
         chart.together = view_.together;
         return chart;

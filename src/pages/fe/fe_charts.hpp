@@ -22,4 +22,11 @@ std::vector<Chart> history_charts(const RunView& view);
 /// The row of the history where the mean slip changes fastest; nothing where the dam does not slide.
 std::optional<std::size_t> fastest_row(const fe2d::RunHistory& history);
 
+/// Contact pressure and shear from heel to toe: at the start, when the dam slides fastest, at the end, and at any of about
+/// 150 instants by a slider.
+std::vector<Chart> base_charts(const RunView& view);
+
+/// Which part of the base sticks, slips and opens at every row of the history.
+StateMap base_states(const RunView& view);
+
 } // namespace damslip::pages

@@ -1,13 +1,11 @@
 #include "pages/fe/fe_page.hpp"
 
-#include "core/version.hpp"
 #include "pages/fe/fe_output.hpp"
 #include "pages/fe/mesh_drawing.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
-#include "scene/write.hpp"
 
 #include <algorithm>
 
@@ -19,10 +17,7 @@ namespace {
 
 Page begin_fe_page(const FePageFrame& in)
 {
-    Page page;
-    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = "Sliding in an earthquake: " + in.kind + ". " + in.scene.file.filename().string() + ", scene " +
-                    scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". ");
     page.warnings = record_warnings(in.records);
     page.sections.push_back(
         {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});
@@ -39,19 +34,10 @@ void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions
                   Fold::open};
     for (const Table& table : tables) model.parts.push_back(rows_part(table));
     page.sections.push_back(std::move(model));
-    page.sections.push_back({"Scene",
-                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.scene)}},
-                             Fold::open});
-    page.provenance = {{"program", "damslip " + program_version()},
-                       {"scene", in.scene.file.string()},
-                       {"scene hash", scene_hash(in.scene)},
-                       {"method", in.method}};
+    page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
+    page.provenance = scene_provenance(in.scene);
+    page.provenance.emplace_back("method", in.method);
     add_record_provenance(in.records, page.provenance);
-}
-
-TablePart rows_part(Table table)
-{
-    return {std::move(table), Layout::rows, 1, Fold::open};
 }
 
 Table without_seconds(Table table)

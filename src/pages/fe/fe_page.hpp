@@ -27,9 +27,6 @@ Page begin_fe_page(const FePageFrame& frame);
 void end_fe_page(const FePageFrame& frame, const std::vector<GroundMotion>& motions, const std::vector<Table>& tables,
                  Page& page);
 
-/// A table as rows under each other, open.
-TablePart rows_part(Table table);
-
 /// A table of runs without its seconds, which would make every report of the same scene another file.
 Table without_seconds(Table table);
 

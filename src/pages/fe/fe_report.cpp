@@ -1,7 +1,6 @@
 #include "pages/fe/fe_report.hpp"
 
 #include "core/units.hpp"
-#include "pages/fe/base_charts.hpp"
 #include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_page.hpp"
 #include "pages/scene/record_charts.hpp"

@@ -30,8 +30,8 @@ Chart history_chart(const TiedRun& run, const std::string& together, std::size_t
 {
     Chart chart;
     chart.title = run.record + ": " + title;
-    chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {label, unit, Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"time", "s"};
+    chart.y = {label, unit};
     chart.height = 280;
     chart.together = together;
     std::vector<double> time;

@@ -14,12 +14,12 @@ enum class Scale {
 };
 
 struct Axis {
-    std::string label;                   ///< "slip"
-    std::string unit;                    ///< "mm"; empty or "–": none
-    Scale scale = Scale::linear;         ///< of values; categories are evenly spaced
-    double linear_below = 0.1;           ///< asinh only, in the axis' unit, > 0
-    std::optional<double> low, high;     ///< fixed ends; default: the values'
-    std::vector<std::string> categories; ///< x axis only: names of 0, 1, 2 ...; empty: numbers
+    std::string label;                         ///< "slip"
+    std::string unit = {};                     ///< "mm"; empty or "–": none
+    Scale scale = Scale::linear;               ///< of values; categories are evenly spaced
+    double linear_below = 0.1;                 ///< asinh only, in the axis' unit, > 0
+    std::optional<double> low = {}, high = {}; ///< fixed ends; default: the values'
+    std::vector<std::string> categories = {};  ///< x axis only: names of 0, 1, 2 ...; empty: numbers
 };
 
 enum class Mark { line, dashed, points, line_and_points };
@@ -31,8 +31,8 @@ enum class Weight {
 
 struct Curve {
     std::string name;
-    std::vector<double> x, y;      ///< of equal length, x ascending; NaN: no value there
-    std::vector<double> low, high; ///< band (lines) or bars (points) around y; both empty or as long as y
+    std::vector<double> x, y;                ///< of equal length, x ascending; NaN: no value there
+    std::vector<double> low = {}, high = {}; ///< band (lines) or bars (points) around y; both empty or as long as y
     Mark mark = Mark::line;
     Weight weight = Weight::normal;
     int colour = -1; ///< 0 ... 7 of the page's palette; -1: the next one

@@ -25,11 +25,16 @@ enum class Layout {
 };
 
 struct TablePart {
-    Table table;
+    Table table = {};
     Layout layout = Layout::rows;
     std::size_t labels = 1; ///< Layout::columns: the first `labels` lines are headings
     Fold fold = Fold::open;
 };
+
+inline TablePart rows_part(Table table)
+{
+    return {std::move(table)};
+}
 
 /// A drawing as an <svg> element made by Sketch.
 struct Drawing {

@@ -3,7 +3,6 @@
 #include "pages/report/assets.hpp"
 #include "pages/report/chart_data.hpp"
 #include "pages/report/escape.hpp"
-#include "pages/report/table_html.hpp"
 
 namespace damslip::pages {
 

@@ -1,4 +1,4 @@
-#include "pages/report/table_html.hpp"
+#include "pages/report/page_html.hpp"
 
 #include "pages/report/escape.hpp"
 #include "pages/report/table_text.hpp"

@@ -54,7 +54,7 @@ Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
     });
     Chart chart;
     chart.title = "Response spectra, 5 % damping, horizontal";
-    chart.x = {"period", "s", Scale::log, 0.1, {}, {}, {}};
+    chart.x = {"period", "s", Scale::log};
     chart.y = {"pseudo-acceleration", "m/s²", Scale::linear, 0.1, 0.0, {}, {}};
     const bool named = motions.size() <= named_records;
     for (std::size_t i = 0; i < motions.size(); ++i)

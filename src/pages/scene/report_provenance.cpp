@@ -1,5 +1,6 @@
 #include "pages/scene/report_provenance.hpp"
 
+#include "core/version.hpp"
 #include "scene/write.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +23,26 @@ nlohmann::ordered_json json_header(const std::string& what, const Scene& given)
     nlohmann::ordered_json j = json_header(what);
     j["scene"] = {{"title", given.title}, {"file", given.file.string()}, {"hash", scene_hash(given)}};
     return j;
+}
+
+Page begin_page(const Scene& scene, const std::string& about)
+{
+    const std::string file = scene.file.filename().string();
+    Page page;
+    page.title = scene.title.empty() ? file : scene.title;
+    page.subtitle = about + file + ", scene " + scene_hash(scene).substr(0, 12) + ", damslip " + program_version();
+    return page;
+}
+
+Listing scene_listing(const Scene& scene)
+{
+    return {"The resolved scene, all defaults written out (TOML)", resolved_toml(scene)};
+}
+
+std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& scene)
+{
+    return {
+        {"program", "damslip " + program_version()}, {"scene", scene.file.string()}, {"scene hash", scene_hash(scene)}};
 }
 
 void add_record_provenance(const std::vector<RecordPair>& records,

@@ -2,6 +2,7 @@
 
 #include "analysis/prepare/records.hpp"
 #include "pages/report/json_object.hpp"
+#include "pages/report/page.hpp"
 
 #include <string>
 #include <utility>
@@ -13,6 +14,16 @@ namespace damslip::pages {
 /// How the --json object of a command on a scene begins: schema, program, the scene's title, file and hash.
 /// @param given  as read: the hash is of it
 nlohmann::ordered_json json_header(const std::string& what, const Scene& given);
+
+/// A page with the scene's title, and below it what the page is about, the scene's file and hash, the version.
+/// @param about  sentences: "What accuracy costs. "
+Page begin_page(const Scene& scene, const std::string& about);
+
+/// The resolved scene, folded.
+Listing scene_listing(const Scene& scene);
+
+/// Program, scene and hash.
+std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& scene);
 
 /// File, format, samples and checksum of each component, after what the list holds.
 void add_record_provenance(const std::vector<RecordPair>& records,

@@ -1,9 +1,8 @@
-#include "pages/screen/record_parts.hpp"
 
 #include "analysis/screen/variation.hpp"
 #include "core/units.hpp"
 #include "pages/scene/record_charts.hpp"
-#include "pages/screen/slip_charts.hpp"
+#include "pages/screen/screen_charts.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -23,7 +22,7 @@ std::vector<double> sample_times(const GroundMotion& motion)
 
 Axis time_axis()
 {
-    return {"time", "s", Scale::linear, 0.1, {}, {}, {}};
+    return {"time", "s"};
 }
 
 Curve line(std::string name, std::vector<double> x, std::vector<double> y, int colour)
@@ -36,7 +35,7 @@ Chart acceleration_chart(const GroundMotion& motion)
     Chart chart;
     chart.title = motion.name + ": ground acceleration";
     chart.x = time_axis();
-    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"acceleration", "m/s²"};
     chart.height = 260;
     chart.curves.push_back(line("horizontal, upstream", sample_times(motion), motion.accel_h, 0));
     if (!motion.accel_v.empty()) chart.curves.push_back(line("vertical, up", sample_times(motion), motion.accel_v, 1));
@@ -56,7 +55,7 @@ Chart demand_chart(const GroundMotion& motion, const sliding::SlideHistory& hist
     Chart chart;
     chart.title = motion.name + ": yield acceleration with vertical motion";
     chart.x = time_axis();
-    chart.y = {"acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"acceleration", "m/s²"};
     std::vector<double> demand = motion.accel_h;
     for (double& a : demand) a *= polarity;
     chart.curves.push_back(
@@ -84,7 +83,7 @@ Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistori
     Chart chart;
     chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", found.polarity);
     chart.x = time_axis();
-    chart.y = {"slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"slip, downstream", "mm"};
     const auto& [decoupled, coupled] = found.slips;
     if (decoupled) chart.curves.push_back(slip_curve(decoupled->slide.history, "decoupled", 2));
     if (coupled) chart.curves.push_back(slip_curve(coupled->slide.history, "coupled", 3));
@@ -127,7 +126,7 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
     Chart slip;
     slip.title = motion.name + ": slip";
     slip.x = time_axis();
-    slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm", Scale::linear, 0.1, {}, {}, {}};
+    slip.y = {scene.wedge ? "slip" : "slip, downstream", "mm"};
     const SlipRow& h = worse_horizontal(s, number);
     const sliding::SlideResult& horizontal = found.horizontal.slide;
     add_slip_curve(horizontal, fmt::format("horizontal, polarity {:+d}", h.polarity), 0, slip);

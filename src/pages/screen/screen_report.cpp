@@ -4,20 +4,16 @@
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "core/version.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
-#include "pages/screen/record_parts.hpp"
+#include "pages/screen/screen_charts.hpp"
 #include "pages/screen/screen_tables.hpp"
-#include "pages/screen/slip_charts.hpp"
 #include "pages/screen/wedge_drawing.hpp"
 #include "pages/screen/wedge_tables.hpp"
-#include "pages/screen/yield_charts.hpp"
 #include "scene/section.hpp"
-#include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
 #include <algorithm>
@@ -137,8 +133,8 @@ Section wedge_part(const Scene& scene, const RigidModel& model)
     Section section{"Wedge", {}, Fold::open};
     if (auto drawing = wedge_drawing(scene, *model.wedge)) section.parts.push_back(std::move(*drawing));
     section.parts.push_back(stereonet(scene, *model.wedge));
-    section.parts.push_back(TablePart{wedge_stability_table(scene, model), Layout::rows, 1, Fold::open});
-    section.parts.push_back(TablePart{wedge_plane_table(scene, *model.wedge), Layout::rows, 1, Fold::open});
+    section.parts.push_back(rows_part(wedge_stability_table(scene, model)));
+    section.parts.push_back(rows_part(wedge_plane_table(scene, *model.wedge)));
     return section;
 }
 
@@ -161,7 +157,7 @@ Section equilibrium_section(const Screening& s)
             "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
             "[[combination]]."});
     else
-        section.parts.push_back(TablePart{std::move(verdicts), Layout::rows, 1, Fold::open});
+        section.parts.push_back(rows_part(std::move(verdicts)));
     for (const sliding::Equilibrium& e : s.combinations) {
         Table loads = sliding::load_table(e);
         loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
@@ -175,15 +171,14 @@ Section yield_section(const Scene& scene, const Screening& s)
     Section section{"Yield acceleration", {}, Fold::open};
     if (scene.wedge) {
         const RigidWedge& wedge = *s.bases.front().model.wedge;
-        section.parts.push_back(TablePart{wedge_yield_table(scene, wedge), Layout::rows, 1, Fold::open});
+        section.parts.push_back(rows_part(wedge_yield_table(scene, wedge)));
         section.parts.push_back(wedge_yield_chart(wedge, s.largest_pga));
         return section;
     }
-    section.parts.push_back(TablePart{yield_table(s), Layout::rows, 1, Fold::open});
+    section.parts.push_back(rows_part(yield_table(s)));
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
-    if (!s.uplifts.empty())
-        section.parts.push_back(TablePart{sliding::uplift_comparison_table(s.uplifts), Layout::rows, 1, Fold::open});
+    if (!s.uplifts.empty()) section.parts.push_back(rows_part(sliding::uplift_comparison_table(s.uplifts)));
     return section;
 }
 
@@ -191,12 +186,10 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
 {
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
-    section.parts.push_back(TablePart{slip_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
+    section.parts.push_back(rows_part(slip_table(s, in.scene.criteria.allowable_slip)));
     const bool slides = !largest(s); // nothing to draw
-    if (s.flexible)
-        section.parts.push_back(
-            TablePart{flexible_table(s, in.scene.criteria.allowable_slip), Layout::rows, 1, Fold::open});
-    if (motions.size() > 1) section.parts.push_back(TablePart{statistics_table(s), Layout::rows, 1, Fold::open});
+    if (s.flexible) section.parts.push_back(rows_part(flexible_table(s, in.scene.criteria.allowable_slip)));
+    if (motions.size() > 1) section.parts.push_back(rows_part(statistics_table(s)));
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
     if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
@@ -210,7 +203,7 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
 {
     std::vector<Section> sections(1);
     sections[0] = {"Records", {}, Fold::open};
-    sections[0].parts.push_back(TablePart{record_table(motions), Layout::rows, 1, Fold::open});
+    sections[0].parts.push_back(rows_part(record_table(motions)));
     sections[0].parts.push_back(spectra(motions, in.jobs));
     std::vector<std::vector<Part>> parts(motions.size());
     parallel_for(motions.size(), in.jobs, [&](std::size_t i) {
@@ -224,13 +217,10 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
 
 std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
 {
-    std::vector<std::pair<std::string, std::string>> list{
-        {"program", "damslip " + program_version()},
-        {"scene", in.scene.file.string()},
-        {"scene hash", scene_hash(in.scene)},
-        {"method", in.scene.sliding.scheme == SlidingScheme::exact
-                       ? "rigid block, events located exactly, acceleration linear between samples"
-                       : "rigid block, SLAMMER's trapezoid scheme"}};
+    std::vector<std::pair<std::string, std::string>> list = scene_provenance(in.scene);
+    list.emplace_back("method", in.scene.sliding.scheme == SlidingScheme::exact
+                                    ? "rigid block, events located exactly, acceleration linear between samples"
+                                    : "rigid block, SLAMMER's trapezoid scheme");
     add_record_provenance(in.records, list);
     return list;
 }
@@ -330,11 +320,8 @@ Page screen_page(const ScreenReportInput& in)
 {
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
-    Page page;
-    page.title = in.scene.title.empty() ? in.scene.file.filename().string() : in.scene.title;
-    page.subtitle = std::string("Sliding in an earthquake: screening with the rigid ") +
-                    (in.scene.wedge ? "wedge. " : "block. ") + in.scene.file.filename().string() + ", scene " +
-                    scene_hash(in.scene).substr(0, 12) + ", damslip " + program_version();
+    const std::string body = in.scene.wedge ? "wedge. " : "block. ";
+    Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body);
     page.headline = screen_headline(in.scene, in.screening);
     page.key_figures = key_figures(in.scene, in.screening);
     page.warnings = all_warnings(in);
@@ -345,11 +332,8 @@ Page screen_page(const ScreenReportInput& in)
     if (!motions.empty())
         for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
     Table effects = effect_table(in.screening.plan);
-    page.sections.push_back(
-        {"Effects taken into account", {TablePart{std::move(effects), Layout::rows, 1, Fold::open}}, Fold::open});
-    page.sections.push_back({"Scene",
-                             {Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(in.given)}},
-                             Fold::open});
+    page.sections.push_back({"Effects taken into account", {rows_part(std::move(effects))}, Fold::open});
+    page.sections.push_back({"Scene", {scene_listing(in.given)}, Fold::open});
     page.provenance = provenance(in);
     return page;
 }

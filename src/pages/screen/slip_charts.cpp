@@ -1,4 +1,4 @@
-#include "pages/screen/slip_charts.hpp"
+#include "pages/screen/screen_charts.hpp"
 
 #include "analysis/screen/variation.hpp"
 #include "core/statistics.hpp"
@@ -20,7 +20,7 @@ constexpr std::size_t named_records = 6; ///< so many curves can be told apart
 
 Axis slip_axis()
 {
-    return {"largest slip", "mm", Scale::asinh, 0.1, {}, {}, {}};
+    return {"largest slip", "mm", Scale::asinh};
 }
 
 std::vector<std::vector<double>> in_mm(std::vector<std::vector<double>> slips)
@@ -100,13 +100,7 @@ std::optional<Chart> slip_over_friction(const Scene& scene, const Screening& s,
     const auto grid = in_mm(found->slip);
     Chart chart;
     chart.title = "Slip over friction";
-    chart.x = {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ",
-               "–",
-               Scale::linear,
-               0.1,
-               {},
-               {},
-               {}};
+    chart.x = {scene.wedge ? "friction μ of " + scene.wedge->planes.front().name : "friction μ", "–"};
     chart.y = slip_axis();
     if (motions.size() <= named_records)
         for (std::size_t j = 0; j < motions.size(); ++j)
@@ -157,7 +151,7 @@ Chart slip_over_ratio(const Screening& s)
 {
     Chart chart;
     chart.title = "Slip over a_y/PGA";
-    chart.x = {"a_y/PGA", "–", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"a_y/PGA", "–"};
     chart.y = slip_axis();
     const double a_y = s.bases.front().model.downstream.law.constant;
     std::vector<std::size_t> order(s.slips.size() / 2);
@@ -192,7 +186,7 @@ std::optional<Chart> regressions_beside(const Screening& s, std::size_t number)
     Chart chart;
     chart.title = "Regressions beside the rigid block";
     chart.x.label = "regression";
-    chart.y = {"slip", "mm", Scale::asinh, 0.1, {}, {}, {}};
+    chart.y = {"slip", "mm", Scale::asinh};
     Curve curve{"regression, 16 to 84 %", {}, {}, {}, {}, Mark::points, Weight::normal, 0};
     for (const RegressionRow& row : s.regressions) {
         if (row.record != s.slips[2 * number].record || !row.valid) continue;

@@ -140,7 +140,7 @@ Chart wedge_yield_chart(const RigidWedge& wedge, double largest_pga)
     Chart chart;
     chart.title = "Yield acceleration over the direction of the motion";
     chart.x = {"azimuth the motion drives to", "°", Scale::linear, 0.1, 0.0, 360.0, {}};
-    chart.y = {"yield acceleration", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.y = {"yield acceleration", "m/s²"};
     Curve curve{"a_y", {}, {}, {}, {}, Mark::line, Weight::strong, 0};
     double least = std::numeric_limits<double>::infinity();
     for (const double a : yields_over_azimuth(wedge.wedge)) {

@@ -21,7 +21,7 @@ constexpr std::size_t drawn_points = 6000; ///< of a scatter chart in all
 
 Axis slip_axis(const std::string& label)
 {
-    return {label, "mm", Scale::asinh, 0.1, {}, {}, {}};
+    return {label, "mm", Scale::asinh};
 }
 
 /// The worse polarity's slip [mm] of each record that has one.
@@ -79,7 +79,7 @@ Chart empty_chart(const SweepView& view, const std::string& title, const std::op
 {
     Chart chart;
     chart.title = title;
-    chart.x = {"friction μ", "", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"friction μ", ""};
     chart.y = slip_axis("largest slip");
     if (view.records.size() > 1)
         chart.note = many_records(view) ? fmt::format("Median of {} records.", view.records.size())
@@ -184,8 +184,8 @@ std::optional<Chart> slip_histories(const SweepView& view, std::size_t variant, 
     Chart chart;
     const SweepRow& any = view.rows[rows.front()];
     chart.title = with_name("Slip over time by " + method, view.variant_names[variant]);
-    chart.x = {"time", "s", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {"slip", "mm", Scale::asinh, 1.0, {}, {}, {}};
+    chart.x = {"time", "s"};
+    chart.y = {"slip", "mm", Scale::asinh, 1.0};
     chart.note = fmt::format("Record {}{}.", any.record, any.polarity < 0 ? ", polarity -1" : "");
     const std::size_t every = (rows.size() + named_variants - 1) / named_variants;
     for (std::size_t i = 0; i < rows.size(); i += every) {
@@ -213,7 +213,7 @@ Chart slip_over_yield_ratio(const SweepView& view)
 {
     Chart chart;
     chart.title = "Slip over a_y/PGA";
-    chart.x = {"yield acceleration over PGA, a_y/PGA", "", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"yield acceleration over PGA, a_y/PGA", ""};
     chart.y = slip_axis("largest slip");
     chart.note = "a_y: of the rigid block, the same for all methods. Each point is a row.";
     for (const std::string& method : view.methods) {
@@ -265,8 +265,8 @@ Chart yield_over_friction(const SweepView& view)
 {
     Chart chart;
     chart.title = "Yield acceleration over friction";
-    chart.x = {"friction μ", "", Scale::linear, 0.1, {}, {}, {}};
-    chart.y = {"yield acceleration a_y", "m/s²", Scale::linear, 0.1, {}, {}, {}};
+    chart.x = {"friction μ", ""};
+    chart.y = {"yield acceleration a_y", "m/s²"};
     chart.horizontal.push_back({0.0, "slides statically below"});
     for (std::size_t v = 0; v < view.variants.size() && chart.curves.size() < named_variants; ++v) {
         Curve curve{view.variant_names[v].empty() ? "a_y" : view.variant_names[v],

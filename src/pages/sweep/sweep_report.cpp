@@ -215,7 +215,7 @@ std::optional<Section> history_section(const SweepView& view, const std::vector<
 
 Section variant_section(const SweepView& view, const std::optional<double>& allowable)
 {
-    Section section{"Variants", {TablePart{variant_table(view), Layout::rows, 1, Fold::open}}, Fold::open};
+    Section section{"Variants", {rows_part(variant_table(view))}, Fold::open};
     if (view.variants.size() > 1)
         for (const std::string& method : view.methods) {
             if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
@@ -249,7 +249,7 @@ Section rows_section(const SweepReportInput& in)
                                           in.csv.empty() ? "" : "; all are in " + in.csv.filename().string()));
         table.rows.resize(listed_rows);
     }
-    return {"Rows", {TablePart{std::move(table), Layout::rows, 1, Fold::open}}, Fold::folded};
+    return {"Rows", {rows_part(std::move(table))}, Fold::folded};
 }
 
 bool finite_elements(const SweepView& view)
@@ -285,8 +285,7 @@ Section record_section(const Scene& scene, const std::vector<RecordPair>& record
 {
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : records) motions.push_back(ground_motion(scene, pair));
-    return {
-        "Records", {TablePart{record_table(motions), Layout::rows, 1, Fold::open}, spectra(motions, 1)}, Fold::open};
+    return {"Records", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open};
 }
 
 std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
@@ -308,14 +307,11 @@ Page sweep_page(const SweepReportInput& in)
 {
     const SweepView view = sweep_view(in.rows);
     const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
+    const std::string about = "Sliding in an earthquake: sweep over friction and more. ";
     Page page;
     page.title = "Sweep";
-    page.subtitle = "Sliding in an earthquake: sweep over friction and more. ";
-    if (in.scene) {
-        page.title = in.scene->title.empty() ? in.scene->file.filename().string() : in.scene->title;
-        page.subtitle += in.scene->file.filename().string() + ", scene " + scene_hash(*in.scene).substr(0, 12) + ", ";
-    }
-    page.subtitle += "damslip " + program_version();
+    page.subtitle = about + "damslip " + program_version();
+    if (in.scene) page = begin_page(*in.scene, about);
     page.headline = headline(view, allowable);
     page.key_figures = {{"Rows", fmt::format("{}", view.rows.size())},
                         {"Variants", fmt::format("{}", view.variants.size())},
@@ -332,7 +328,7 @@ Page sweep_page(const SweepReportInput& in)
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
     if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
     page.sections.push_back(variant_section(view, allowable));
-    Section methods{"Methods", {TablePart{method_table(view, allowable), Layout::rows, 1, Fold::open}}, Fold::open};
+    Section methods{"Methods", {rows_part(method_table(view, allowable))}, Fold::open};
     if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
     for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
@@ -342,10 +338,7 @@ Page sweep_page(const SweepReportInput& in)
         page.sections.push_back(section_of(*in.scene, view));
         if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));
         page.sections.push_back(
-            {"Scene",
-             {TablePart{effect_table(effect_plan(*in.scene, view)), Layout::rows, 1, Fold::open},
-              Listing{"The resolved scene, all defaults written out (TOML)", resolved_toml(*in.scene)}},
-             Fold::open});
+            {"Scene", {rows_part(effect_table(effect_plan(*in.scene, view))), scene_listing(*in.scene)}, Fold::open});
     }
     page.provenance = provenance(in, view);
     return page;
