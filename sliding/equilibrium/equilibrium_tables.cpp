@@ -111,15 +111,6 @@ Table verdict_table(const std::vector<Equilibrium>& all)
         rows);
 }
 
-Table profile_table(const PressureProfile& profile)
-{
-    using P = ProfilePoint;
-    return table_of<P>("Uplift pressure along the base",
-                       {{{"distance_from_heel_m", "from the heel", "m", 5}, &P::distance},
-                        {{"pressure_kPa", "pressure", "kPa", 5}, [](const P& p) { return p.pressure / units::kPa; }}},
-                       profile.points, {"A repeated distance is a jump."});
-}
-
 Table uplift_comparison_table(const std::vector<UpliftComparison>& all)
 {
     using U = UpliftComparison;

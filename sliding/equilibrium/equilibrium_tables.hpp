@@ -17,9 +17,6 @@ Table equilibrium_table(const std::vector<Equilibrium>& all);
 /// One row per check of each combination: value, required value, PASS / FAIL / no criterion, source.
 Table verdict_table(const std::vector<Equilibrium>& all);
 
-/// Pressure along the base [m, kPa].
-Table profile_table(const PressureProfile& profile);
-
 /// Uplift and critical friction of each model.
 Table uplift_comparison_table(const std::vector<UpliftComparison>& all);
 

@@ -129,8 +129,7 @@ void add_sweep(Parser& p)
         "--method", p.sweep.method,
         "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
         "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-reduced, and regressions by "
-        "id such as "
-        "ambraseys-menu-1988, jibson-1993, jibson-1998");
+        "id such as ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub->add_option("--modes", p.sweep.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
     sub->add_option("--penalty-stiffness", p.sweep.penalty_stiffness, "of fe-penalty [N/m3]")
         ->check(CLI::Range(1.0, 1e20));

@@ -103,8 +103,7 @@ Table modes_table(const std::vector<ModelModes>& models, double size)
          {{"stiffness_coefficient_s", "b_K here", "s", 3}, once(&ModelModes::stiffness_coefficient)}},
         rows,
         {"tied base. mass sum: of everything that moves in x, the mass of incompressible water included, over the "
-         "listed "
-         "modes; what the source divides by is not printed."});
+         "listed modes; what the source divides by is not printed."});
 }
 
 } // namespace damslip::study

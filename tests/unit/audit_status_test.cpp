@@ -6,6 +6,7 @@
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/status_count.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
+#include "pages/sweep/sweep_tables.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "scene/with_friction.hpp"
@@ -567,7 +568,7 @@ TEST(Audit, A16_sweep_slips_of_fixed_steps_say_that_they_have_no_error_estimate)
     const json rows = rows_of(answer, {"rows"});
     EXPECT_TRUE(rows[0]["remark"].is_null()); // the rigid block has no such error
     EXPECT_TRUE(rows[1]["slip_error_m"].is_null());
-    EXPECT_EQ(rows[1]["remark"], no_error_estimate);
+    EXPECT_EQ(rows[1]["remark"], pages::no_error_estimate);
     EXPECT_NE(answer.talk.find("1 slip by finite elements has no error estimate"), std::string::npos) << answer.talk;
     EXPECT_TRUE(rows_of(answer, {"comparison"})[0]["largest_slip_error_mm"].is_null()); // not ± 0
 
@@ -576,7 +577,7 @@ TEST(Audit, A16_sweep_slips_of_fixed_steps_say_that_they_have_no_error_estimate)
     const json both = rows_of(chosen, {"rows"});
     EXPECT_TRUE(both[0]["slip_error_m"].is_number());
     EXPECT_TRUE(both[0]["remark"].is_null());
-    EXPECT_EQ(both[1]["remark"], no_error_estimate);
+    EXPECT_EQ(both[1]["remark"], pages::no_error_estimate);
     EXPECT_TRUE(rows_of(chosen, {"comparison"})[0]["largest_slip_error_mm"].is_number());
 }
 

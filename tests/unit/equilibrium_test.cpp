@@ -358,7 +358,7 @@ TEST(Equilibrium, TablesHaveACellPerColumn)
     ASSERT_EQ(models.size(), 4u);
     EXPECT_NEAR(models[1].critical_friction, 19160156.25 / (39233868.75 - 22.5 * 613125.0), 1e-14);
     for (const Table& table : {load_table(all.back()), equilibrium_table(all), verdict_table(all),
-                               profile_table(all[0].base.profile), uplift_comparison_table(models)}) {
+                               uplift_comparison_table(models)}) {
         EXPECT_FALSE(table.rows.empty());
         for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.title;
     }

@@ -97,8 +97,7 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
         "deviation: (|slip − top's| + what the top rung leaves open) over the top's slip, the worst record; front: no "
         "rung as fast deviates less.",
         "time: processor time of all that this rung costs alone, reading and set-up included, median of the runs; "
-        "memory: growth of the "
-        "resident memory to its peak during the first run.",
+        "memory: growth of the resident memory to its peak during the first run.",
         "dt/4: a quarter of the record's step; dt=auto: chosen by time.slip_tolerance, the default of `fe`; "
         "dt=adaptive: the same with time.stepping = \"adaptive\"; 2h, h/2: "
         "elements of twice and half the scene's size; q8: quadratic elements of the size before it; stick: penalty in "
@@ -135,8 +134,8 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
         j.top ? j.models : std::vector<M>{});
     if (!j.top) return t;
     t.notes.push_back("limit: step and element size to zero, by Richardson's extrapolation with the observed order "
-                      "(held between 1 and "
-                      "2); the rigid block is located exactly. Orders are those the last three rungs show.");
+                      "(held between 1 and 2); the rigid block is located exactly. Orders are those the last three "
+                      "rungs show.");
     for (const M& m : j.models)
         if (!m.mesh_known && m.model.starts_with("fe-"))
             t.notes.push_back(m.model + ": the limit is that of the scene's mesh, no other mesh was run.");

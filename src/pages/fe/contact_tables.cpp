@@ -255,8 +255,7 @@ Table contact_slip_table(const std::vector<ContactRun>& runs)
           [](const R& r) { return 1e-3 * least(r.fe.history.normal_force); }}},
         runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
         {"slips at the end; rocking, opening and open length: largest on the way, rocking positive where the heel "
-         "opens; "
-         "N' effective, compression positive."});
+         "opens; N' effective, compression positive."});
 }
 
 Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
@@ -323,8 +322,8 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
                         {{"bytes", "bytes"}, [](const R& r) { return count_cell(r.fe.bytes); }}},
                        runs,
                        {"of the pass that is reported; sub-steps: by step of the record; halved: steps made in two "
-                        "halves because they "
-                        "were not resolved whole; iterations: linear solutions of the contact problem."});
+                        "halves because they were not resolved whole; iterations: linear solutions of the contact "
+                        "problem."});
 }
 
 Table contact_energy_table(const std::vector<ContactRun>& runs)
@@ -365,8 +364,7 @@ Table contact_law_table(const std::vector<ContactRun>& runs)
                         {{"law_error_percent", "error", "%", 3}, error_share}},
                        runs | std::views::filter([](const R& r) { return r.exact.has_value(); }),
                        {"slip without its elastic part; exact: the same run, but pairs that stick do not give way and "
-                        "the joint is hard "
-                        "across."});
+                        "the joint is hard across."});
 }
 
 } // namespace damslip::pages

@@ -65,9 +65,8 @@ Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<
         rows);
     t.notes.push_back(
         "slip: area mean over the base since the static state, positive downstream; ± modes: what the elastic modes "
-        "left "
-        "out change (estimate), ± step: what the time step leaves open; ± mesh: change against elements of twice the "
-        "size.");
+        "left out change (estimate), ± step: what the time step leaves open; ± mesh: change against elements of twice "
+        "the size.");
     for (std::string& note : error_notes(as_contact_runs(runs))) t.notes.push_back(std::move(note));
     t.notes.push_back("polarity -1: the record's horizontal component is flipped.");
     t.notes.push_back("time without the shared set-up of model and modes.");

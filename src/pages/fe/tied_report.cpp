@@ -152,8 +152,7 @@ Table run_table(const std::vector<TiedRun>& runs)
          {{"seconds", "time", "s", 3}, &R::seconds}},
         runs,
         {"crest x relative to the ground, from the static state; accelerations absolute; energy imbalance over the "
-         "largest "
-         "energy of the run.",
+         "largest energy of the run.",
          "one polarity: the model is linear, so the other turns the part of the horizontal motion round; --polarity -1 "
          "runs it."});
 }

@@ -38,8 +38,8 @@ std::vector<std::string> reservoir_warnings(const Scene& scene, double highest)
         !water.bottom_density && highest > first)
         warnings.push_back(
             fmt::format("a rigid bottom that moves (bottom_reflection = 1) has no damping of the water's vertical "
-                        "resonance at {:.3g} "
-                        "Hz: vertical motion may raise the slip several times; give the bottom its bottom_reflection",
+                        "resonance at {:.3g} Hz: vertical motion may raise the slip several times; give the bottom its "
+                        "bottom_reflection",
                         first));
     const double size = water_mesh_size(water), resolved = c / (10.0 * std::max(size, water.level / 12.0));
     if (highest > resolved)

@@ -8,7 +8,7 @@
 
 namespace damslip::pages {
 
-/// Table rows as a JSON array for a command's --json object.
+/// Table rows as a JSON array of objects, by column key, for a command's --json object; nothing and non-finite numbers are null.
 nlohmann::ordered_json json_of(const Table& table);
 
 /// {"schema": "damslip.<what>/1", "program": {...}}: how each --json object begins.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace damslip::pages {
 
@@ -162,46 +161,6 @@ std::string csv(const Table& table, const std::vector<std::string>& comments)
     out += "\n";
     for (const auto& row : table.rows) {
         for (std::size_t j = 0; j < row.size(); ++j) out += (j ? "," : "") + csv_field(row[j]);
-        out += "\n";
-    }
-    return out;
-}
-
-std::string json_rows(const Table& table)
-{
-    auto rows = nlohmann::ordered_json::array();
-    for (const auto& row : table.rows) {
-        nlohmann::ordered_json object = nlohmann::ordered_json::object();
-        for (std::size_t j = 0; j < row.size(); ++j)
-            std::visit(
-                [&](const auto& v) {
-                    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::monostate>)
-                        object[table.columns[j].key] = nullptr;
-                    else
-                        object[table.columns[j].key] = v;
-                },
-                row[j]);
-        rows.push_back(std::move(object));
-    }
-    return rows.dump(2);
-}
-
-std::string markdown(const Table& table)
-{
-    std::string out = "|", rule = "|";
-    for (const Column& c : table.columns) {
-        out += " " + c.heading + (c.unit.empty() || c.unit == "–" ? "" : " [" + c.unit + "]") + " |";
-        rule += " --- |";
-    }
-    out += "\n" + rule + "\n";
-    for (const auto& row : table.rows) {
-        out += "|";
-        for (std::size_t j = 0; j < row.size(); ++j) {
-            std::string cell = cell_text(row[j], table.columns[j].digits);
-            for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2)
-                cell.replace(at, 1, "\\|");
-            out += " " + cell + " |";
-        }
         out += "\n";
     }
     return out;

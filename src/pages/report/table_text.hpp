@@ -28,10 +28,4 @@ std::string text_by_columns(const Table& table, std::size_t labels);
 /// control characters are shown as their pictures. Numbers stay as they are.
 std::string csv(const Table& table, const std::vector<std::string>& comments = {});
 
-/// A JSON array of objects, one per row, by column key; nothing and non-finite numbers are null.
-std::string json_rows(const Table& table);
-
-/// GitHub-style table, heading and unit in the header.
-std::string markdown(const Table& table);
-
 } // namespace damslip::pages

@@ -113,8 +113,7 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
           [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }}},
         compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
-         "end "
-         "count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
+         "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
 }
 
 Table count_table(const FeSweepCounts& counts)
