@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. --all: then the long tests too, the suite under the address and
-# undefined-behaviour checkers, and what share of the lines the tests reach (an hour or more on two cores).
+# Installs what is missing, builds, and runs all tests. --all: then the long tests too, a build of every file by itself, the
+# suite under the address and undefined-behaviour checkers, and what share of the lines the tests reach (an hour or more on two cores).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-}" in '' | --all) ;; *) echo "usage: scripts/test.sh [--all]" >&2; exit 2 ;; esac
@@ -11,5 +11,7 @@ ctest --preset release --parallel "$(nproc)"
 [ "${1:-}" = --all ] || exit 0
 
 ctest --test-dir build/release --label-regex '^long$' --output-on-failure --no-tests=error --parallel "$(nproc)"
+cmake --preset dev >/dev/null   # every file by itself, warnings are errors
+cmake --build --preset dev
 scripts/sanitize.sh
 scripts/coverage.sh
