@@ -30,7 +30,7 @@ try {
     for (const FinishedRow& row : run_sweep(sweep, watch).rows) {
         const GridIndex at = sweep.tasks.index(row.id);
         std::printf("%-5s mu = %.2f: slip %.4f mm\n", axes.method[at.method].id.c_str(), axes.friction[at.friction],
-                    1e3 * slip_of(row).value_or(-1.0)); // none: it does not stand, see status_of(row)
+                    1e3 * row.results.slip.value_or(-1.0)); // none: it does not stand, see its status
     }
 } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

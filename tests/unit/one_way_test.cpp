@@ -100,7 +100,7 @@ TEST_P(OneWay, FiniteElementsGiveTheSameBits)
     ASSERT_GT(std::abs(slip), 1e-5) << runs[0].fe.message; // else all would agree on nothing
     EXPECT_EQ(answer({"fe", "--no-mesh-error"})["runs"][0]["slip_mm"], 1e3 * slip);
     EXPECT_EQ(answer({"sweep", "--method", "fe"})["rows"][0]["slip_m"], slip);
-    EXPECT_EQ(slip_of(only_row("fe")), slip);
+    EXPECT_EQ(only_row("fe").results.slip, slip);
     const RungResult rung = this->rung(GetParam().rung);
     ASSERT_TRUE(rung.done()) << rung.remark;
     EXPECT_EQ(rung.slip.at(0), slip);
