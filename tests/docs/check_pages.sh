@@ -42,6 +42,16 @@ for file in docs/*.md; do
     [ "$file" = docs/README.md ] || grep -qF "](${file#docs/}" docs/README.md || wrong "docs/README.md does not list ${file#docs/}"
 done
 
+# "Where is ..." of the layout: the functions of a row are in one of its files.
+grep -E '^\| .*\.[ch]pp`' docs/layout.md >"$work/rows"
+while IFS= read -r row; do
+    grep -o '`[A-Za-z0-9_/]*\.[ch]pp`' <<<"$row" | tr -d '`' >"$work/files" || true
+    while IFS= read -r name; do
+        while IFS= read -r file; do grep -qE "(^|[^A-Za-z_])${name##*::}\(" "$file" 2>/dev/null && continue 2; done <"$work/files"
+        wrong "docs/layout.md: $name() is not in $(paste -sd' ' "$work/files")"
+    done < <(grep -o '`[A-Za-z_:]*()`' <<<"$row" | tr -d '`()')
+done <"$work/rows"
+
 # Commands: lines of code that call the program, and calls in backticks.
 { grep -hE '^    (build/release/)?damslip ' "${pages[@]}"; cat "${pages[@]}" | grep -o '`damslip [^`]*`' | tr -d '`'; } |
     sed 's/^ *//; s|^build/release/||; s/  *#.*//; s/ > .*//; s/[|\\].*//' | sort -u >"$work/commands"
