@@ -32,7 +32,7 @@ try_out() {
     (
         cd "$work"
         damslip screen /usr/share/damslip/examples/reference_dam_profile.toml --out results --quiet >answer
-        grep -q '0\.614604' answer || fail "screen: the yield acceleration by hand is 0.614604 m/s2"   # README
+        grep -q '0\.614604' answer || fail "screen: the yield acceleration by hand is 0.614604 m/s2"   # docs/loads-and-equilibrium.md
         [ -s results/report.html ] || fail "screen wrote no report"
         damslip fe /usr/share/damslip/examples/reference_dam_profile.toml --reduced --quiet >answer || fail "fe: $(cat answer)"
         MANWIDTH=80 man damslip | grep -q SYNOPSIS || fail "man damslip"

@@ -25,7 +25,7 @@ printed() { awk -v key="\"$1\":" '$1 == key {printf "%.4f\n", $2}'; }
 printed_mm() { awk -v key="\"$1\":" '$1 == key {printf "%.4f\n", 1000 * $2}'; }
 
 build/screen "$scene" | tee screen.txt
-grep -q '^yield acceleration  0.614604 m/s2$' screen.txt || fail "the yield acceleration by hand is 0.614604 m/s2"   # README
+grep -q '^yield acceleration  0.614604 m/s2$' screen.txt || fail "the yield acceleration by hand is 0.614604 m/s2"   # docs/loads-and-equilibrium.md
 same "$(sed -n 's/.*slip \([0-9.]*\) mm.*/\1/p' screen.txt)" \
      "$("$damslip" screen "$scene" --json --quiet | sed -n '/"displacements"/,/"statistics"/p' | printed slip_hv_mm)" "screen"
 build/fe "$scene" | tee fe.txt
