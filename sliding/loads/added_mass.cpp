@@ -99,6 +99,8 @@ double added_mass_per_area(const AddedMass& method, const WaterColumn& water, do
     const double zeta = std::min(depth / water.depth, 1.0);
     const double tau = method.formula == AddedMassFormula::westergaard ? period_ratio_squared(method, water) : 0.0;
     if (!(zeta > 0.0)) return 0.0;
+    if (const AddedMassRow& row = added_mass_row(method.formula); row.per_area)
+        return row.per_area(method, water, zeta * water.depth, face_angle);
     switch (method.formula) {
     case AddedMassFormula::westergaard_simplified:
         return 0.875 * unit * std::sqrt(zeta);

@@ -1,15 +1,10 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/added_mass_row.hpp"
 
 namespace damslip::sliding {
 
-/// The water in front of the dam, seen by the added-mass formulas.
-struct WaterColumn {
-    double depth = 0.0;           ///< h, surface above the heel [m], > 0
-    double density = 1000.0;      ///< rho [kg/m^3]
-    double bulk_modulus = 2200e6; ///< K [Pa]; used by the rigorous series with a finite period only
-};
+using damslip::WaterColumn;
 
 double sound_speed(const WaterColumn& water);      ///< c = sqrt(K/rho) [m/s]
 double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water alone [s]
@@ -27,6 +22,7 @@ double reservoir_period(const WaterColumn& water); ///< T_r = 4h/c of the water 
 ///   A = (pi/2)(y - h_m)/(h - h_m), y = h - z above the reservoir bottom, h_m = h sqrt(phi/1000), phi in degrees, 0...30.
 /// The last two are pressures per *horizontal* acceleration: m_n = m/cos(phi) reproduces them
 /// (InclinedFaceRule::normal_component); InclinedFaceRule::printed takes m_n = m.
+/// Other formulas are those of their rows (AddedMassRow::per_area).
 ///
 /// @param depth       z below the water surface [m]; 0 at and above it, taken as h below the bottom
 /// @param face_angle  phi from the vertical of the piece of the face that the point lies on [rad], positive: it leans away

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "scene/added_mass_row.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 
@@ -38,12 +39,14 @@ void check_acoustic_water(const Reservoir& water, Findings& f)
                 fmt::format("write  mesh_size_m = {}", shortest(water.level / 20)));
 }
 
-/// Goldgruber & Feldbacher's mass (3-10) is of faces within 30 degrees.
-void check_face_of_added_mass(const Scene& s, Findings& f)
+/// What the formula of the added mass needs; Goldgruber & Feldbacher's (3-10) is of faces within 30 degrees.
+void check_formula_of_added_mass(const Scene& s, Findings& f)
 {
-    if (s.added_mass.formula != AddedMassFormula::goldgruber || !s.reservoir ||
-        s.reservoir->model == ReservoirModel::hydrostatic)
-        return;
+    if (!s.reservoir || s.reservoir->model == ReservoirModel::hydrostatic) return;
+    if (const AddedMassRow& row = added_mass_row(s.added_mass.formula); !has_what_it_needs(s, row))
+        f.wrong("added_mass.formula", fmt::format("added_mass.formula = \"{}\" needs {}.", row.word, row.needs),
+                row.needs, fmt::format("add {} or choose another added_mass.formula", row.needs));
+    if (s.added_mass.formula != AddedMassFormula::goldgruber) return;
     const Polyline face = upstream_face(s.section);
     for (std::size_t i = 0; i + 1 < face.size(); ++i) {
         const double angle = std::atan2(face[i + 1].x - face[i].x, face[i + 1].y - face[i].y) / units::degree;
@@ -102,7 +105,7 @@ void check_water(const Scene& s, Findings& f)
     check_crack_water(s, f);
     check_uplift_is_said(s, f);
     if (s.reservoir) check_acoustic_water(*s.reservoir, f);
-    check_face_of_added_mass(s, f);
+    check_formula_of_added_mass(s, f);
     if (s.added_mass.period && s.reservoir) {
         double h = s.reservoir->level; // the highest of all states
         for (const Combination& state : s.combinations) h = std::max(h, state.reservoir_level.value_or(h));

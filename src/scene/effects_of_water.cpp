@@ -1,3 +1,4 @@
+#include "scene/added_mass_row.hpp"
 #include "scene/effect_row.hpp"
 #include "scene/vertical_motion.hpp"
 
@@ -110,20 +111,11 @@ Decision decide_floor_pressure(const Scene& s, Method method)
     return {true, "reservoir.floor_pressure = true", "static nodal forces on the rock"};
 }
 
-const char* formula_name(const AddedMass& mass)
+std::string formula_name(const AddedMass& mass)
 {
-    switch (mass.formula) {
-    case AddedMassFormula::westergaard:
-        return mass.period || mass.period_of_dam ? "Westergaard's series with its period"
-                                                 : "Westergaard's series, incompressible";
-    case AddedMassFormula::westergaard_simplified:
-        return "Westergaard's parabola";
-    case AddedMassFormula::zangar:
-        return "Zangar's";
-    case AddedMassFormula::goldgruber:
-        return "Goldgruber's";
-    }
-    return "";
+    if (mass.formula == AddedMassFormula::westergaard && (mass.period || mass.period_of_dam))
+        return "Westergaard's series with its period";
+    return added_mass_row(mass.formula).name;
 }
 
 RemovalAnswer without_compressibility(Scene s, const SeepagePoints&)

@@ -1,7 +1,27 @@
+#include "scene/added_mass_row.hpp"
 #include "scene/key_parts.hpp"
 #include "scene/keys.hpp"
 
 namespace damslip::keys {
+
+namespace {
+
+std::vector<std::pair<std::string, AddedMassFormula>> formula_words()
+{
+    std::vector<std::pair<std::string, AddedMassFormula>> words;
+    for (const AddedMassRow& row : added_mass_rows()) words.emplace_back(row.word, AddedMassFormula(words.size()));
+    return words;
+}
+
+std::string formula_meanings()
+{
+    std::string text;
+    for (const AddedMassRow& row : added_mass_rows())
+        text += (text.empty() ? "" : ", ") + row.word + (row.meaning.empty() ? "" : " (" + row.meaning + ")");
+    return text;
+}
+
+} // namespace
 
 std::vector<KeyGroup> water_groups()
 {
@@ -66,27 +86,20 @@ std::vector<KeyGroup> water_groups()
         auto* a = static_cast<AddedMass*>(object);
         return NumberOrWord{&a->period, &a->period_of_dam, "dam"};
     };
-    groups.push_back(group(
-        "added_mass", "Hydrodynamic added mass, used when the reservoir moves as added mass.", &Scene::added_mass,
-        {word("formula", "westergaard",
-              "formula: westergaard (rigorous, 3-1), westergaard-simplified (3-4), zangar (3-8), goldgruber (3-10)",
-              "\"westergaard-simplified\"",
-              choice(&AddedMass::formula,
-                     std::vector<std::pair<std::string, AddedMassFormula>>{
-                         {"westergaard", AddedMassFormula::westergaard},
-                         {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
-                         {"zangar", AddedMassFormula::zangar},
-                         {"goldgruber", AddedMassFormula::goldgruber}})),
-         period,
-         word("inclined_face", "normal-component",
-              "mass normal to a sloping face: m/cos(phi) (normal-component) or the printed m", "\"printed\"",
-              choice(&AddedMass::inclined_face,
-                     std::vector<std::pair<std::string, InclinedFaceRule>>{
-                         {"normal-component", InclinedFaceRule::normal_component},
-                         {"printed", InclinedFaceRule::printed}})),
-         pairs("zangar_table", angle, none, Range::between(0, 2), "C_m = 0.73 (1 - phi/90 deg)",
-               "Zangar's C_m over the face angle from the vertical", "[[0, 0.73], [30, 0.54]]",
-               at(&AddedMass::zangar_table))}));
+    groups.push_back(
+        group("added_mass", "Hydrodynamic added mass, used when the reservoir moves as added mass.", &Scene::added_mass,
+              {word("formula", "westergaard", "formula: " + formula_meanings(), "\"westergaard-simplified\"",
+                    choice(&AddedMass::formula, formula_words())),
+               period,
+               word("inclined_face", "normal-component",
+                    "mass normal to a sloping face: m/cos(phi) (normal-component) or the printed m", "\"printed\"",
+                    choice(&AddedMass::inclined_face,
+                           std::vector<std::pair<std::string, InclinedFaceRule>>{
+                               {"normal-component", InclinedFaceRule::normal_component},
+                               {"printed", InclinedFaceRule::printed}})),
+               pairs("zangar_table", angle, none, Range::between(0, 2), "C_m = 0.73 (1 - phi/90 deg)",
+                     "Zangar's C_m over the face angle from the vertical", "[[0, 0.73], [30, 0.54]]",
+                     at(&AddedMass::zangar_table))}));
     groups.push_back(optional_group("tailwater", "Water downstream.", &Scene::tailwater,
                                     {number("level", length, Range::at_least(0), "required",
                                             "water surface above the heel", "5", at(&Tailwater::level))}));

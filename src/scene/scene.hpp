@@ -78,7 +78,8 @@ struct Reservoir {
     std::optional<double> mesh_size = {};      ///< element height in the water [m]; default level / 20
 };
 
-enum class AddedMassFormula { westergaard_simplified, westergaard, zangar, goldgruber };
+/// Formulas the program asks for by name; others are rows of added_mass_rows() beyond these.
+enum class AddedMassFormula { westergaard, westergaard_simplified, zangar, goldgruber };
 enum class InclinedFaceRule { normal_component, printed }; ///< m_n = m / cos(phi), or the printed m_n = m
 
 struct AddedMass {

@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/sweep_size.hpp"
 #include "core/number.hpp"
+#include "scene/added_mass_row.hpp"
 #include "scene/uplift_row.hpp"
 #include "scene/words.hpp"
 
@@ -12,32 +13,6 @@
 namespace damslip {
 
 namespace {
-
-const std::vector<std::pair<std::string, AddedMassFormula>> formula_words{
-    {"westergaard", AddedMassFormula::westergaard},
-    {"westergaard-simplified", AddedMassFormula::westergaard_simplified},
-    {"zangar", AddedMassFormula::zangar},
-    {"goldgruber", AddedMassFormula::goldgruber}};
-
-template <class Enum>
-std::string word_of(const std::vector<std::pair<std::string, Enum>>& words, Enum value)
-{
-    return std::find_if(words.begin(), words.end(), [value](const auto& w) { return w.second == value; })->first;
-}
-
-template <class Enum>
-Enum value_of(const std::vector<std::pair<std::string, Enum>>& words, const std::string& word)
-{
-    return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == word; })->second;
-}
-
-template <class Enum>
-std::vector<std::string> keys_of(const std::vector<std::pair<std::string, Enum>>& words)
-{
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : words) keys.push_back(key);
-    return keys;
-}
 
 std::string reservoir_word(const Scene& scene)
 {
@@ -52,7 +27,7 @@ std::string reservoir_word(const Scene& scene)
     case ReservoirModel::added_mass:
         break;
     }
-    return word_of(formula_words, scene.added_mass.formula);
+    return added_mass_row(scene.added_mass.formula).word;
 }
 
 /// "0.65,0.7" with all digits.
@@ -86,8 +61,8 @@ Axes axes_of(const Scene& scene)
 
 std::vector<std::string> reservoir_axis_words()
 {
-    std::vector<std::string> words = keys_of(formula_words);
-    words.insert(words.begin(), {"auto", "hydrostatic", "acoustic"});
+    std::vector<std::string> words{"auto", "hydrostatic", "acoustic"};
+    for (const AddedMassRow& row : added_mass_rows()) words.push_back(row.word);
     return words;
 }
 
@@ -102,7 +77,7 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
         else if (reservoir == "acoustic")
             scene.reservoir->model = ReservoirModel::acoustic;
         else {
-            scene.added_mass.formula = value_of(formula_words, reservoir);
+            scene.added_mass.formula = added_mass_formula(reservoir);
             scene.reservoir->model = ReservoirModel::added_mass;
         }
     }

@@ -5,6 +5,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "core/usage_error.hpp"
+#include "scene/added_mass_row.hpp"
 #include "scene/plausible.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_row.hpp"
@@ -123,6 +124,16 @@ std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene
     return words;
 }
 
+std::vector<std::string> reservoir_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> words = word_list(a.reservoir, "--reservoir", reservoir_axis_words());
+    for (const AddedMassRow& row : added_mass_rows())
+        if (std::find(words.begin(), words.end(), row.word) != words.end() && !has_what_it_needs(scene, row))
+            refuse_usage(fmt::format("--reservoir {}: the scene lacks what this formula needs.", row.word), row.needs,
+                         "add it to the scene or leave the formula out");
+    return words;
+}
+
 std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene)
 {
     std::vector<std::string> ids{"rigid"};
@@ -211,7 +222,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
         axes.polarity.push_back(static_cast<int>(p));
     }
     if (!a.uplift.empty()) axes.uplift = uplift_axis(a, scene);
-    if (!a.reservoir.empty()) axes.reservoir = word_list(a.reservoir, "--reservoir", reservoir_axis_words());
+    if (!a.reservoir.empty()) axes.reservoir = reservoir_axis(a, scene);
     axes.method = method_axis(a, scene);
     if (scene.wedge) check_wedge_axes(a, axes.method);
     check_repeats(axes);
