@@ -1,0 +1,45 @@
+#include "cli/command.hpp"
+
+namespace damslip::cli {
+
+// A new command is a file with a function like these and its line here; nothing else knows their number.
+Command screen_command();
+Command sweep_command();
+Command study_command();
+Command fe_command();
+Command modes_command();
+Command mesh_command();
+Command explain_command();
+Command accuracy_command();
+Command record_command();
+Command verify_command();
+Command schema_command();
+Command completion_command();
+Command man_command();
+
+std::span<const Command> commands()
+{
+    static const std::vector<Command> rows = [] {
+        std::vector<Command> all;
+        for (auto* command : {
+                 screen_command,
+                 sweep_command,
+                 study_command,
+                 fe_command,
+                 modes_command,
+                 mesh_command,
+                 explain_command,
+                 accuracy_command,
+                 record_command,
+                 verify_command,
+                 schema_command,
+                 completion_command,
+                 man_command,
+             })
+            all.push_back(command());
+        return all;
+    }();
+    return rows;
+}
+
+} // namespace damslip::cli

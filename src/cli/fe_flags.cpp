@@ -1,0 +1,43 @@
+#include "cli/fe_command.hpp"
+#include "cli/flags.hpp"
+
+namespace damslip::cli {
+
+namespace {
+
+void fe_flags(CLI::App& sub, FeArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    sub.add_option(
+           "--polarity", a.polarity,
+           "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
+        ->check(CLI::IsMember({1, -1}))
+        ->group("Ground motion");
+    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    sub.add_option("--base", a.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
+        ->check(CLI::IsMember({"contact", "tied"}))
+        ->capture_default_str();
+    sub.add_flag("!--no-mesh-error", a.mesh_error,
+                 "leave out the run on elements of twice the size that tells what the mesh leaves open of the slip");
+    CLI::Option* reduced =
+        sub.add_flag("--reduced", a.reduced, "earthquake on few modes of the dam; slip with an error estimate")
+            ->group("Reduced run");
+    sub.add_option("--modes", a.modes, "elastic modes kept (12)")
+        ->check(CLI::Range(1, 1000))
+        ->needs(reduced)
+        ->group("Reduced run");
+    reduced->excludes(sub.get_option("--base"));
+    sub.add_option("--out", a.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
+        ->check(output_to(OutputPath::folder, "--out"));
+}
+
+} // namespace
+
+Command fe_command()
+{
+    return {"fe", "staged finite-element run: gravity, impounding, uplift, earthquake",
+            "damslip fe examples/reference_dam.toml --out results/fe", with_flags<FeArguments>(fe_flags, fe)};
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,36 @@
+#include "cli/flags.hpp"
+
+#include "core/usage_error.hpp"
+
+namespace damslip::cli {
+
+void add_scene(CLI::App& sub, RunInputs& in)
+{
+    sub.add_option("SCENE", in.scene, "scene file (TOML); -: standard input")->required();
+    sub.add_flag("--strict", in.strict, "values outside the range of real dams are errors, not notes");
+}
+
+void add_run_inputs(CLI::App& sub, RunInputs& in)
+{
+    add_scene(sub, in);
+    sub.add_option("--record", in.records, "horizontal accelerogram(s) instead of the scene's")->group("Ground motion");
+    sub.add_option("--vertical", in.verticals,
+                   "vertical accelerogram(s), one for each --record, in the same order; none for a record without one")
+        ->group("Ground motion");
+    sub.add_option("--units", in.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")
+        ->group("Ground motion");
+    sub.add_option("--dt", in.dt, "time step of one-column record files [s]")->group("Ground motion");
+    sub.add_option("--column", in.column, "heading or number of the horizontal column where files hold several")
+        ->group("Ground motion");
+    sub.add_option("--vertical-column", in.vertical_column, "the same of the vertical files")->group("Ground motion");
+}
+
+std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
+{
+    return [kind, flag](const std::string& path) -> std::string {
+        if (auto problem = output_path_problem(path, kind, flag)) throw UsageError(std::move(*problem));
+        return {};
+    };
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "cli/command.hpp"
+#include "cli/input/run_inputs.hpp"
+#include "core/file.hpp"
+
+#include <CLI/CLI.hpp>
+
+/// Flags that several commands have. Only the files that declare flags include it: CLI11 is slow to compile.
+namespace damslip::cli {
+
+/// SCENE and --strict.
+void add_scene(CLI::App& sub, RunInputs& in);
+/// The same, and records in place of the scene's.
+void add_run_inputs(CLI::App& sub, RunInputs& in);
+
+/// Check of an option that names output: what would fail after minutes is said before anything begins.
+/// @throws UsageError, from the check
+std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);
+
+} // namespace damslip::cli

@@ -1,0 +1,73 @@
+#include "analysis/sweep/sweep_axes.hpp"
+#include "cli/flags.hpp"
+#include "cli/sweep_command.hpp"
+#include "scene/uplift_row.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace damslip::cli {
+
+namespace {
+
+void add_sweep_parts(CLI::App& sub, SweepArguments& a)
+{
+    const char* const group = "Long sweeps";
+    sub.add_flag("--resume", a.resume, "go on where a sweep with the same --out stopped")->group(group);
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.csv")->group(group);
+    sub.add_option(
+           "--merge", a.merge,
+           "put parts together: part files, or folders of them; with SCENE its report has the section and the records")
+        ->group(group);
+    sub.add_flag("--plan", a.plan, "print the commands of all parts, one a line")->group(group);
+    sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
+        ->check(output_to(OutputPath::file, "--slurm-array"))
+        ->group(group);
+    sub.add_option("--parts", a.parts, "of --plan and --slurm-array; default: one per scene variant and motion")
+        ->check(CLI::Range(1, 1000000))
+        ->group(group);
+}
+
+void sweep_flags(CLI::App& sub, SweepArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.get_option("SCENE")->required(false); // --merge has none
+    const auto list = [&](const char* flag, std::string& target, const std::string& text) {
+        sub.add_option(flag, target, text)->group("Grid");
+    };
+    list("--friction", a.friction, "Coulomb mu: 1.00,0.84,0.77 or first:last:step 0.65:1.0:0.05");
+    list("--friction-deg", a.friction_deg, "friction angles instead [deg]");
+    list("--level", a.level, "water levels above the heel, at size 1 [m]");
+    list("--uplift", a.uplift, uplift_words());
+    list("--reservoir", a.reservoir, fmt::format("{}", fmt::join(reservoir_axis_words(), ", ")));
+    list("--size", a.size, "factors on all lengths of the scene: dam, rock, water, elements");
+    list("--scale", a.scale, "factors on the records");
+    list("--polarity", a.polarity, "1, -1 or both: 1,-1");
+    list(
+        "--method", a.method,
+        "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
+        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-reduced, and regressions by "
+        "id such as "
+        "ambraseys-menu-1988, jibson-1993, jibson-1998");
+    sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
+    sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(CLI::Range(1.0, 1e20));
+    sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
+    sub.add_option(
+           "-o,--out", a.out,
+           "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
+           "output")
+        ->check(output_to(OutputPath::regular_file, "--out"));
+    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_sweep_parts(sub, a);
+}
+
+} // namespace
+
+Command sweep_command()
+{
+    return {"sweep", "slip over a grid of friction, level, uplift, reservoir, size, scale, polarity and records; CSV",
+            "damslip sweep examples/reference_dam.toml --friction 0.65:1.0:0.05 --uplift curtain,linear --scale 1,2",
+            with_flags<SweepArguments>(sweep_flags, sweep)};
+}
+
+} // namespace damslip::cli
