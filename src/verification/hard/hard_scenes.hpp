@@ -4,7 +4,7 @@
 #include "sliding/block/slide.hpp"
 #include "verification/hard/hard_case.hpp"
 
-/// Scenes, motions and runs the hard cases share. Runs take what the program takes: options and blocks by cli/run.
+/// Scenes, motions and runs the hard cases share. Runs take what the program takes: what prepare() makes ready.
 namespace damslip::hard {
 
 /// The reference dam with all moduli times 1e4 and pairs 5 m apart: it slides as the rigid block.
