@@ -1,6 +1,6 @@
-// Slip over friction, rigid block and finite elements, with progress; Ctrl-C keeps what is finished.  sweep SCENE
+// Slip over friction, rigid block and finite elements, with progress; Ctrl-C prints what is finished.  sweep SCENE
 #include "analysis/sweep/sweep_run.hpp"
-#include "core/input_error.hpp"
+#include "core/status.hpp"
 #include "scene/read.hpp"
 
 #include <csignal>
@@ -13,7 +13,7 @@ volatile std::sig_atomic_t stopped = 0;
 struct Percent final : Watch {
     bool stop_asked() const override { return stopped != 0; }
     void begin(const std::string& label, double total) override { label_ = label, total_ = total; }
-    void at(double done) override { std::fprintf(stderr, "\r%s %3.0f %% ", label_.c_str(), 100 * done / total_); }
+    void at(double done) override { std::fprintf(stderr, "\r%s %3.0f %% ", label_.c_str(), total_ > 0 ? 100 * done / total_ : 100.0); }
     std::string label_;
     double total_ = 1.0;
 };
@@ -27,12 +27,14 @@ try {
     axes.method = {sweep_method("rigid"), sweep_method("fe")};
     const Sweep sweep = make_sweep(scene, axes);
     Percent watch;
-    for (const FinishedRow& row : run_sweep(sweep, watch).rows) {
+    const SweepOutcome outcome = run_sweep(sweep, watch);
+    for (const FinishedRow& row : outcome.rows) {
         const GridIndex at = sweep.tasks.index(row.id);
-        std::printf("%-5s mu = %.2f: slip %.4f mm\n", axes.method[at.method].id.c_str(), axes.friction[at.friction],
-                    1e3 * row.results.slip.value_or(-1.0)); // none: it does not stand, see its status
+        std::printf("%-5s mu = %.2f: slip %.4f mm, %s\n", axes.method[at.method].id.c_str(),
+                    axes.friction[at.friction], 1e3 * row.results.slip.value_or(0.0), row.results.status.c_str());
     }
-} catch (const InputError& error) {
+    return outcome.complete() ? exit_ok : exit_no_answer; // a run_sweep() with a Journal can go on later
+} catch (const std::exception& error) { // bad input, with file, line and fix; or a solver without an answer
     std::fprintf(stderr, "%s\n", error.what());
     return exit_input;
 }

@@ -19,12 +19,11 @@ public:
     /// Results exist that nobody but the computation holds: a stop has to wait for it from now on.
     virtual void results_at_hand() {}
 
-    /// A part of the computation begins. @param total  what at() and advance() count up to
+    /// A part of the computation begins. @param total  what at() counts up to
     virtual void begin(const std::string& /*label*/, double /*total*/) {}
     virtual void phase(const std::string& /*what*/) {} ///< what goes on before the first step: "set-up"
     virtual void at(double /*done*/) {}                ///< in the unit of the total; may step back
-    virtual void advance(double /*by*/) {}
-    virtual void end() {} ///< of the part
+    virtual void end() {}                              ///< of the part
 
     /// stop_asked() as the function that solvers take. @pre this outlives it
     StopAsked stop() const

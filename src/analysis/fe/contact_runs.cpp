@@ -4,6 +4,7 @@
 #include "scene/exact_contact.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace damslip {
 
@@ -126,6 +127,7 @@ std::size_t ReducedRuns::whole() const
 std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
 {
     std::vector<ReducedRecord> runs;
+    std::atomic<int> done{0};
     for (const RecordPair& pair : ready_.records()) {
         if (watch_.stop_asked()) break;
         std::vector<ReducedRecord> both(polarities_.size());
@@ -140,7 +142,7 @@ std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
             run.mesh = coarser_.error_of(run.result, run.motion);
             if (rigid_.state == sliding::StaticState::at_rest)
                 run.rigid = slide_model(ready_.scene, rigid_, run.motion, 1);
-            watch_.advance(1);
+            watch_.at(static_cast<double>(++done));
         });
         for (ReducedRecord& run : both) {
             runs.push_back(std::move(run));

@@ -99,11 +99,8 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
     options.start_displacement = start_.displacement;
     if (!statics_.stages.empty()) options.static_resultant = statics_.stages.back().resultant;
     watch_.begin(motion.name, 1000);
-    std::size_t shown = 0;
     options.progress = [&](const fe2d::RunProgress& p) {
-        const auto now = static_cast<std::size_t>(1000 * p.step / std::max<std::int64_t>(1, p.steps));
-        if (now > shown) watch_.advance(static_cast<double>(now - shown));
-        shown = now;
+        watch_.at(1000.0 * static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps)));
         return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
     };
     const Stopwatch start;

@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace damslip {
@@ -88,13 +89,14 @@ void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_
         return grid.axes.method[grid.tasks.index(id).method].kind == SweepKind::finite_elements;
     });
     watch.begin("sweep", static_cast<double>(missing.size()));
+    std::atomic<std::size_t> done{0};
     parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
         if (watch.stop_asked()) return;
         const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
         std::vector<FinishedRow> rows;
         for (std::size_t i = first; i < last; ++i) rows.push_back(rigid_row(scene, grid, missing[i]));
         store.finish(std::move(rows));
-        watch.advance(static_cast<double>(last - first));
+        watch.at(static_cast<double>(done += last - first));
     });
     watch.end();
 }

@@ -19,7 +19,6 @@ public:
     void begin(const std::string& label, double total) override { progress_.emplace(streams_, label, total); }
     void phase(const std::string& what) override { progress_->phase(what); }
     void at(double done) override { progress_->at(done); }
-    void advance(double by) override { progress_->advance(by); }
     void end() override { progress_.reset(); }
 
 private:

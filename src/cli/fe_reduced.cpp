@@ -16,8 +16,8 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams&
         if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
     });
     const std::vector<std::string> messages = reduced_messages(ready.scene, runs);
-    const ReducedReportInput in{ready.scene, ready.plan, ready.records(), all.full(),
-                                all.rigid(), all.uplift(), runs,          messages};
+    const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
+                                all.uplift(), runs,       messages};
     const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
     put_answer(
         reduced_answer(in), arguments, ready.scene, no_fields, [&] { return reduced_page(in); }, streams);

@@ -3,8 +3,8 @@
 #include "analysis/fe/tied_runs.hpp"
 #include "analysis/prepare/rock_warnings.hpp"
 #include "cli/terminal/terminal_watch.hpp"
-#include "pages/fe/water_notes.hpp"
 #include "pages/fe/tied_report.hpp"
+#include "pages/fe/water_notes.hpp"
 
 #include <algorithm>
 
@@ -37,9 +37,9 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& st
     put_answer(
         tied_answer(frame, all.statics(), runs), arguments, ready.scene, fields,
         [&] { return tied_page(frame, all.statics(), runs); }, streams);
-    const bool whole = runs.size() == ready.records().size() && std::all_of(runs.begin(), runs.end(), [](const TiedRun& r) {
-                           return r.history.status == fe2d::TiedRunStatus::complete;
-                       });
+    const bool whole = runs.size() == ready.records().size() &&
+                       std::all_of(runs.begin(), runs.end(),
+                                   [](const TiedRun& r) { return r.history.status == fe2d::TiedRunStatus::complete; });
     return whole ? exit_ok : exit_no_answer;
 }
 
