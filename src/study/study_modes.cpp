@@ -13,8 +13,6 @@
 
 namespace damslip::study {
 
-using namespace pages;
-
 namespace {
 
 constexpr int listed = 5;

@@ -6,8 +6,6 @@
 
 namespace damslip::study {
 
-using namespace pages;
-
 namespace {
 
 template <class List, class Matches>

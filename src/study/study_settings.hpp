@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/status_count.hpp"
+#include "core/table.hpp"
 #include "pages/report/chart.hpp"
 #include "study/study_rows.hpp"
 
