@@ -1,5 +1,7 @@
 #include "fe2d/harmonic/harmonic_solver.hpp"
 
+#include "fe2d/assembly/shared_pattern.hpp"
+
 #include <umfpack.h>
 
 #include <array>
@@ -28,20 +30,11 @@ struct HarmonicSolver::Implementation {
 HarmonicSolver::HarmonicSolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
     : implementation_(std::make_unique<Implementation>())
 {
-    assert(mass.rows() == stiffness.rows() && damping.rows() == stiffness.rows());
     Implementation& s = *implementation_;
-    const auto pattern = [](Matrix m) {
-        m.makeCompressed();
-        m.coeffs().setOnes();
-        return m;
-    };
-    Matrix zero = pattern(mass) + pattern(damping) + pattern(stiffness);
-    zero.makeCompressed();
-    zero.coeffs().setZero();
-    s.mass = mass + zero;
-    s.damping = damping + zero;
-    s.stiffness = stiffness + zero;
-    assert(s.mass.nonZeros() == zero.nonZeros() && s.damping.nonZeros() == zero.nonZeros());
+    SharedPattern shared = on_one_pattern(mass, damping, stiffness);
+    s.mass = std::move(shared.mass);
+    s.damping = std::move(shared.damping);
+    s.stiffness = std::move(shared.stiffness);
     umfpack_zi_defaults(s.control.data());
 }
 

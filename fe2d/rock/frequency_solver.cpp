@@ -1,5 +1,6 @@
 #include "fe2d/rock/frequency_solver.hpp"
 
+#include "fe2d/assembly/shared_pattern.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 
 #include <cholmod.h>
@@ -239,19 +240,9 @@ void FrequencySolver::Implementation::solve_in_place(MatrixXcd& b) const
 
 FrequencySolver::FrequencySolver(const Matrix& mass, const Matrix& damping, const Matrix& stiffness)
 {
-    assert(mass.rows() == stiffness.rows() && damping.rows() == stiffness.rows());
     use_one_blas_thread();
-    const auto pattern = [](Matrix m) {
-        m.makeCompressed();
-        m.coeffs().setOnes();
-        return m;
-    };
-    Matrix zero = pattern(mass) + pattern(damping) + pattern(stiffness);
-    zero.makeCompressed();
-    zero.coeffs().setZero();
-    implementation_ = std::make_unique<Implementation>(mass + zero, damping + zero, stiffness + zero);
-    assert(implementation_->mass.nonZeros() == zero.nonZeros() &&
-           implementation_->damping.nonZeros() == zero.nonZeros());
+    const SharedPattern shared = on_one_pattern(mass, damping, stiffness);
+    implementation_ = std::make_unique<Implementation>(shared.mass, shared.damping, shared.stiffness);
 }
 
 FrequencySolver::~FrequencySolver() = default;
