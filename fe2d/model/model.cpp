@@ -81,7 +81,7 @@ void assemble_mass(const Scene& scene, const ModelOptions& options, Model& model
     model.rock_mass.resize(n, n);
     model.edge_damping.resize(n, n);
     model.loaded = dam;
-    if (!rock_has_mass(scene)) return;
+    if (!rock_is_boxed(scene)) return;
     Materials rock = model.materials;
     rock.dam.density = 0.0;
     model.rock_mass = mass_matrix(model.mesh, model.dofs, rock, options.mass);

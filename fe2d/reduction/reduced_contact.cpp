@@ -42,6 +42,7 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
             drag_v * system_.modes.dam_y + c.a2 * s.q_v + c.a3 * s.q_a +
             a_m * (system_.modes.dam_mass * VectorXd(cv * s.q_v + ca * s.q_a)) +
             system_.modes.omega2.cwiseProduct((b_k * cv) * s.q_v + (b_k * ca) * s.q_a - s.q);
+    system_.subtract_radiation(-(cv * s.q_v + ca * s.q_a), load_);
     massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
     known_ = alpha * s.contact.force + rest_force_;
     if (!system_.slips_damped()) return;

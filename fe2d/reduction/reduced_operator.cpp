@@ -8,15 +8,40 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, const RunDamping& run_damping)
-    : modes(std::move(kept)), flexibility(modes.residual), damping(run_damping), weights(structure.plane().weights())
+ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, const RunDamping& run_damping,
+                             const ReducedRock* radiating)
+    : modes(std::move(kept)), dam_modes(modes.count()), flexibility(modes.residual), damping(run_damping),
+      weights(structure.plane().weights())
 {
-    if (structure.has_rock()) flexibility += structure.rock_flexibility();
+    if (radiating)
+        add_rock(*radiating);
+    else if (structure.has_rock())
+        flexibility += structure.rock_flexibility();
     const SlipDamping slip(structure, damping);
     mean_motion = VectorXd::Zero(modes.count());
     if (!slip.active()) return;
     slip_damping = slip.drag(0, 0);
     mean_motion = modes.momentum * (damping.constants.mass / slip_damping); // m̂ = M r / (k'/a_M)
+}
+
+void ReducedSystem::add_rock(const ReducedRock& rock)
+{
+    const Index dam = modes.count(), all = dam + rock.count();
+    const auto longer = [&](VectorXd& vector) { vector.conservativeResizeLike(VectorXd::Zero(all)); };
+    for (VectorXd* vector : {&modes.omega2, &modes.crest, &modes.ground_x, &modes.ground_y, &modes.dam_x,
+                             &modes.dam_y, &modes.momentum})
+        longer(*vector);
+    modes.omega2.tail(rock.count()) = rock.stiffness;
+    modes.on_plane.conservativeResize(Eigen::NoChange, all);
+    modes.on_plane.rightCols(rock.count()) = -rock.modes;
+    modes.dam_mass.conservativeResizeLike(MatrixXd::Zero(all, all));
+    radiation = rock.damping;
+    flexibility += rock.residual;
+}
+
+void ReducedSystem::subtract_radiation(const VectorXd& velocity, VectorXd& force) const
+{
+    if (radiation.size() > 0) force.tail(radiation.rows()).noalias() -= radiation * velocity.tail(radiation.rows());
 }
 
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
@@ -30,6 +55,8 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     massless_factor_ = 1.0 / stretch;
     MatrixXd d = (w * constants.a1 * a_m) * system.modes.dam_mass;
     d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
+    const Index rock = system.radiation.rows();
+    if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
     inverse_ = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
     inverse_ = (0.5 * (inverse_ + inverse_.transpose())).eval();
     MatrixXd flexibility = massless_factor_ * system.flexibility;

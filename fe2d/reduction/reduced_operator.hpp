@@ -7,22 +7,31 @@
 
 namespace damslip::fe2d {
 
-/// What a reduced run needs beside the step size: modes, and the massless body on the plane.
+/// What a reduced run needs beside the step size: modes, and the massless body on the plane. Radiating rock joins with its own
+/// modes, of mass 1 too, after the dam's: pushed the other way by the same forces, -Φ of the rock is its part of the
+/// gaps. Its damping couples them; its residual flexibility belongs to the massless body.
 struct ReducedSystem {
     DamModes modes;
-    Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ + residual of the dam, in series, 2m x 2m [m²/N]
+    Eigen::Index dam_modes = 0;  ///< of `modes` those of the dam, the first ones; the rest is the rock's
+    Eigen::MatrixXd radiation;   ///< damping of the rock's modes without b_K [1/s]; empty: the rock does not radiate
+    Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ or F_res + residual of the dam, in series, 2m x 2m [m²/N]
     RunDamping damping;
     double slip_damping = 0.0;   ///< k' of SlipDamping [N s/m per m]; 0: none
     Eigen::VectorXd mean_motion; ///< φᵀm̂: motion along the plane that each mode stands for [kg^1/2 m^-1/2 ...]
     Eigen::VectorXd weights;     ///< ω of SlipDamping
 
-    ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping);
+    /// @param radiating  rock of the motion on the plane; null: massless rock, or none
+    ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping,
+                  const ReducedRock* radiating = nullptr);
+    void add_rock(const ReducedRock& rock);
+    /// force -= damping of the rock's modes by their velocities.
+    void subtract_radiation(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
     bool slips_damped() const { return slip_damping != 0.0; }
 };
 
 /// One step size of the reduced run: DynamicOperator with A_d = d, n x n, and the massless body
 ///
-///     d = a0 + w a1 a_M φᵀM_damφ + w (1 + a1 b_K) diag(ω²),   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
+///     d = a0 + w a1 (a_M φᵀM_damφ + radiation) + w (1 + a1 b_K) diag(ω²),   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
 ///     w (1 + a1 b_K) Δp = λ̃ + π,   Δg = Φ Δq + F_s Δp,   p: elastic force of the massless body
 ///
 /// so W = Φ d⁻¹ Φᵀ + F, F = F_s/(w (1 + a1 b_K)), and with the free step q* = d⁻¹ b

@@ -88,13 +88,16 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     const Index kept = std::min<Index>(3 + wanted, reference.count());
     const RunDamping damping{full.damping(), scene_.damping.mass};
     const bool all = kept == reference.count();
-    system_ = std::make_unique<ReducedSystem>(full.structure(), reference.first(kept), damping);
+    const auto system_of = [&](DamModes modes) {
+        return ReducedSystem(full.structure(), std::move(modes), damping, full.radiating_on_base());
+    };
+    system_ = std::make_unique<ReducedSystem>(system_of(reference.first(kept)));
     if (!all) {
         coarse_system_ = std::make_unique<ReducedSystem>(coarse_.coarsened(*system_));
         coarse_fewer_ = std::make_unique<ReducedSystem>(
-            coarse_.coarsened(ReducedSystem(full.structure(), reference.first(3 + wanted / 2), damping)));
+            coarse_.coarsened(system_of(reference.first(3 + wanted / 2))));
         coarse_reference_ = std::make_unique<ReducedSystem>(
-            coarse_.coarsened(ReducedSystem(full.structure(), std::move(reference), damping)));
+            coarse_.coarsened(system_of(std::move(reference))));
     }
     seconds_ = start.seconds();
 }
@@ -163,9 +166,9 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
         interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;
     };
-    const double modes = static_cast<double>(coarse_system_->modes.count() - 3);
-    const double more = static_cast<double>(coarse_reference_->modes.count() - 3);
-    const double fewer = static_cast<double>(coarse_fewer_->modes.count() - 3);
+    const double modes = static_cast<double>(coarse_system_->dam_modes - 3);
+    const double more = static_cast<double>(coarse_reference_->dam_modes - 3);
+    const double fewer = static_cast<double>(coarse_fewer_->dam_modes - 3);
     const std::vector<double> kept = slips(*coarse_system_);
     const double to_more = largest_difference(kept, slips(*coarse_reference_));
     if (interrupted) return std::nullopt;
@@ -201,14 +204,15 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
             full_.structure().slides_far()
                 ? "A reduced run needs small sliding: each dam node stays opposite its rock node."
             : full_.in_motion().rock_moves()
-                ? "A reduced run has modes of the dam alone: massless rock, not rock with mass."
+                ? "A reduced run has no unknowns of a rock box: rock that radiates or is massless, not "
+                  "foundation.boundary = \"fixed\" or \"viscous\"."
             : full_.structure().water()
                 ? "A reduced run has modes of the dam alone: water as added mass or hydrostatic, not acoustic."
                 : "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
         return result;
     }
-    result.modes = static_cast<int>(system_->modes.count()) - 3;
-    result.highest_frequency = std::sqrt(system_->modes.omega2.tail(1)[0]) / (2.0 * std::numbers::pi);
+    result.modes = static_cast<int>(system_->dam_modes) - 3;
+    result.highest_frequency = std::sqrt(system_->modes.omega2[system_->dam_modes - 1]) / (2.0 * std::numbers::pi);
     const ContactStructure& structure = full_.structure();
     Stopwatch clock;
     StaticContact statics(structure, scene_.contact, options_.contact);

@@ -30,7 +30,7 @@ WaveBoxInput dimensionless(const RadiatingRockInput& input, double length)
             {std::round((p.x - middle.x) / length * grid) / grid, std::round((p.y - middle.y) / length * grid) / grid});
     const double highest = frequency_band(input.highest_frequency * length / elastic_waves(input.rock).s);
     box.highest_frequency = highest * elastic_waves(box.rock).s;
-    box.shape = wave_box_shape(highest);
+    box.shape = wave_box_shape(highest, input.box_size);
     return box;
 }
 
@@ -55,12 +55,16 @@ double frequency_band(double highest)
     return std::pow(ratio, std::ceil(std::log(highest) / std::log(ratio) - 1e-9));
 }
 
-WaveBoxShape wave_box_shape(double highest)
+WaveBoxShape wave_box_shape(double highest, double size)
 {
     WaveBoxShape shape;
     const double share = std::clamp(reference / highest, 0.25, 3.0);
-    shape.width = shape.inner_width + share * (shape.width - shape.inner_width);
-    shape.depth = shape.inner_depth + share * (shape.depth - shape.inner_depth);
+    constexpr double least_sponge = 0.5; // of what is inside [-]
+    const auto whole = [&](double inner, double automatic) {
+        return std::max((1.0 + least_sponge) * inner, size * (inner + share * (automatic - inner)));
+    };
+    shape.width = whole(shape.inner_width, shape.width);
+    shape.depth = whole(shape.inner_depth, shape.depth);
     return shape;
 }
 

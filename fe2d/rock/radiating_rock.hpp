@@ -11,6 +11,7 @@ struct RadiatingRockInput {
     Point heel, toe;                ///< of the base
     std::vector<Point> surface;     ///< interface nodes on the rock's surface, upstream to downstream, x increasing [m]
     double highest_frequency = 0.0; ///< ω up to which waves are to be right [rad/s]
+    double box_size = 1.0;          ///< of the box, over the automatic one: wave_box_shape() [-]
     ReductionOptions reduction;
 };
 
@@ -39,7 +40,8 @@ RadiatingRock radiating_rock(const RadiatingRockInput& input, const RockStore& s
 /// The box for a_max: its sponge is as thick in shear waves of the highest frequency as 14.85 B are at a_max = 3.8 (33 B x 17 B:
 /// E 30 GPa, 45 m, 25 ... 29 Hz), at least a quarter and at most three times as many base lengths. What it sends back at a
 /// given share of the highest frequency then does not depend on the rock.
-WaveBoxShape wave_box_shape(double highest);
+/// @param size  factor on width and depth on top of that [-]
+WaveBoxShape wave_box_shape(double highest, double size = 1.0);
 
 /// a_max rounded up to a power of 1.25.
 double frequency_band(double highest);

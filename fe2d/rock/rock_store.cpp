@@ -205,13 +205,4 @@ void RockStore::make_room() const
     }
 }
 
-fs::path user_cache_folder()
-{
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && fs::path(cache).is_absolute())
-        return fs::path(cache) / "damslip";
-    if (const char* home = std::getenv("HOME"); home && fs::path(home).is_absolute())
-        return fs::path(home) / ".cache" / "damslip";
-    return {};
-}
-
 } // namespace damslip::fe2d

@@ -41,7 +41,4 @@ private:
     std::uintmax_t largest_bytes_;
 };
 
-/// $XDG_CACHE_HOME/damslip, else ~/.cache/damslip; empty when neither is an absolute path.
-std::filesystem::path user_cache_folder();
-
 } // namespace damslip::fe2d

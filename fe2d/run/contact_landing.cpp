@@ -34,8 +34,8 @@ VectorXd ContactLanding::gap_values(const VectorXd& dam, const VectorXd& rock_va
 }
 
 /// What forces on the pairs change of dam and rock, through the operator of the step, as its own forces do.
-ContactLanding::Change ContactLanding::change_by(const ContactSolution& jumps, const DynamicOperator& op,
-                                                 const StepRock& rock) const
+ContactLanding::Change ContactLanding::change_by(StepRock::Jump of, const ContactSolution& jumps,
+                                                 const DynamicOperator& op, StepRock& rock) const
 {
     DynamicOperator::Free free;
     free.dam = VectorXd::Zero(structure_.dam_unknowns());
@@ -44,13 +44,13 @@ ContactLanding::Change ContactLanding::change_by(const ContactSolution& jumps, c
     VectorXd tilde;
     op.finish(free, jumps.force, VectorXd::Zero(2 * structure_.pairs()), jumps.displacement, tilde);
     op.factor().backward(free.dam);
-    VectorXd rock_change = rock.jump(op, free, jumps.displacement, tilde);
+    VectorXd rock_change = rock.jump(of, op, free, jumps.displacement, tilde);
     return {std::move(free.dam), std::move(rock_change)};
 }
 
 std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, JointSolver& solver,
                                                   const ContactStates& before, const ContactLaw& law,
-                                                  const StepRock& rock, StepDam& dam, StepState& state) const
+                                                  StepRock& rock, StepDam& dam, StepState& state) const
 {
     ContactStates& states = state.contact.states;
     if (!solver.lands(before, states)) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, Joi
     const VectorXd rate = gap_values(state.v, state.rock_v, state.rate_t, rock);
     if (!(shuts ? solver.land(law, rate, jumps) : solver.hold(law, rate, jumps))) return std::nullopt;
     states = jumps.states;
-    const auto [change, rock_change] = change_by(jumps, op, rock);
+    const auto [change, rock_change] = change_by(StepRock::Jump::velocity, jumps, op, rock);
     state.v += change;
     state.rock_v += rock_change;
     change_tangential(jumps, states, state.rate_t);
@@ -76,13 +76,13 @@ std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, Joi
     return forces;
 }
 
-void ContactLanding::settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, const StepRock& rock,
+void ContactLanding::settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock,
                             StepDam& dam, StepState& state, LandingForces& forces) const
 {
     const StepConstants& c = op.constants();
     ContactSolution jumps{state.contact.states, {}, {}};
     if (!solver.hold(law, gap_values(state.a, state.rock_a, state.accel_t, rock), jumps)) return;
-    const auto [change, rock_change] = change_by(jumps, op, rock);
+    const auto [change, rock_change] = change_by(StepRock::Jump::acceleration, jumps, op, rock);
     state.a += change;
     state.rock_a += rock_change;
     change_tangential(jumps, state.contact.states, state.accel_t);

@@ -20,20 +20,19 @@ public:
     explicit ContactLanding(const StepOperators& operators);
 
     /// @param op, solver  of the step that has just been made @param before  states at its start
-    /// @param state, dam  at its end: velocities, accelerations, forces and products change
+    /// @param state, dam, rock  at its end: velocities, accelerations, forces and products change
     /// @returns nothing where no gap is newly held, or nothing can be done
     std::optional<LandingForces> land(const DynamicOperator& op, JointSolver& solver, const ContactStates& before,
-                                      const ContactLaw& law, const StepRock& rock, StepDam& dam,
-                                      StepState& state) const;
+                                      const ContactLaw& law, StepRock& rock, StepDam& dam, StepState& state) const;
 
 private:
     struct Change {
         Eigen::VectorXd dam, rock;
     };
-    Change change_by(const ContactSolution& jumps, const DynamicOperator& op, const StepRock& rock) const;
+    Change change_by(StepRock::Jump of, const ContactSolution& jumps, const DynamicOperator& op, StepRock& rock) const;
     Eigen::VectorXd gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock_values,
                                const Eigen::VectorXd& tangential, const StepRock& rock) const;
-    void settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, const StepRock& rock,
+    void settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock,
                 StepDam& dam, StepState& state, LandingForces& forces) const;
 
     const ContactStructure& structure_;

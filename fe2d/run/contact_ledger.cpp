@@ -100,12 +100,14 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
     stored_ += to_soft_contact;
 
     Energy& e = energy_;
-    e.kinetic = 0.5 * v1.dot(products.mass_1);
+    const RockEnergy of_rock = rock.energy();
+    e.kinetic = 0.5 * v1.dot(products.mass_1) + of_rock.kinetic;
     e.strain = dam.strain() + rock.strain(state) + stored_;
     const double damping_of_dam =
         0.5 * a_m * du.dot(products.dam_mass_1 + before.dam_mass_1) + 0.5 * b_k * k_du.dot(v1 + v0);
     const double damping_of_rock = 0.5 * b_k * k_dr.dot(forces_.rock.velocity + before_.rock.velocity);
-    e.damping += damping_of_dam + damping_of_rock;
+    e.damping += damping_of_dam + damping_of_rock + of_rock.damping - of_rock_.damping;
+    e.radiated += of_rock.radiated - of_rock_.radiated;
     if (structure_.edge_damping().nonZeros() > 0) {
         const VectorXd velocity = v1 + v0;
         e.radiated += 0.5 * du.dot(structure_.edge_damping() * velocity);
@@ -143,7 +145,8 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
         numerical -= 0.5 * (1.0 + alpha) * work;
         landed_.reset();
     }
-    e.numerical += numerical;
+    e.numerical += numerical + of_rock.numerical - of_rock_.numerical;
+    of_rock_ = of_rock;
     if (structure_.water()) {
         std::swap(water_before2_, water_before_);
         std::swap(water_before_, water_);
@@ -160,7 +163,8 @@ void ContactLedger::add_landing(LandingForces forces, const StepState& state, co
     const double before_landing = energy_.kinetic + energy_.strain;
     VectorXd velocity = state.v;
     structure_.clear_water(velocity);
-    energy_.kinetic = 0.5 * velocity.dot(dam.products().mass_1);
+    of_rock_ = rock.energy();
+    energy_.kinetic = 0.5 * velocity.dot(dam.products().mass_1) + of_rock_.kinetic;
     if (structure_.water()) {
         WaterLedger::Instant now = water_instant(state, dam);
         now.jolt = now.force - water_.force;

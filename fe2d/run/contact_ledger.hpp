@@ -58,6 +58,7 @@ private:
     Contact joint_;
     Energy energy_, start_;
     double scale_ = 0.0;
+    RockEnergy of_rock_;  ///< that radiates, as far as it is counted in `energy_`
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     Forces forces_, before_, before2_;
     Eigen::VectorXd load_jump_; ///< force on the rock that moved with the last change of P [N/m]

@@ -51,7 +51,7 @@ void ContactStepper::begin(const StepState& state, const GroundAcceleration& gro
         free_.dam.noalias() -= slip_damping_.momentum * slip;
         known_.tail(state.rate_t.size()) -= slip_damping_.weights * (slip_damping_.drag * slip - mean);
     }
-    rock.begin_step(c, state);
+    rock.begin_step(*op_, state);
 }
 
 ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& state, const StepRock& rock,
@@ -88,7 +88,7 @@ void ContactStepper::accept(const StepState& state)
     op_->finish(free_, solution_.force, known_, gap, tilde_);
 }
 
-const StepChange& ContactStepper::end(const GroundAcceleration& ground, const StepRock& rock, StepState& state)
+const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock& rock, StepState& state)
 {
     const StepConstants& c = op_->constants();
     const Index m = structure_.pairs();

@@ -29,7 +29,7 @@ public:
     ContactReport solve(const ContactLaw& law, const StepState& state, const StepRock& rock, DynamicCounts& counts);
     void accept(const StepState& state);
     /// @returns what changed; valid until the next step
-    const StepChange& end(const GroundAcceleration& ground, const StepRock& rock, StepState& state);
+    const StepChange& end(const GroundAcceleration& ground, StepRock& rock, StepState& state);
 
     double slip_error(const StepState& state) const;                            ///< after solve()
     double dam_error(const StepState& state) const;                             ///< when Δu is known

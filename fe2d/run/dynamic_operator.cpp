@@ -46,7 +46,8 @@ SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& da
 }
 
 DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDamping& damping,
-                                 const SlipDamping& slip_damping, const StepConstants& constants)
+                                 const SlipDamping& slip_damping, const StepConstants& constants,
+                                 const ReducedRock* radiating)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
       factor_(dam_matrix(structure, damping, constants), structure.order().inner, structure.water() ? -1 : 0)
 {
@@ -56,7 +57,10 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
     interface_flexibility_ = symmetric_inverse(factor_.schur());
     pull_ = interface_flexibility_ * gaps.transpose();
     dam_flexibility_ = gaps * pull_;
-    if (structure.has_rock()) rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
+    if (radiating)
+        rock_step_.emplace(*radiating, damping.constants.stiffness, constants);
+    else if (structure.has_rock())
+        rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
     if (slip_damping.active()) {
         const Index planes = slip_damping.momentum.cols(), interface = 2 * structure.interface();
         momentum_ = w * constants.a1 * slip_damping.momentum;
@@ -83,7 +87,10 @@ StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
     const double w = 1.0 + constants_.scheme.alpha;
     const Index m = structure_.pairs();
     MatrixXd flexibility = dam_flexibility_;
-    if (structure_.has_rock()) {
+    if (rock_step_) {
+        const MatrixXd half = trace * rock_step_->compliance();
+        flexibility += half * trace.transpose();
+    } else if (structure_.has_rock()) {
         const MatrixXd half = trace * structure_.rock_flexibility();
         flexibility += rock_share_ * (half * trace.transpose());
     }

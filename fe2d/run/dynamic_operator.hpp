@@ -2,9 +2,12 @@
 
 #include "fe2d/contact/contact_solver.hpp"
 #include "fe2d/damping/rayleigh.hpp"
+#include "fe2d/rock/rock_motion.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/time/scheme.hpp"
 #include "scene/scene.hpp"
+
+#include <optional>
 
 namespace damslip::fe2d {
 
@@ -41,22 +44,24 @@ struct StepContact {
 /// Unknown increments Δu (dam), Δr (rock's contact nodes), w = 1 + α, with λ̃ = w λ₁ - α λ₀ + (slip damping) and D, P of
 /// ContactPlanes and ContactStructure::trace():
 ///
-///     A_d Δu = b_d + k s_Δ + Dᵀ λ̃,   A_r Δr = b_r - Pᵀ λ̃,   A_d = a0 M + w a1 a_M M_dam + w (1 + a1 b_K) K,
-///     A_r = w (1 + a1 b_K) K_c,   k = w a1 (a_M M_dam r),   κ' = w a1 κ,   s_Δ = ωᵀΔg_t
+///     A_d Δu = b_d + k s_Δ + Dᵀ λ̃,   Δr = r* - W_r Pᵀ λ̃,   A_d = a0 M + w a1 a_M M_dam + w (1 + a1 b_K) K,
+///     k = w a1 (a_M M_dam r),   κ' = w a1 κ,   s_Δ = ωᵀΔg_t
 ///
-/// Eliminating the bodies, W = D A_d⁻¹ Dᵀ + P A_r⁻¹ Pᵀ, E = I - z ωᵀ, z = D A_d⁻¹ k, ζ = kᵀA_d⁻¹k, gives
+/// with r* the rock's free step and W_r its compliance: K_c⁻¹/(w (1 + a1 b_K)) of massless rock, that of RockStep where the
+/// rock radiates. Eliminating the bodies, W = D A_d⁻¹ Dᵀ + P W_r Pᵀ, E = I - z ωᵀ, z = D A_d⁻¹ k, ζ = kᵀA_d⁻¹k, gives
 /// λ₁ = λ⁰ + V Δg with
 ///
 ///     V = (1/w) [Eᵀ W⁻¹ E + ω (κ' - ζ) ωᵀ]
 class DynamicOperator {
 public:
     DynamicOperator(const ContactStructure& structure, const RunDamping& damping, const SlipDamping& slip_damping,
-                    const StepConstants& constants);
+                    const StepConstants& constants, const ReducedRock* radiating = nullptr);
 
     bool regular() const { return factor_.regular(); }
     const StepConstants& constants() const { return constants_; }
     const InterfaceFactor& factor() const { return factor_; }
-    double rock_share() const { return rock_share_; } ///< A_r⁻¹ K_c [-]
+    double rock_share() const { return rock_share_; } ///< W_r K_c of massless rock [-]
+    const RockStep* rock_step() const { return rock_step_ ? &*rock_step_ : nullptr; } ///< null: the rock does not radiate
 
     /// The contact problem before the dam has slid; the only one where it does not slide far.
     const StepContact& contact() const { return contact_; }
@@ -71,7 +76,7 @@ public:
         Eigen::VectorXd mean;      ///< kᵀA_d⁻¹b_d, K values
     };
     /// @param free  with `dam` = b_d after the forward pass on entry
-    /// @param rock_gap  P A_r⁻¹ b_r, 2m [m]; empty: rigid base
+    /// @param rock_gap  P r*, 2m [m]; empty: rigid base
     void solve_free(Free& free, const Eigen::VectorXd& rock_gap) const;
 
     /// λ⁰ for gaps that stay as they are; `known` = α λ₀ - (slip damping of the start) [N/m].
@@ -94,7 +99,8 @@ private:
     Eigen::MatrixXd interface_flexibility_; ///< inverse of the Schur complement, interface
     Eigen::MatrixXd pull_;                  ///< of the interface by forces on the pairs: the same times Dᵀ
     Eigen::MatrixXd dam_flexibility_;       ///< D A_d⁻¹ Dᵀ
-    double rock_share_ = 0.0;               ///< of the rock's static flexibility that a step feels, A_r⁻¹ K_c
+    double rock_share_ = 0.0;               ///< of the massless rock's flexibility that a step feels, W_r K_c
+    std::optional<RockStep> rock_step_;     ///< of rock that radiates
     Eigen::MatrixXd momentum_;              ///< k after the forward pass
     Eigen::MatrixXd interface_momentum_;    ///< A_d⁻¹ k on the interface
     Eigen::MatrixXd z_, zeta_, drag_;       ///< D A_d⁻¹ k, kᵀA_d⁻¹k, κ'

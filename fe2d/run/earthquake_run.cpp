@@ -2,9 +2,11 @@
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
+#include "fe2d/material/elastic.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/section.hpp"
 #include "scene/water.hpp"
 
 #include <fmt/format.h>
@@ -98,9 +100,9 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
     part_done();
     if (is_acoustic(scene_))
         water_ = std::make_unique<WaterBody>(scene_, *model_,
-                                             rock_has_mass(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
+                                             rock_is_boxed(scene_) ? WaterBeside::dam_and_rock : WaterBeside::dam);
     part_done();
-    if (rock_has_mass(scene_)) {
+    if (rock_is_boxed(scene_)) {
         ModelOptions moving = model_options(scene_, options_, Base::separate);
         if (rock_edges_are_viscous(scene_)) moving.edges = RockEdges::free;
         moving_model_ = std::make_unique<Model>(build_model(scene_, moving));
@@ -123,9 +125,30 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
         if (explicit_steps)
             explicit_ = explicit_operators();
         else
-            operators_ = std::make_shared<StepOperators>(in_motion(), damping_, scheme_of(scene_.time));
+            operators_ =
+                std::make_shared<StepOperators>(in_motion(), damping_, scheme_of(scene_.time), let_radiate());
     }
     seconds_ = start.seconds();
+}
+
+/// Of the nodes that the dam faces, or may come to face.
+std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
+{
+    if (!rock_radiates(scene_)) return {};
+    const Mesh& mesh = model_->mesh;
+    RadiatingRockInput input;
+    input.rock = elastic_material(scene_.foundation->material, scene_, "foundation");
+    input.rock.density = radiating_density(*scene_.foundation);
+    input.heel = heel(scene_.section);
+    input.toe = toe(scene_.section);
+    for (const int node : structure_->slides_far() ? mesh.contact.rock_line : mesh.contact.rock_nodes)
+        input.surface.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    input.highest_frequency =
+        2.0 * std::numbers::pi * scene_.foundation->wave_frequency.value_or(options_.wave_frequency);
+    input.box_size = scene_.foundation->wave_box;
+    radiating_ = std::make_unique<const RadiatingRock>(radiating_rock(input, RockStore(options_.rock_cache)));
+    const Plane& plane = structure_->plane();
+    return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
 }
 
 void EarthquakeRun::find_damping()

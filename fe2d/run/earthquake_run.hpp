@@ -2,6 +2,7 @@
 
 #include "core/status.hpp"
 #include "core/stop.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
@@ -9,6 +10,7 @@
 #include "fe2d/time/run_progress.hpp"
 #include "records/record.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,6 +27,8 @@ struct RunOptions {
     /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.
     std::function<Eigen::VectorXd(const Model&)> water_in_rock;
     std::optional<RayleighConstants> damping; ///< in place of the scene's
+    double wave_frequency = 25.0;     ///< up to which waves in radiating rock are right, where the scene has none [Hz]
+    std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;                 ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;              ///< errors below time.slip_tolerance of this do not matter [m]
     double rest_time = 0.5;                   ///< the run-out ends when the dam has not slid for this long [s]
@@ -103,6 +107,9 @@ public:
     const ContactStructure& structure() const { return *structure_; }
     const LoadStages& stages() const { return stages_; } ///< static loads before the earthquake
     const RayleighConstants& damping() const { return damping_.constants; }
+    const RadiatingRock* radiating() const { return radiating_.get(); } ///< rows (x, y) by node; null: other rock, or none
+    /// The same with rows as the base's plane has them, as the steps take it.
+    const ReducedRock* radiating_on_base() const { return operators_ ? operators_->radiating() : nullptr; }
     double seconds() const { return seconds_; }                                ///< that making it ready took
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
@@ -135,6 +142,7 @@ private:
     Rest rest(const Lane& lane) const;
     Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
     void find_damping();
+    std::shared_ptr<const ReducedRock> let_radiate();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
@@ -158,6 +166,7 @@ private:
         structure_;                       ///< of the static stages; without rock that has mass of the motion too
     std::unique_ptr<Model> moving_model_; ///< with rock that has mass; null: the rock has none
     std::unique_ptr<ContactStructure> moving_;
+    std::unique_ptr<const RadiatingRock> radiating_;
     std::shared_ptr<const StaticOperator> statics_;
     std::shared_ptr<StepOperators> operators_;          ///< null with explicit steps
     std::shared_ptr<const ExplicitOperators> explicit_; ///< null with implicit steps

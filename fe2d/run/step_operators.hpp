@@ -13,7 +13,9 @@ namespace damslip::fe2d {
 /// structure, damping and scheme, whatever their friction and motion. Threads may ask at the same time.
 class StepOperators {
 public:
-    StepOperators(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme);
+    /// @param radiating  the rock of the motion on the plane of the base, rows as the structure's rock nodes; null: the massless one
+    StepOperators(const ContactStructure& structure, const RunDamping& damping, const Scheme& scheme,
+                  std::shared_ptr<const ReducedRock> radiating = {});
     StepOperators(const StepOperators&) = delete;
     StepOperators& operator=(const StepOperators&) = delete;
 
@@ -21,6 +23,7 @@ public:
     const RunDamping& damping() const { return damping_; }
     const SlipDamping& slip_damping() const { return slip_damping_; }
     const Scheme& scheme() const { return scheme_; }
+    const ReducedRock* radiating() const { return radiating_.get(); } ///< null: rigid base or massless rock
     const BlockProducts& products() const { return products_; }
 
     const DynamicOperator& at(double dt); ///< @param dt  > 0 [s]
@@ -30,6 +33,7 @@ private:
     const ContactStructure& structure_;
     RunDamping damping_;
     Scheme scheme_;
+    std::shared_ptr<const ReducedRock> radiating_;
     SlipDamping slip_damping_;
     BlockProducts products_;
     mutable std::mutex mutex_;

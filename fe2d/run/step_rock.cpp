@@ -13,23 +13,30 @@ constexpr double update_share = 0.01; ///< slip after which P is made anew, of t
 
 } // namespace
 
-StepRock::StepRock(const ContactStructure& structure, const RunDamping& damping, const SplitLoad& load,
-                   const DynamicState& start)
-    : structure_(structure), stiffness_damping_(damping.constants.stiffness), surface_{{}, load.rock, load.joint},
-      trace_(structure.trace(0.0))
+StepRock::StepRock(const StepOperators& operators, const SplitLoad& load, const DynamicState& start)
+    : structure_(operators.structure()), stiffness_damping_(operators.damping().constants.stiffness),
+      surface_{{}, load.rock, load.joint}, trace_(structure_.trace(0.0))
 {
-    rest_ = force_ = VectorXd::Zero(2 * structure.rock_nodes());
+    rest_ = force_ = force_before_ = VectorXd::Zero(2 * structure_.rock_nodes());
+    if (operators.radiating()) {
+        motion_.emplace(*operators.radiating());
+        held_ = structure_.rock_stiffness() * start.rock;
+    } else if (structure_.has_rock()) {
+        force_ = structure_.rock_stiffness() * start.rock;
+    }
     find_load();
-    if (structure.has_rock()) force_ = structure.rock_stiffness() * start.rock;
-    if (!structure.slides_far()) return;
-    geometric_rest_ = VectorXd::Zero(structure.pairs());
+    if (!structure_.slides_far()) return;
+    geometric_rest_ = VectorXd::Zero(structure_.pairs());
     geometric_rest_ = opening(start) - start.contact.opening;
 }
 
 void StepRock::find_load()
 {
     load_ = structure_.rock_load(surface_, trace_);
-    if (structure_.has_rock()) rest_ = structure_.rock_flexibility() * load_;
+    if (motion_)
+        load_ -= held_;
+    else if (structure_.has_rock())
+        rest_ = structure_.rock_flexibility() * load_;
 }
 
 double StepRock::slip(const DynamicState& state) const
@@ -58,37 +65,57 @@ std::optional<Pairing::Matrix> StepRock::follow(const DynamicState& state)
     return change;
 }
 
-void StepRock::begin_step(const StepConstants& c, const DynamicState& state)
+void StepRock::begin_step(const DynamicOperator& op, const DynamicState& state)
 {
+    if (motion_) {
+        motion_->begin(*op.rock_step(), load_);
+        return;
+    }
     if (!structure_.has_rock()) return;
+    const StepConstants& c = op.constants();
     const double w = 1.0 + c.scheme.alpha, cv = c.scheme.alpha + w * c.a4, ca = w * c.a5, b_k = stiffness_damping_;
     free_ = (rest_ - state.rock + (b_k * cv) * state.rock_v + (b_k * ca) * state.rock_a) / (w * (1.0 + c.a1 * b_k));
 }
 
 VectorXd StepRock::free_gap() const
 {
-    return structure_.has_rock() ? VectorXd(trace_ * free_) : VectorXd();
+    if (!structure_.has_rock()) return {};
+    return trace_ * (motion_ ? motion_->free_step() : free_);
 }
 
 VectorXd StepRock::step(const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
-                        const VectorXd& tilde) const
+                        const VectorXd& tilde)
 {
-    if (!structure_.has_rock() || structure_.matching()) return jump(op, dam, gap, tilde);
+    if (!structure_.has_rock()) return {};
+    if (motion_) {
+        motion_->finish(-(trace_.transpose() * tilde));
+        return motion_->step();
+    }
+    if (structure_.matching()) return opposite(dam, gap);
     return free_ - op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
 }
 
-VectorXd StepRock::jump(const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
-                        const VectorXd& tilde) const
+VectorXd StepRock::jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
+                        const VectorXd& tilde)
 {
     if (!structure_.has_rock()) return {};
-    if (!structure_.matching())
-        return -op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
-    const VectorXd opposite = structure_.planes().gaps() * dam.interface - gap; // the rock's nodes follow from the gaps
-    return trace_.transpose() * opposite;
+    if (motion_) {
+        const VectorXd force = -(trace_.transpose() * tilde);
+        return of == Jump::velocity ? motion_->jump_velocity(force) : motion_->jump_acceleration(force);
+    }
+    if (structure_.matching()) return opposite(dam, gap);
+    return -op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
+}
+
+/// The rock's nodes follow from the gaps.
+VectorXd StepRock::opposite(const DynamicOperator::Free& dam, const VectorXd& gap) const
+{
+    return trace_.transpose() * VectorXd(structure_.planes().gaps() * dam.interface - gap);
 }
 
 void StepRock::end_step(const DynamicState& state)
 {
+    if (motion_) return;
     force_before_ = force_;
     if (structure_.has_rock()) force_.noalias() = structure_.rock_stiffness() * state.rock;
 }
@@ -96,6 +123,7 @@ void StepRock::end_step(const DynamicState& state)
 VectorXd StepRock::damping_force(const VectorXd& velocity) const
 {
     if (!structure_.has_rock()) return {};
+    if (motion_) return VectorXd::Zero(velocity.size());
     return stiffness_damping_ * (structure_.rock_stiffness() * velocity);
 }
 
@@ -103,6 +131,11 @@ void StepRock::instant(const DynamicState& state, BodyInstant& now) const
 {
     now.force = force_ - load_;
     now.velocity = state.rock_v;
+}
+
+double StepRock::strain(const DynamicState& state) const
+{
+    return motion_ ? motion_->energy().strain : 0.5 * state.rock.dot(force_);
 }
 
 } // namespace damslip::fe2d

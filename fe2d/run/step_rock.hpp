@@ -1,17 +1,20 @@
 #pragma once
 
-#include "fe2d/run/dynamic_operator.hpp"
+#include "fe2d/run/step_operators.hpp"
 #include "fe2d/run/step_state.hpp"
 
 #include <optional>
 
 namespace damslip::fe2d {
 
-/// The massless rock below the dam in implicit steps, K_c on its contact nodes, and where on it the dam stands. A rigid base
-/// gives nothing anywhere.
+/// The rock below the dam in implicit steps, and where on it the dam stands: massless, K_c on its contact nodes, or radiating
+/// (RockMotion). A rigid base gives nothing anywhere.
 ///
-/// Steps know the rock by this class and by its compliance, P A_r⁻¹ Pᵀ in DynamicOperator::contact_at(): the contact sees the
+/// Steps know the rock by this class and by its compliance, P W_r Pᵀ in DynamicOperator::contact_at(): the contact sees the
 /// free motion, the step the motion under contact forces, the ledger strain, loads and forces.
+///
+/// Radiating rock moves from the static state on: what acts on it is what contact and water press more than at rest, and in
+/// the ledger only this appears, as a load, with energies of its own.
 ///
 /// Where the dam slides far, the opening is what the displacements and the present slip make it at the start of each
 /// step, so the dam follows the bent surface of the rock; forces pass through the P of the last place where the
@@ -19,8 +22,7 @@ namespace damslip::fe2d {
 class StepRock {
 public:
     /// @param start  displacements, and the opening that belongs to them
-    StepRock(const ContactStructure& structure, const RunDamping& damping, const SplitLoad& load,
-             const DynamicState& start);
+    StepRock(const StepOperators& operators, const SplitLoad& load, const DynamicState& start);
 
     // Where the dam stands.
     const Pairing::Matrix& trace() const { return trace_; } ///< P
@@ -33,28 +35,33 @@ public:
     const Eigen::VectorXd& water_in_joint() const { return surface_.joint; } ///< SplitLoad::joint
 
     // The step.
-    void begin_step(const StepConstants& constants, const DynamicState& state);
-    Eigen::VectorXd free_gap() const; ///< free motion as part of the gaps, P A_r⁻¹ b_r, 2m [m]; empty: rigid base
+    void begin_step(const DynamicOperator& op, const DynamicState& state);
+    Eigen::VectorXd free_gap() const; ///< free motion as part of the gaps, P r*, 2m [m]; empty: rigid base
     /// Δr. @param change  of the gaps [m] @param tilde  λ̃ [N/m], both of the step, as in DynamicOperator
     Eigen::VectorXd step(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
-                         const Eigen::VectorXd& tilde) const;
-    /// The same by impulses: without free motion.
-    Eigen::VectorXd jump(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
-                         const Eigen::VectorXd& tilde) const;
+                         const Eigen::VectorXd& tilde);
+    enum class Jump { velocity, acceleration };
+    /// The same by impulses, of velocities or accelerations: without free motion.
+    Eigen::VectorXd jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam,
+                         const Eigen::VectorXd& gap, const Eigen::VectorXd& tilde);
     void end_step(const DynamicState& state);
     Eigen::VectorXd damping_force(const Eigen::VectorXd& velocity) const; ///< b_K K_c ṙ [N/m]; empty: rigid base
 
-    // For the ledger.
+    // For the ledger. Of radiating rock instant() has the loads alone, stiffness_step() and damping_force() nothing.
     void instant(const DynamicState& state, BodyInstant& now) const;
-    double strain(const DynamicState& state) const { return 0.5 * state.rock.dot(force_); } ///< [J/m]
-    Eigen::VectorXd stiffness_step() const { return force_ - force_before_; }               ///< K_c Δr [N/m]
-    const Eigen::VectorXd& load() const { return load_; }                                   ///< f_r [N/m]
+    double strain(const DynamicState& state) const;                           ///< [J/m]
+    Eigen::VectorXd stiffness_step() const { return force_ - force_before_; } ///< K_c Δr [N/m]
+    const Eigen::VectorXd& load() const { return load_; }                     ///< f_r; since rest, of radiating rock [N/m]
+    RockEnergy energy() const { return motion_ ? motion_->energy() : RockEnergy(); } ///< of radiating rock
 
 private:
     void find_load();
+    Eigen::VectorXd opposite(const DynamicOperator::Free& dam, const Eigen::VectorXd& gap) const;
 
     const ContactStructure& structure_;
     double stiffness_damping_; ///< b_K [s]
+    std::optional<RockMotion> motion_; ///< of radiating rock
+    Eigen::VectorXd held_;             ///< K_c r at rest, which radiating rock bears all the time [N/m]
     SplitLoad surface_;        ///< `rock` and `joint` of the static load
     Pairing::Matrix trace_;
     double trace_slip_ = 0.0; ///< slip it was made for [m]
@@ -62,7 +69,7 @@ private:
     Eigen::VectorXd geometric_rest_;       ///< see opening() [m]
     Eigen::VectorXd load_, rest_;          ///< f_r [N/m], K_c⁻¹ f_r
     Eigen::VectorXd force_, force_before_; ///< K_c r
-    Eigen::VectorXd free_;                 ///< A_r⁻¹ b_r
+    Eigen::VectorXd free_;                 ///< r* of massless rock
 };
 
 } // namespace damslip::fe2d

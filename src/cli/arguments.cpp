@@ -19,7 +19,7 @@ const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command li
 
 struct Parser {
     CLI::App app{"How far does this concrete gravity dam slide in this earthquake, and how sure are we?", "damslip"};
-    bool json = false, quiet = false;
+    bool json = false, quiet = false, cache = true;
     std::map<const CLI::App*, Run> runs; ///< of the commands that run something
 };
 
@@ -34,6 +34,8 @@ void add(const Command& command, CLI::App& parent, Parser& p)
     }
     sub.add_flag("--json", p.json, "one JSON object on standard output, for machines");
     sub.add_flag("-q,--quiet", p.quiet, "no progress, no talk");
+    sub.add_flag("!--no-cache", p.cache,
+                 "make reduced rock anew: do not use the cache folder ($XDG_CACHE_HOME/damslip or ~/.cache/damslip)");
     p.runs[&sub] = command.declare(sub);
 }
 
@@ -120,7 +122,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments)
     } catch (const CLI::ParseError& error) {
         throw UsageError(Diagnostic{"", 0, 0, error.what(), "", "run  damslip --help  or  damslip COMMAND --help"});
     }
-    return {chosen(parser), parser.json ? Form::json : Form::text, parser.quiet};
+    return {chosen(parser), parser.json ? Form::json : Form::text, parser.quiet, parser.cache};
 }
 
 std::vector<CommandSummary> command_summaries()

@@ -15,6 +15,7 @@ struct Invocation {
     std::function<int(const Streams&)> run;
     Form form = Form::text;
     bool quiet = false;
+    bool cache = true; ///< the user's cache folder may be used
 };
 
 /// Help or version text to print before leaving with exit code 0.

@@ -3,6 +3,7 @@
 #include "cli/arguments.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/visible_stream.hpp"
+#include "core/cache_folder.hpp"
 #include "core/usage_error.hpp"
 
 #include <algorithm>
@@ -66,6 +67,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         Streams streams{out, talk, invocation.form, invocation.quiet, talk_is_terminal && !invocation.quiet};
         if (streams.terminal) streams.bar = &raw_talk;
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
+        use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
         const int code = invocation.run(streams);
         out.flush();
         if (!out) {

@@ -7,15 +7,36 @@
 
 namespace damslip::checks {
 
+namespace {
+
+void check_radiating_rock(const Scene& s, Findings& f)
+{
+    if (s.time.scheme == TimeScheme::modal || s.time.scheme == TimeScheme::central_difference)
+        f.wrong("foundation.boundary",
+                fmt::format("foundation.boundary = \"absorbing\" with time.scheme = \"{}\".",
+                            s.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),
+                "hht, newmark or auto: rock that lets waves out has no real modes and no stable explicit step",
+                "write  scheme = \"hht\"  in [time], or  mass = \"massless\"  in [foundation]");
+}
+
+} // namespace
+
 void check_rock(const Scene& s, Findings& f)
 {
     if (!s.foundation) return;
     if (!rock_has_mass(s)) {
-        if (s.foundation->boundary == RockBoundary::viscous)
+        if (s.foundation->boundary != RockBoundary::fixed) {
+            const char* edges = s.foundation->boundary == RockBoundary::viscous ? "viscous" : "absorbing";
             f.wrong("foundation.boundary",
-                    "foundation.boundary = \"viscous\" with foundation.mass = \"massless\": no waves travel there.",
-                    "mass = \"with-mass\" for viscous edges, boundary = \"fixed\" for massless rock",
+                    fmt::format("foundation.boundary = \"{}\" with foundation.mass = \"massless\": no waves travel there.",
+                                edges),
+                    fmt::format("mass = \"with-mass\" for {} edges, boundary = \"fixed\" for massless rock", edges),
                     "write  mass = \"with-mass\"  in [foundation], or delete boundary");
+        }
+        return;
+    }
+    if (rock_radiates(s)) {
+        check_radiating_rock(s, f);
         return;
     }
     if (!(s.foundation->material.density > 0.0))

@@ -21,6 +21,7 @@ inline const Units stress{{"kPa", 1e3}, {"MPa", 1e6}, {"Pa", 1.0}};
 inline const Units line_force{{"kN_m", 1e3}, {"MN_m", 1e6}, {"N_m", 1.0}};
 inline const Units unit_weight{{"kN_m3", 1e3}, {"N_m3", 1.0}};
 inline const Units conductivity{{"m_s", 1.0}, {"cm_s", 0.01}};
+inline const Units hertz{{"Hz", 1.0}};
 inline const Units friction{{"", 1.0}, {"deg", 1.0, true}};
 inline const Units subgrade{{"N_m3", 1.0}, {"MN_m3", 1e6}, {"GN_m3", 1e9}};
 inline const Units per_second{{"1_s", 1.0}};

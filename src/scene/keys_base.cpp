@@ -202,10 +202,17 @@ std::vector<KeyGroup> base_groups()
               choice(&Foundation::mass, {{"massless", RockMass::massless}, {"with-mass", RockMass::with_mass}})),
          word("boundary", "fixed",
               "edges of rock with mass: `fixed` normal to themselves, the record moves the box, waves come back; "
-              "`viscous` "
-              "dashpots, the record is the free surface's motion without the dam",
-              "viscous",
-              choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed}, {"viscous", RockBoundary::viscous}})),
+              "`viscous` dashpots, the record is the free surface's motion without the dam; `absorbing` the same, waves "
+              "leave a box of its own that is reduced to the base",
+              "absorbing",
+              choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed},
+                                             {"viscous", RockBoundary::viscous},
+                                             {"absorbing", RockBoundary::absorbing}})),
+         number("wave_box", none, Range::between(0.2, 5), "1",
+                "size of the box in which waves travel, over the automatic one (absorbing)", "1.4",
+                at(&Foundation::wave_box)),
+         number("wave_frequency", hertz, Range::between(1, 200), "by the records, 25 ... 50",
+                "up to which waves in the rock are right (absorbing)", "35", at(&Foundation::wave_frequency)),
          number("width", length, Range::above(0), "6.6667 x base", "of the rock box, centred on the base", "300",
                 at(&Foundation::width)),
          number("depth", length, Range::above(0), "2.2222 x base", "of the rock box below the heel", "100",

@@ -2,10 +2,39 @@
 
 #include "scene/scene.hpp"
 
+#include <string>
+
 namespace damslip {
 
-/// True where the rock below the dam has inertia.
+/// What moves below the dam in a finite element run.
+enum class RockKind {
+    rigid,    ///< no [foundation]
+    massless, ///< gives way and keeps all waves
+    boxed,    ///< with mass, in the rock box of the statics: all its unknowns stay in every step; fixed or viscous edges
+    radiating ///< with mass, waves leave: reduced to the base from a box of its own (fe2d/rock)
+};
+
+RockKind rock_kind(const Scene& scene);
+
+/// "rigid base", "massless rock", ... of what is printed beside a slip.
+std::string rock_words(const Scene& scene);
+
+/// Of rock in its own box: the structure in motion has the rock's unknowns.
+inline bool rock_is_boxed(const Scene& scene)
+{
+    return rock_kind(scene) == RockKind::boxed;
+}
+
+inline bool rock_radiates(const Scene& scene)
+{
+    return rock_kind(scene) == RockKind::radiating;
+}
+
+/// True where the rock below the dam has inertia, boxed or radiating.
 bool rock_has_mass(const Scene& scene);
+
+/// Density of rock that radiates [kg/m3]: that of the scene, else 2650. It has no part in the weight.
+double radiating_density(const Foundation& rock);
 
 /// True where the edges of the rock box are dashpots and the ground moves as its free surface would without the dam.
 bool rock_edges_are_viscous(const Scene& scene);

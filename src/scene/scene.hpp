@@ -32,7 +32,9 @@ struct Material {
 };
 
 enum class RockMass { massless, with_mass }; ///< does the rock move with inertia, or only give way
-enum class RockBoundary { fixed, viscous };  ///< edges of the box: fixed normal to themselves, or dashpots
+/// Edges of rock with mass: of the box of the statics, fixed normal to themselves or with dashpots; or absorbing, of a box of
+/// their own that is reduced to the base.
+enum class RockBoundary { fixed, viscous, absorbing };
 
 /// Flexible rock below the dam; without it the FE base is rigid.
 struct Foundation {
@@ -42,6 +44,10 @@ struct Foundation {
     double width = 0.0;                          ///< of the box, centred on the base [m]
     double depth = 0.0;                          ///< below the heel [m]
     double permeability = 1e-4;                  ///< hydraulic conductivity [m/s]
+
+    // Of the box in which waves travel, with absorbing edges.
+    double wave_box = 1.0;                ///< its size over the automatic one [-]
+    std::optional<double> wave_frequency; ///< up to which waves are right [Hz]; default: by the records
 };
 
 /// Grout curtain below the base.

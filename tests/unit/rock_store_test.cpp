@@ -1,3 +1,4 @@
+#include "core/cache_folder.hpp"
 #include "core/file.hpp"
 #include "rock_scenes.hpp"
 

@@ -45,7 +45,7 @@ fe2d::ModelOptions model_options(const Ready& ready)
 
 TiedModels::TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : still(fe2d::build_model(scene, options))
 {
-    if (!rock_has_mass(scene)) return;
+    if (!rock_is_boxed(scene)) return;
     massless = fe2d::build_model(with_massless_rock(scene), options);
     fe2d::ModelOptions free = options;
     free.edges = fe2d::RockEdges::free;

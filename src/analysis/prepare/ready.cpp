@@ -2,9 +2,13 @@
 
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/rock_water.hpp"
+#include "core/cache_folder.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
+#include "records/measure/frequency_content.hpp"
 #include "scene/rock_mass.hpp"
+
+#include <algorithm>
 
 namespace damslip {
 
@@ -22,6 +26,21 @@ fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelO
     const bool acoustic = scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic;
     return acoustic ? fe2d::damping_of(scene, model, fe2d::build_fluid(scene), motion).constants
                     : fe2d::damping_of(scene, model, motion).constants;
+}
+
+/// Up to which waves in the rock matter: where the records have their energy, and not below what landings and the modes of usual
+/// dams ask for [Hz].
+double wave_frequency(const Ready& ready)
+{
+    constexpr double least = 25.0, share = 0.99;
+    double highest = least;
+    for (const RecordPair& pair : ready.records()) {
+        const GroundMotion motion = ready.motion(pair);
+        for (const std::vector<double>* accel : {&motion.accel_h, &motion.accel_v})
+            if (!accel->empty())
+                highest = std::max(highest, records::frequency_below(*accel, motion.dt, share));
+    }
+    return highest;
 }
 
 /// Files of records that were read elsewhere, or made, so that the plan knows their components.
@@ -68,6 +87,8 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
     options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
+    if (rock_radiates(scene)) options.wave_frequency = wave_frequency(*this);
+    options.rock_cache = cache_folder();
     options.stop = watch.stop();
     options.progress = [&watch](const fe2d::RunProgress&) {
         return watch.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;

@@ -30,10 +30,10 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
                         "scheme = \"auto\", \"hht\" or \"newmark\": a reduced run has its modes anyway, and steps them "
                         "implicitly",
                         "delete scheme in [time]");
-    if (rock_has_mass(scene))
-        return not_with("foundation.mass = \"with-mass\"",
-                        "mass = \"massless\", the modes are those of the dam alone",
-                        "write  mass = \"massless\"  in [foundation]");
+    if (rock_is_boxed(scene))
+        return not_with(fmt::format("foundation.boundary = \"{}\"", rock_edges_are_viscous(scene) ? "viscous" : "fixed"),
+                        "boundary = \"absorbing\", rock that is reduced to the base as the dam is, or massless rock",
+                        "write  boundary = \"absorbing\"  in [foundation]");
     if (scene.time.stepping == Stepping::adaptive)
         return not_with("time.stepping = \"adaptive\"",
                         "stepping = \"uniform\", sub-steps of a reduced run are all alike",
