@@ -45,6 +45,7 @@ Decision decide_rock_inertia(const Scene& s, Method method)
     if (method == Method::rigid_block) return {false, "rigid block", ""};
     if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
     if (!rock_has_mass(s)) return {false, "foundation.mass = \"massless\"", ""};
+    if (rock_radiates(s)) return {true, "foundation.mass = \"with-mass\"", "two products with the base's nodes a step"};
     return {true, "foundation.mass = \"with-mass\"", "the rock's unknowns stay in every step"};
 }
 
@@ -53,6 +54,8 @@ Decision decide_rock_radiation(const Scene& s, Method method)
     if (method == Method::rigid_block) return {false, "rigid block", ""};
     if (!s.foundation) return {false, "no [foundation]: rigid base", ""};
     if (!rock_has_mass(s)) return {false, "massless rock carries no waves", ""};
+    if (rock_radiates(s))
+        return {true, "foundation.boundary = \"absorbing\"", "a box of waves, reduced to the base once"};
     if (!rock_edges_are_viscous(s))
         return {false, "foundation.boundary = \"fixed\": waves come back from the edges", ""};
     return {true, "foundation.boundary = \"viscous\"", "two dashpots on each node of the box's edges"};
@@ -116,6 +119,8 @@ std::vector<EffectRow> rock_effects()
         {.name = "radiation into the rock",
          .decide = decide_rock_radiation,
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             if (rock_radiates(s))
+                 return Stays{"rock with mass whose waves stay is a box that resonates: remove the rock's inertia"};
              s.foundation->boundary = RockBoundary::fixed;
              return Removal{s, "foundation.boundary = \"fixed\": the record moves the box, waves come back"};
          },

@@ -49,4 +49,12 @@ Scene with_massless_rock(Scene scene)
     return scene;
 }
 
+Scene with_radiating_rock(Scene scene)
+{
+    if (!scene.foundation) return scene;
+    scene.foundation->mass = RockMass::with_mass;
+    scene.foundation->boundary = RockBoundary::absorbing;
+    return scene;
+}
+
 } // namespace damslip

@@ -42,4 +42,7 @@ bool rock_edges_are_viscous(const Scene& scene);
 /// The scene with rock that only gives way: what statics, natural modes and Rayleigh's constants are taken from.
 Scene with_massless_rock(Scene scene);
 
+/// The scene with rock that radiates; as it is without [foundation].
+Scene with_radiating_rock(Scene scene);
+
 } // namespace damslip

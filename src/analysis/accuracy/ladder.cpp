@@ -11,6 +11,7 @@ namespace {
 
 constexpr int reduced_modes[] = {6, 12, 24};
 constexpr double penalties[] = {2e8, 1e10, 1e11}; // [N/m^3]; the first is about Abaqus' slip tolerance of 0.005
+constexpr double wave_boxes[] = {0.7, 1.4};       // of radiating rock, over the automatic one
 constexpr int finest_step = 7;                    // halvings
 constexpr double finest_mesh = 0.125;             // element sizes over the scene's
 constexpr double quadratic_unknowns = 3.0;        // of Q8 over those of Q4 of the same size
@@ -80,6 +81,16 @@ void add_variants(const LadderFacts& facts, RungWater water, int halvings, std::
         for (const int modes : reduced_modes) variant([&](Rung& r) { r.modes = modes; });
     for (const double stiffness : penalties) variant([&](Rung& r) { r.tangential_stiffness = stiffness; });
     for (const double alpha : facts.alphas) variant([&](Rung& r) { r.alpha = alpha; });
+    if (facts.rock == RockKind::radiating)
+        for (const double size : wave_boxes) variant([&](Rung& r) { r.wave_box = size; });
+}
+
+/// What the rock does: the other of massless and radiating rock beside the scene's.
+void add_rock(const LadderFacts& facts, RungWater water, int halvings, std::vector<Rung>& rungs)
+{
+    if (facts.rock != RockKind::radiating && facts.rock != RockKind::massless) return;
+    rungs.push_back(fe_rung(water, halvings));
+    rungs.back().rock = facts.rock == RockKind::radiating ? RungRock::massless : RungRock::radiating;
 }
 
 /// Quadratic elements of the scene's size and, where it leaves enough of them, of twice that: about as many unknowns as
@@ -134,6 +145,7 @@ std::vector<Rung> ladder(const LadderFacts& facts, const LadderOptions& options,
         for (double mesh = facts.coarsest; mesh > 1.0; mesh /= 2.0) rungs.push_back(fe_rung(water, row.last - 1, mesh));
         if (water == facts.waters.back() && facts.quadratic && options.effort == Effort::full)
             add_elements(facts, water, row.last - 1, rungs);
+        add_rock(facts, water, row.last - 1, rungs);
         if (water == facts.waters.front() && options.effort == Effort::full)
             add_variants(facts, water, row.last - 1, rungs);
         else if (water == facts.waters.front() && facts.reducible) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/accuracy/rung_result.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <vector>
 
@@ -22,6 +23,7 @@ struct LadderFacts {
     bool reducible = false;               ///< the first of them can run on few modes
     std::vector<double> alphas;           ///< of HHT, other than the scene's [-]
     bool own_settings = false;            ///< the scene fixes step or contact law otherwise than the ladder
+    RockKind rock = RockKind::rigid;      ///< what the rungs stand on
     bool quadratic = false;               ///< the scene's elements are linear: quadratic ones are tried beside them
     double coarsest = 1.0;                ///< largest mesh factor that leaves enough elements on the base: 1, 2, 4
     std::vector<std::string> left_out;    ///< a sentence for each kind of rung that this scene has not

@@ -14,6 +14,18 @@ namespace {
 
 constexpr std::array<std::string_view, 4> fe_models{"fe-dry", "fe-hydrostatic", "fe-added-mass", "fe-acoustic"};
 
+std::string_view water_model(RungWater water)
+{
+    return fe_models[static_cast<std::size_t>(water)];
+}
+
+/// Empty for the scene's.
+std::string_view rock_word(RungRock rock)
+{
+    constexpr std::array<std::string_view, 3> words{"", ",rock=massless", ",rock=radiating"};
+    return words[static_cast<std::size_t>(rock)];
+}
+
 std::string step_word(const Rung& rung)
 {
     if (rung.step == StepChoice::by_tolerance) return "dt=auto";
@@ -64,6 +76,9 @@ bool apply_word(std::string_view word, Rung& rung)
     if (const auto modes = number_after(word, "modes="))
         return rung.modes = static_cast<int>(*modes), *modes >= 2 && *modes <= 1000;
     if (const auto k = number_after(word, "stick=")) return rung.tangential_stiffness = *k, *k > 0;
+    if (word == "rock=massless") return rung.rock = RungRock::massless, true;
+    if (word == "rock=radiating") return rung.rock = RungRock::radiating, true;
+    if (const auto size = number_after(word, "box=")) return rung.wave_box = *size, *size >= 0.2 && *size <= 5.0;
     if (const auto a = number_after(word, "alpha=")) return rung.alpha = *a, *a <= 0 && *a >= -1.0 / 3.0 - 1e-9;
     if (word.ends_with("h") && word.size() > 1) {
         const auto coarser = parse_whole_number_text(word.substr(0, word.size() - 1));
@@ -98,12 +113,14 @@ std::string rung_id(const Rung& rung)
     case RungFamily::finite_elements:
         break;
     }
-    std::string id = model_of(rung) + ":" + step_word(rung);
+    std::string id = fmt::format("{}:{}", water_model(rung.water), step_word(rung));
     if (rung.mesh != 1.0) id += "," + mesh_word(rung.mesh);
     if (!rung.element.empty()) id += "," + rung.element;
     if (rung.modes) id += fmt::format(",modes={}", *rung.modes);
     if (rung.tangential_stiffness) id += ",stick=" + shortest(*rung.tangential_stiffness);
     if (rung.alpha) id += ",alpha=" + shortest(*rung.alpha);
+    id += rock_word(rung.rock);
+    if (rung.wave_box != 1.0) id += ",box=" + shortest(rung.wave_box);
     return id;
 }
 
@@ -138,7 +155,7 @@ std::string model_of(const Rung& rung)
     case RungFamily::finite_elements:
         break;
     }
-    return std::string(fe_models[static_cast<std::size_t>(rung.water)]);
+    return fmt::format("{}{}", water_model(rung.water), rock_word(rung.rock));
 }
 
 std::string_view water_word(RungWater water)

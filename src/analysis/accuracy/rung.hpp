@@ -17,6 +17,7 @@ enum class StepChoice {
     adaptive,     ///< the same, sub-steps spread by their local error
     as_the_scene  ///< step, contact law and all else as the scene says, where it differs from the ladder's settings
 };
+enum class RungRock { as_the_scene, massless, radiating };
 
 struct Rung {
     RungFamily family = RungFamily::rigid;
@@ -35,11 +36,14 @@ struct Rung {
     std::optional<int> modes;                   ///< reduced run: elastic modes kept
     std::optional<double> tangential_stiffness; ///< penalty [N/m^3]
     std::optional<double> alpha;                ///< of HHT, in place of the scene's scheme [-]
+    RungRock rock = RungRock::as_the_scene;
+    double wave_box = 1.0; ///< of radiating rock: size of its box over the scene's [-]
 
     /// Neither other elements, modes, penalty nor scheme: a point of the model's own row of steps and column of meshes.
     bool plain() const
     {
-        return element.empty() && !modes && !tangential_stiffness && !alpha && step == StepChoice::fixed;
+        return element.empty() && !modes && !tangential_stiffness && !alpha && rock == RungRock::as_the_scene &&
+               wave_box == 1.0 && step == StepChoice::fixed;
     }
     bool operator==(const Rung&) const = default;
 };
@@ -51,7 +55,7 @@ std::string rung_id(const Rung& rung);
 std::optional<Rung> parse_rung(std::string_view id);
 
 /// What the rung computes a limit of: rungs of one model tend to one slip as steps, elements and penalties are refined.
-/// "rigid:h+v", "fe-acoustic", each regression its own.
+/// "rigid:h+v", "fe-acoustic", "fe-acoustic,rock=massless" where that is not the scene's, each regression its own.
 std::string model_of(const Rung& rung);
 
 std::string_view water_word(RungWater water); ///< "added mass"

@@ -204,6 +204,7 @@ LadderFacts RungRunner::facts() const
         facts.left_out.push_back("No finite elements: dam.young_modulus_GPa is not given.");
         return facts;
     }
+    facts.rock = rock_kind(scene_);
     facts.waters = waters_of(scene_, facts.left_out);
     facts.reducible = can_reduce(scene_of(scene_, parse_rung("fe-added-mass:dt").value()), facts.left_out);
     facts.alphas = other_alphas(scene_.time);

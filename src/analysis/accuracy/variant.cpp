@@ -2,6 +2,7 @@
 
 #include "analysis/fe/mesh_scale.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/rock_mass.hpp"
 
 namespace damslip {
 
@@ -32,6 +33,14 @@ void set_water(RungWater water, Scene& scene)
     }
 }
 
+void set_rock(const Rung& rung, Scene& scene)
+{
+    if (!scene.foundation) return;
+    if (rung.rock == RungRock::massless) scene = with_massless_rock(scene);
+    if (rung.rock == RungRock::radiating) scene = with_radiating_rock(scene);
+    scene.foundation->wave_box *= rung.wave_box;
+}
+
 } // namespace
 
 Scene scene_of(const Scene& given, const Rung& rung)
@@ -55,6 +64,7 @@ Scene scene_of(const Scene& given, const Rung& rung)
         scene.contact.enforcement = ContactEnforcement::penalty;
         scene.contact.tangential_stiffness = rung.tangential_stiffness;
     }
+    set_rock(rung, scene);
     if (rung.alpha) {
         scene.time.scheme = TimeScheme::hht;
         scene.time.alpha = *rung.alpha;

@@ -275,7 +275,9 @@ RungKind kind_of(const Rung& rung)
     if (rung.family == RungFamily::regression) return RungKind::regression;
     if (rung.family == RungFamily::rigid) return RungKind::rigid;
     if (rung.modes) return RungKind::reduced;
-    if (rung.tangential_stiffness || rung.alpha || rung.step == StepChoice::as_the_scene) return RungKind::variant;
+    if (rung.tangential_stiffness || rung.alpha || rung.rock != RungRock::as_the_scene || rung.wave_box != 1.0 ||
+        rung.step == StepChoice::as_the_scene)
+        return RungKind::variant;
     if (!rung.element.empty()) return RungKind::quadratic;
     return rung.water == RungWater::acoustic ? RungKind::acoustic : RungKind::finite_elements;
 }

@@ -30,5 +30,6 @@ void add_fe_seepage_cases(Registry& registry);
 void add_fe_sliding_cases(Registry& registry);
 void add_fe_joint_cases(Registry& registry);
 void add_fe_rock_cases(Registry& registry);
+void add_fe_radiating_cases(Registry& registry);
 
 } // namespace damslip::verification

@@ -44,9 +44,12 @@ VectorXd SmallDam::load(const fe2d::GroundAcceleration& ground) const
     return joined(load_.dam + ground.h * structure_->inertia_x() - ground.v * structure_->inertia_y(), load_.rock);
 }
 
-fe2d::DynamicContact SmallDam::dynamics(const fe2d::Scheme& scheme) const
+fe2d::DynamicContact SmallDam::dynamics(const fe2d::Scheme& scheme,
+                                        std::shared_ptr<const fe2d::ReducedRock> radiating) const
 {
-    return {*structure_, {{0.0, damping()}}, scheme, load_, start_, memory_};
+    const fe2d::RunDamping damped{{0.0, damping()}};
+    return {std::make_shared<fe2d::StepOperators>(*structure_, damped, scheme, std::move(radiating)), load_, start_,
+            memory_};
 }
 
 DenseSystem SmallDam::dense() const

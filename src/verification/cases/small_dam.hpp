@@ -21,6 +21,7 @@ public:
     SmallDam(const SmallDam&) = delete;
     SmallDam& operator=(const SmallDam&) = delete;
 
+    const fe2d::Mesh& mesh() const { return model_.mesh; }
     const fe2d::Plane& plane() const { return structure_->plane(); }
     Eigen::Index pairs() const { return plane().pairs(); }
     double friction() const { return scene_.contact.friction; }
@@ -28,7 +29,9 @@ public:
     fe2d::ContactLaw law() const { return fe2d::uniform_law(pairs(), friction()); }
     Eigen::VectorXd start() const { return joined(start_.dam, start_.rock); }
     Eigen::VectorXd load(const fe2d::GroundAcceleration& ground) const;
-    fe2d::DynamicContact dynamics(const fe2d::Scheme& scheme) const;
+    /// @param radiating  rock of the motion on the plane; null: the massless one
+    fe2d::DynamicContact dynamics(const fe2d::Scheme& scheme,
+                                  std::shared_ptr<const fe2d::ReducedRock> radiating = {}) const;
     DenseSystem dense() const;
 
 private:
