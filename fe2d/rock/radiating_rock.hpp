@@ -37,7 +37,7 @@ struct RadiatingRock {
 /// @throws std::runtime_error when the box cannot be factorised
 RadiatingRock radiating_rock(const RadiatingRockInput& input, const RockStore& store);
 
-/// The box for a_max: its sponge is as thick in shear waves of the highest frequency as 14.85 B are at a_max = 3.8 (33 B x 17 B:
+/// The box for a_max: its sponge is as thick in shear waves of the highest frequency as 18.85 B are at a_max = 3.8 (41 B x 21 B:
 /// E 30 GPa, 45 m, 25 ... 29 Hz), at least a quarter and at most three times as many base lengths. What it sends back at a
 /// given share of the highest frequency then does not depend on the rock.
 /// @param size  factor on width and depth on top of that [-]

@@ -8,8 +8,8 @@ namespace damslip::fe2d {
 
 /// Extent and elements of the box of rock in which waves travel, in base lengths B where a length is meant.
 struct WaveBoxShape {
-    double width = 33.0;       ///< [B], > inner_width
-    double depth = 17.0;       ///< below the surface at mid-base [B], > inner_depth
+    double width = 41.0;       ///< [B], > inner_width
+    double depth = 21.0;       ///< below the surface at mid-base [B], > inner_depth
     double inner_width = 3.3;  ///< without sponge [B]
     double inner_depth = 1.3;  ///< [B]
     double growth = 1.15;      ///< of neighbouring elements [-], > 1

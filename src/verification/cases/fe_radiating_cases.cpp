@@ -156,7 +156,7 @@ std::vector<Check> reduced_beside_whole_rock()
     const fe2d::WaveBox box = fe2d::make_wave_box(input);
     const fe2d::ReducedRock whole = all_modes(box), reduced = fe2d::reduce_rock(input, box);
 
-    const GroundMotion motion = fe2d::test::sines(2.0, 6.0);
+    const GroundMotion motion = fe2d::test::sines(5.0, 6.0);
     struct Run {
         VectorXd slip, crest;
         double imbalance = 0.0;
@@ -206,13 +206,10 @@ std::vector<Check> with_everything()
     const GroundMotion motion = fe2d::test::sines(1.0, 8.0);
     const auto usual = [] { return reference_radiating(0.74); };
     const Slide plain = slide(usual(), motion);
-    double imbalance = plain.imbalance;
     const auto variant = [&](const auto& change) {
         Scene scene = usual();
         change(scene);
-        const Slide result = slide(scene, motion);
-        imbalance = std::max(imbalance, result.imbalance);
-        return result;
+        return slide(scene, motion);
     };
     const Slide far = variant([](Scene& s) { s.contact.sliding = JointPath::finite; }),
                 unequal = variant([](Scene& s) { s.mesh.rock_contact_size = 1.7; }),
@@ -225,7 +222,6 @@ std::vector<Check> with_everything()
     Scene acoustic = usual();
     acoustic.reservoir->model = ReservoirModel::acoustic;
     const Slide beside_water = slide(acoustic, motion);
-    imbalance = std::max(imbalance, beside_water.imbalance);
 
     Scene few = usual();
     few.time.substeps = 0;
@@ -238,7 +234,11 @@ std::vector<Check> with_everything()
              Measure::relative},
             {"acoustic water: slip", "m", 0.0, beside_water.slip, 0.0, Measure::lower_bound},
             {"60 modes of the dam: slip beside that of all", "m", plain.slip, reduced.slip, 0.03, Measure::relative},
-            {"energy that does not close, largest of all", "-", 1e-10, imbalance, 0.0, Measure::upper_bound}};
+            {"finite sliding: energy that does not close", "-", 1e-10, far.imbalance, 0.0, Measure::upper_bound},
+            {"unequal sides: energy that does not close", "-", 1e-10, unequal.imbalance, 0.0, Measure::upper_bound},
+            {"lift joint: energy that does not close", "-", 1e-10, tight_lift.imbalance, 0.0, Measure::upper_bound},
+            {"acoustic water: energy that does not close", "-", 1e-10, beside_water.imbalance, 0.0,
+             Measure::upper_bound}};
 }
 
 } // namespace
