@@ -150,8 +150,8 @@ std::vector<KeyGroup> fe_groups()
     groups.push_back(
         group("analysis", "Settings of a published study as defaults; keys of the file win.", &Scene::analysis,
               {word("preset", "none",
-                    "goldgruber-2015: slip-tolerance 0.005, no separation, HHT alpha -1/3, time step 0.01 s without "
-                    "sub-steps, mass damping of the relative velocity",
+                    "goldgruber-2015: slip-tolerance 0.005, no separation, massless rock, HHT alpha -1/3, time step "
+                    "0.01 s without sub-steps, mass damping of the relative velocity",
                     "\"goldgruber-2015\"",
                     choice(&Analysis::preset, std::vector<std::pair<std::string, AnalysisPreset>>{
                                                   {"none", AnalysisPreset::none},

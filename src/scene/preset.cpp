@@ -8,6 +8,8 @@ void apply_preset(Scene& scene, const std::function<bool(const char* key)>& open
     if (open("contact.enforcement")) scene.contact.enforcement = ContactEnforcement::slip_tolerance;
     if (open("contact.slip_tolerance")) scene.contact.slip_tolerance = 0.005;
     if (open("contact.separation")) scene.contact.separation = JointOpening::none;
+    if (scene.foundation && open("foundation.mass")) scene.foundation->mass = RockMass::massless;
+    if (scene.foundation && open("foundation.boundary")) scene.foundation->boundary = RockBoundary::fixed;
     if (scene.reservoir && open("reservoir.far_end")) scene.reservoir->far_end = FarEnd::damper;
     if (scene.reservoir && open("reservoir.bottom_motion")) scene.reservoir->bottom_motion = BottomMotion::still;
     if (scene.reservoir && open("reservoir.bottom_reflection") && !scene.reservoir->bottom_density)

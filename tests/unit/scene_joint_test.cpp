@@ -53,6 +53,15 @@ TEST(SceneJoint, PresetSetsWhatTheFileDoesNot)
     EXPECT_EQ(scene.time.dt, 0.01);
     EXPECT_EQ(scene.time.substeps, 0);
 
+    const std::string rock = "[foundation]\nyoung_modulus_GPa = 30\n";
+    const Scene on_rock = joint_scene("", rock + preset);
+    EXPECT_EQ(on_rock.foundation->mass, RockMass::massless);
+    EXPECT_EQ(on_rock.foundation->boundary, RockBoundary::fixed);
+    const Scene heavy =
+        joint_scene("", rock + "density_kg_m3 = 2650\nmass = \"with-mass\"\nboundary = \"viscous\"\n" + preset);
+    EXPECT_EQ(heavy.foundation->mass, RockMass::with_mass);
+    EXPECT_EQ(heavy.foundation->boundary, RockBoundary::viscous);
+
     const Scene own = joint_scene("enforcement = \"exact\"\nseparation = \"allowed\"\n",
                                   "[time]\nalpha = -0.1\ndt_s = 0.002\nslip_tolerance = 0.02\n[damping]\nmass = "
                                   "\"total\"\n" +

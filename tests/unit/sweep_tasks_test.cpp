@@ -1,5 +1,6 @@
 // Order, parts and FE groups of a sweep's rows; sizes; quoting of commands.
 #include "analysis/prepare/rigid_model.hpp"
+#include "analysis/sweep/sweep_method.hpp"
 #include "analysis/sweep/sweep_size.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "cli/sweep_plan.hpp"
@@ -122,6 +123,20 @@ TEST(SweepTasks, FeGroupsHoldTheFrictionsOfOneVariantMotionAndMethod)
 Scene dam_with_water()
 {
     return read_scene(std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam_profile.toml");
+}
+
+// The source's rock has no mass, whatever the scene says; the other laws leave the rock alone.
+TEST(SweepTasks, TheSourcesSettingsAreOfMasslessRock)
+{
+    Scene scene = dam_with_water();
+    scene.foundation->material.density = 2650.0;
+    scene.foundation->mass = RockMass::with_mass;
+    scene.foundation->boundary = RockBoundary::viscous;
+    const Scene source = with_law(scene, FeLaw::goldgruber_2015, {}), exact = with_law(scene, FeLaw::exact, {});
+    EXPECT_EQ(source.foundation->mass, RockMass::massless);
+    EXPECT_EQ(source.foundation->boundary, RockBoundary::fixed);
+    EXPECT_EQ(exact.foundation->mass, RockMass::with_mass);
+    EXPECT_EQ(exact.foundation->boundary, RockBoundary::viscous);
 }
 
 // Stopped once: halves; twice: quarters; often enough: one by one. Other groups stay whole; each row is there once, in its order.
