@@ -22,7 +22,8 @@ std::vector<Check> uplift_on_both_faces()
     Scene scene = exact::bare_scene({{0, 0}, {base, 0}, {base, height}, {0, height}}, 2400.0);
     scene.dam.young_modulus = 25e9;
     scene.contact.friction = 5.0; // no pair slips
-    scene.foundation = Foundation{.material = {0.0, 10e9, 0.2}, .width = 200.0, .depth = 60.0};
+    scene.foundation =
+        Foundation{.material = {0.0, 10e9, 0.2}, .mass = RockMass::massless, .width = 200.0, .depth = 60.0};
     scene.mesh.size = 5.0;
     scene.mesh.contact_size = 4.0;
     GroundMotion silence;

@@ -88,7 +88,8 @@ Scene thesis_dam(double scale = 1.0)
     Polyline polygon{{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
     for (Point& p : polygon) p = {scale * p.x, scale * p.y};
     Scene scene = section(polygon, {2500.0, 25e9, 0.17});
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 300.0 * scale, .depth = 100.0 * scale};
+    scene.foundation = Foundation{
+        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0 * scale, .depth = 100.0 * scale};
     scene.curtain = Curtain{.distance = 7.0 * scale,
                             .depth = 30.0 * scale,
                             .thickness = scale,

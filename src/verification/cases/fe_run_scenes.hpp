@@ -19,7 +19,8 @@ inline Scene sliding_dam(double friction, double stiffness = 1.0, double contact
     Scene scene = exact::reference_scene(exact::ReferenceUplift::points, friction);
     scene.dam.young_modulus = 25e9 * stiffness;
     scene.dam.poisson_ratio = 0.17;
-    scene.foundation = Foundation{.material = {0.0, 30e9 * stiffness, 0.2}, .width = 300.0, .depth = 100.0};
+    scene.foundation = Foundation{
+        .material = {0.0, 30e9 * stiffness, 0.2}, .mass = RockMass::massless, .width = 300.0, .depth = 100.0};
     scene.curtain = Curtain{.distance = 7.0, .depth = 30.0, .thickness = 1.0, .young_modulus = 27e9 * stiffness};
     scene.reservoir->model = ReservoirModel::added_mass;
     scene.added_mass.formula = AddedMassFormula::westergaard;

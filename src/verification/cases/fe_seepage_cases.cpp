@@ -21,6 +21,7 @@ Scene base_on_rock(double width, double depth)
     Scene scene;
     scene.section.polygon = {{0, 0}, {10, 0}, {0, 12}};
     scene.foundation.emplace();
+    scene.foundation->mass = RockMass::massless;
     scene.foundation->width = width;
     scene.foundation->depth = depth;
     scene.foundation->permeability = 1e-4;
@@ -37,6 +38,7 @@ Scene thesis_dam(double curtain_thickness, double curtain_permeability)
     scene.dam.density = 2500.0;
     scene.dam.young_modulus = 25e9;
     scene.foundation.emplace();
+    scene.foundation->mass = RockMass::massless;
     scene.foundation->material.young_modulus = 30e9;
     scene.foundation->width = 300.0;
     scene.foundation->depth = 100.0;

@@ -221,6 +221,7 @@ std::vector<Check> condensed_rock()
     scene.dam.density = 2500.0;
     scene.dam.young_modulus = 25e9;
     scene.foundation.emplace();
+    scene.foundation->mass = RockMass::massless;
     scene.foundation->material.young_modulus = 30e9;
     scene.foundation->width = 300.0;
     scene.foundation->depth = 100.0;

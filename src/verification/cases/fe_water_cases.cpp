@@ -241,7 +241,8 @@ Scene thesis_dam(double scale)
     Scene scene;
     scene.section.polygon = polygon;
     scene.dam = {2500.0, 25e9, 0.17};
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 300.0 * scale, .depth = 100.0 * scale};
+    scene.foundation = Foundation{
+        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0 * scale, .depth = 100.0 * scale};
     scene.curtain = Curtain{.distance = 7.0 * scale, .depth = 30.0 * scale, .thickness = scale, .young_modulus = 27e9};
     scene.reservoir = Reservoir{};
     scene.reservoir->level = 62.5 * scale;

@@ -18,7 +18,8 @@ Scene small_dam_scene(SmallDamBase base)
     scene.reservoir->level = 30.0;
     scene.reservoir->model = ReservoirModel::hydrostatic;
     if (base == SmallDamBase::rock)
-        scene.foundation = Foundation{.material = {0.0, 4e9, 0.2}, .width = 120.0, .depth = 40.0};
+        scene.foundation =
+            Foundation{.material = {0.0, 4e9, 0.2}, .mass = RockMass::massless, .width = 120.0, .depth = 40.0};
     scene.mesh.size = 8.0;
     scene.mesh.contact_size = 5.0;
     scene.damping.mass_coefficient = 0.0;
