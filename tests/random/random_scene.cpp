@@ -19,6 +19,7 @@ struct Writer {
     double base = 0.0, height = 0.0; ///< of the section [m]
     double level = 0.0;              ///< of the reservoir, 0: none [m]
     bool rock = false, curtain = false, drains = false, joints = false;
+    std::string rock_by_name; ///< keys of [foundation] for what nothing was drawn of; written last, see random_scene()
 
     void table(const char* name) { text += fmt::format("[{}]\n", name); }
     template <class T>
@@ -371,9 +372,13 @@ void add_breadth(Writer& w)
     if (w.rock && draw.chance(0.25)) {
         w.late_key("foundation", "mass", "\"with-mass\"");
         if (!w.has("density_kg_m3 = 2500")) w.late_key("foundation", "density_kg_m3", draw.between(2000, 3000));
-        if (draw.chance(0.6)) w.late_key("foundation", "boundary", "\"viscous\"");
+        if (draw.chance(0.6))
+            w.late_key("foundation", "boundary", "\"viscous\"");
+        else
+            w.rock_by_name = "boundary = \"fixed\"\n";
         if (draw.chance(0.5)) w.late_key("mesh", "rock_size_m", w.base / draw.between(0.5, 4));
-    }
+    } else
+        w.rock_by_name = "mass = \"massless\"\n";
     if (!w.has("element = ") && draw.chance(0.15))
         w.late_key("mesh", "element", draw.word({"\"q8\"", "\"q9\"", "\"t6\""}));
     if (!w.rock && !w.has("scheme = \"newmark\"") && !w.has("alpha") && draw.chance(0.2)) {
@@ -416,6 +421,8 @@ SceneFiles random_scene(Draw& draw)
     if (!files.vertical.empty()) w.text += "vertical = \"vertical.csv\"\n";
     files.scene = std::move(w.text);
     if (draw.chance(1.0 / 12)) spoil(files, draw);
+    const std::string head = "[foundation]\n"; // after all draws: a seed keeps its scene, and the value that it spoils
+    if (w.rock) files.scene.insert(files.scene.find(head) + head.size(), w.rock_by_name);
     return files;
 }
 
