@@ -15,7 +15,8 @@ Scene meshable()
     scene.file = "dam.toml";
     scene.section.polygon = {{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
     scene.dam = {2500.0, 25e9, 0.17};
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 300.0, .depth = 100.0};
+    scene.foundation =
+        Foundation{.material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0, .depth = 100.0};
     scene.curtain = Curtain{.distance = 7.0, .depth = 30.0, .thickness = 1.0, .young_modulus = 27e9};
     return scene;
 }

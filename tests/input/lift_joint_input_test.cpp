@@ -95,7 +95,7 @@ namespace {
 TEST(RockSizeInput, NeedsRockAndTwoElementsBelowTheBase)
 {
     const std::string mesh = "[mesh]\nrock_contact_size_m = 2\n";
-    const std::string rock = "[foundation]\nyoung_modulus_GPa = 30\n";
+    const std::string rock = "[foundation]\nyoung_modulus_GPa = 30\nmass = \"massless\"\n";
     EXPECT_EQ(lift_joint_message(mesh),
               "dam.toml:9:1: error: mesh.rock_contact_size_m is given without [foundation]: there is no rock.\n"
               "  expected: both or neither\n"

@@ -12,7 +12,7 @@ std::string size_message(const std::string& more)
 {
     try {
         parse_scene("[section]\nheight_m = 62.5\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = "
-                    "0.77\n[foundation]\nyoung_modulus_GPa = 30\n[reservoir]\nlevel_m = 60\n" +
+                    "0.77\n[foundation]\nyoung_modulus_GPa = 30\nmass = \"massless\"\n[reservoir]\nlevel_m = 60\n" +
                         more + "[uplift]\nmodel = \"none\"\n",
                     "dam.toml", FileCheck::skip);
     } catch (const InputError& error) {
@@ -24,7 +24,7 @@ std::string size_message(const std::string& more)
 TEST(MeshSizeInput, AbsurdlySmallElementsAreRefusedBeforeAnythingIsMeshed)
 {
     EXPECT_EQ(size_message("[mesh]\ncontact_size_m = 1e-9\n"),
-              "dam.toml:13:1: error: mesh.contact_size_m = 1e-09 makes 4.5e+10 elements along the 45 m of the base.\n"
+              "dam.toml:14:1: error: mesh.contact_size_m = 1e-09 makes 4.5e+10 elements along the 45 m of the base.\n"
               "  expected: at most 2000 elements there: 0.0225 m or more\n"
               "  fix:      give a larger size, or leave it out");
     for (const char* text : {"[mesh]\nsize_m = 1e-4\n", "[mesh]\nrock_contact_size_m = 1e-9\n", "mesh_size_m = 1e-6\n"})
@@ -57,7 +57,7 @@ TEST(MeshSizeInput, StepsThatNeverEndAndStepsChosenTwiceAreRefused)
 {
     EXPECT_NE(size_message("[time]\ndt_s = 1e-12\n").find("1e-07"), std::string::npos);
     EXPECT_EQ(size_message("[time]\nstepping = \"adaptive\"\nsubsteps = 2\n"),
-              "dam.toml:14:1: error: time.substeps is given with time.stepping = \"adaptive\".\n"
+              "dam.toml:15:1: error: time.substeps is given with time.stepping = \"adaptive\".\n"
               "  expected: substeps with stepping = \"uniform\"; the adaptive step is chosen by slip_tolerance\n"
               "  fix:      delete substeps, or write  stepping = \"uniform\"");
 }

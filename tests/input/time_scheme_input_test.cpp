@@ -46,7 +46,9 @@ Scene dam_on(bool rock)
     Scene scene = exact::bare_scene(exact::triangle(30.0, 40.0), 2400.0);
     scene.dam.young_modulus = 2e9;
     scene.contact.friction = 0.8;
-    if (rock) scene.foundation = Foundation{.material = {0.0, 4e9, 0.2}, .width = 90.0, .depth = 40.0};
+    if (rock)
+        scene.foundation =
+            Foundation{.material = {0.0, 4e9, 0.2}, .mass = RockMass::massless, .width = 90.0, .depth = 40.0};
     scene.mesh.size = 10.0;
     scene.mesh.contact_size = 10.0;
     scene.damping.mass_coefficient = 1.0;
