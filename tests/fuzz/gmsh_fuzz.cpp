@@ -64,7 +64,7 @@ Scene scene()
     Scene scene;
     scene.section.polygon = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
     scene.dam = {2500.0, 25e9, 0.17};
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 6.0, .depth = 2.0};
+    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 6.0, .depth = 2.0};
     return scene;
 }
 

@@ -38,8 +38,10 @@ Drawn draw(std::uint32_t seed, Rock rock)
     scene.section.polygon = {{0, 0}, {base, 0}, {batter + crest, height}, {batter, height}};
     scene.dam = {draw.between(2200, 2600), 1e9 * draw.between(15, 35), 0.2};
     if (rock == Rock::flexible)
-        scene.foundation =
-            Foundation{.material = {0.0, 1e9 * draw.between(10, 40), 0.25}, .width = 4 * base, .depth = 1.5 * base};
+        scene.foundation = Foundation{.material = {0.0, 1e9 * draw.between(10, 40), 0.25},
+                                      .mass = RockMass::massless,
+                                      .width = 4 * base,
+                                      .depth = 1.5 * base};
     scene.reservoir = Reservoir{.level = height * draw.between(0.5, 0.9), .model = ReservoirModel::added_mass};
     scene.uplift.emplace().model = UpliftModel::linear;
     if (draw.chance(0.5)) scene.tailwater = Tailwater{0.1 * height};

@@ -26,7 +26,7 @@ protected:
             folder_ / "dam.toml",
             "[section]\nheight_m = 12\nbase_m = 9\ncrest_m = 3\n[dam]\ndensity_kg_m3 = 2400\nyoung_modulus_GPa = 25\n"
             "[contact]\nfriction = 0.7\n[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 40\ndepth_m = 15\n"
-            "[curtain]\ndistance_m = 2\ndepth_m = 5\nthickness_m = 0.7\n[reservoir]\nlevel_m = 9\n"
+            "mass = \"massless\"\n[curtain]\ndistance_m = 2\ndepth_m = 5\nthickness_m = 0.7\n[reservoir]\nlevel_m = 9\n"
             "model = \"acoustic\"\nmesh_size_m = 2\n[uplift]\nmodel = \"seepage\"\n[mesh]\nsize_m = 3\n"
             "contact_size_m = 1.5\ngrowth = 2\n[time]\ndt_s = 0.02\nsubsteps = 1\n" +
                 records);

@@ -77,6 +77,7 @@ std::string scene_text(Draw values, Draw* units)
     t.key("width", 4 * base, length);
     t.key("depth", 1.5 * base, length);
     t.key("permeability", 1e-5, conductivity);
+    t.line("mass = \"massless\"");
     t.table("[reservoir]");
     t.key("level", 0.7 * height, length);
     t.key("density", 1000, density);

@@ -32,6 +32,7 @@ young_modulus_GPa = 25
 young_modulus_GPa = 30
 width_m = 300
 depth_m = 100
+mass = "massless"
 [curtain]
 distance_m = 7
 depth_m = 30
@@ -89,6 +90,7 @@ young_modulus_GPa = 25
 young_modulus_GPa = 30
 width_m = 300
 depth_m = 100
+mass = "massless"
 [mesh]
 rock_contact_size_m = 1.5
 [stages]
@@ -315,7 +317,7 @@ TEST_F(AblateScene, FiniteElementRowsAreThoseOfScenesEditedByHand)
     write("up.csv", "time_s,accel_m_s2\n0,0\n1,-1.5\n2,1\n3,0\n");
     const std::string text =
         "[section]\npolygon_m = [[0, 0], [8, 0], [6, 4], [0, 4]]\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = 25\n"
-        "[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 32\ndepth_m = 16\n"
+        "[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 32\ndepth_m = 16\nmass = \"massless\"\n"
         "[contact]\nfriction = 0.25\n[reservoir]\nlevel_m = 3\nmodel = \"acoustic\"\nbottom_reflection = 0.7\n"
         "[uplift]\nmodel = \"linear\"\n[damping]\nratio = 0.05\n[mesh]\nsize_m = 1\ncontact_size_m = 1\n[time]\n"
         "dt_s = 0.02\nsubsteps = 1\n"
@@ -346,7 +348,8 @@ TEST_F(AblateScene, FiniteElementRowsAreThoseOfScenesEditedByHand)
     compare("acoustic water", without("model = \"acoustic\"", "model = \"added-mass\""));
     compare("bottom absorption", without("bottom_reflection = 0.7", "bottom_reflection = 1"));
     compare("vertical motion", without("\nvertical = \"up.csv\"", ""));
-    compare("rock flexibility", without("[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 32\ndepth_m = 16\n", ""));
+    compare("rock flexibility",
+            without("[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 32\ndepth_m = 16\nmass = \"massless\"\n", ""));
     compare("structural damping", without("ratio = 0.05", "method = \"none\""));
     compare("separation", without("friction = 0.25", "friction = 0.25\nseparation = \"none\""));
     for (const std::string effect :

@@ -47,7 +47,7 @@ struct DamFolder {
         const std::filesystem::path file = folder / (name + ".toml");
         std::ofstream(file) << "[section]\nheight_m = 20\nbase_m = 16\ncrest_m = 4\n[dam]\ndensity_kg_m3 = 2400\n"
                                "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 20\nwidth_m = 80\n"
-                               "depth_m = 40\n[contact]\n"
+                               "depth_m = 40\nmass = \"massless\"\n[contact]\n"
                             << contact << "\n[mesh]\n"
                             << mesh << "\n[[motion.record]]\nname = \"pulses\"\nhorizontal = \"pulses.csv\"\n"
                             << more << "\n";

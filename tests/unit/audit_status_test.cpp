@@ -69,7 +69,8 @@ public:
         return path("block.toml");
     }
 
-    /// The reference dam with 200 kPa of cohesion: its static stages find no state although the resultants allow one.
+    /// The reference dam on massless rock with 200 kPa of cohesion: its static stages find no state although the
+    /// resultants allow one.
     std::string cohesive_dam() const
     {
         const std::filesystem::path root = DAMSLIP_SOURCE_DIR;
@@ -77,6 +78,7 @@ public:
         for (std::size_t at = 0; (at = text.find("../records/", at)) != std::string::npos;)
             text.replace(at, 3, root.string() + "/");
         text.insert(text.find("friction = 0.77"), "cohesion_kPa = 200\n");
+        text.insert(text.find("[foundation]") + 12, "\nmass = \"massless\"");
         write("cohesive.toml", text);
         return path("cohesive.toml");
     }

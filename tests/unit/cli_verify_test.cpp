@@ -67,7 +67,8 @@ protected:
     {
         const std::filesystem::path file = folder / "block.toml";
         write_file(file, "[section]\nheight_m = 4\nbase_m = 4\ncrest_m = 4\n[dam]\ndensity_kg_m3 = 2500\n"
-                         "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 20\ndepth_m = 8\n"
+                         "young_modulus_GPa = 25\n[foundation]\nyoung_modulus_GPa = 30\nwidth_m = 20\n"
+                         "depth_m = 8\nmass = \"massless\"\n"
                          "[contact]\nfriction = 0.7\n[mesh]\n" +
                              mesh);
         return file.string();

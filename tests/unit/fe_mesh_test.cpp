@@ -297,7 +297,8 @@ TEST(FeMesh, many_sections)
         if (batter > 0.0)
             scene.section.polygon.push_back({batter * std::min(1.0, 1.2 * upstream_kink), upstream_kink * height});
         if (k % 4 < 2) {
-            scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 4.0 * base, .depth = 1.5 * height};
+            scene.foundation = Foundation{
+                .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 4.0 * base, .depth = 1.5 * height};
             if (k % 4 == 1)
                 scene.curtain = Curtain{.distance = between(0, 0.3) * base,
                                         .depth = between(0.1, 0.6) * height,

@@ -19,7 +19,8 @@ inline Scene reference_dam()
 inline Scene reference_dam_on_rock()
 {
     Scene scene = reference_dam();
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = 300.0, .depth = 100.0};
+    scene.foundation =
+        Foundation{.material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0, .depth = 100.0};
     scene.curtain = Curtain{.distance = 7.0, .depth = 30.0, .thickness = 1.0, .young_modulus = 27e9};
     return scene;
 }

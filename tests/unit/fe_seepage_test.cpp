@@ -22,7 +22,8 @@ Scene flat_base(double width, double depth)
     scene.file = "test.toml";
     scene.section.polygon = {{0, 0}, {10, 0}, {0, 12}};
     scene.dam = {2400.0, 25e9, 0.2};
-    scene.foundation = Foundation{.material = {0.0, 30e9, 0.2}, .width = width, .depth = depth, .permeability = 2e-5};
+    scene.foundation = Foundation{
+        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = width, .depth = depth, .permeability = 2e-5};
     scene.reservoir = Reservoir{.level = 10.0};
     return scene;
 }

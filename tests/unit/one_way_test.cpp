@@ -31,14 +31,15 @@ void PrintTo(const OneScene& scene, std::ostream* out)
 /// Each leaves something to be decided, or another way in the program.
 const OneScene scenes[] = {
     {"rigid_ground_without_water", "", "[time]\nsubsteps = 1\n", "fe-dry:scene"},
-    {"added_mass_on_rock", "model = \"added-mass\"", "[foundation]\nyoung_modulus_GPa = 20\n[time]\nsubsteps = 1\n",
-     "fe-added-mass:scene"},
-    {"auto_is_acoustic", "model = \"auto\"", "[foundation]\nyoung_modulus_GPa = 20\n[time]\nsubsteps = 1\n",
-     "fe-acoustic:scene"},
+    {"added_mass_on_rock", "model = \"added-mass\"",
+     "[foundation]\nyoung_modulus_GPa = 20\nmass = \"massless\"\n[time]\nsubsteps = 1\n", "fe-added-mass:scene"},
+    {"auto_is_acoustic", "model = \"auto\"",
+     "[foundation]\nyoung_modulus_GPa = 20\nmass = \"massless\"\n[time]\nsubsteps = 1\n", "fe-acoustic:scene"},
     {"period_of_the_dam", "model = \"added-mass\"", "[added_mass]\nperiod_s = \"dam\"\n[time]\nsubsteps = 1\n",
      "fe-added-mass:scene"},
     {"seepage_and_modified_rayleigh", "model = \"added-mass\"",
-     "[foundation]\nyoung_modulus_GPa = 20\n[curtain]\ndistance_m = 2\ndepth_m = 8\n[uplift]\nmodel = \"seepage\"\n"
+     "[foundation]\nyoung_modulus_GPa = 20\nmass = \"massless\"\n[curtain]\ndistance_m = 2\n"
+     "depth_m = 8\n[uplift]\nmodel = \"seepage\"\n"
      "[stages]\npore_pressure = \"effective\"\n[damping]\nmethod = \"modified-rayleigh\"\n[time]\nsubsteps = 1\n",
      "fe-added-mass:scene"},
     {"penalty_and_lift_joint", "model = \"hydrostatic\"",

@@ -39,9 +39,9 @@ protected:
             "dam.toml",
             "[section]\nheight_m = 62.5\nbase_m = 45\ncrest_m = 12\nneck_m = 11\n[dam]\ndensity_kg_m3 = 2500\n"
             "young_modulus_GPa = 25\npoisson_ratio = 0.17\n[foundation]\nyoung_modulus_GPa = 30\npoisson_ratio = 0.2\n"
-            "width_m = 300\ndepth_m = 100\n[curtain]\ndistance_m = 7\ndepth_m = 30\nthickness_m = 1\n"
-            "young_modulus_GPa = 27\npoisson_ratio = 0.2\n[reservoir]\nlength_m = 150\n[contact]\nfriction = 0.84\n"
-            "[mesh]\nsize_m = 12\ncontact_size_m = 9\n[sliding]\nrun_out_max_s = 1\n"
+            "width_m = 300\ndepth_m = 100\nmass = \"massless\"\n[curtain]\ndistance_m = 7\ndepth_m = 30\n"
+            "thickness_m = 1\nyoung_modulus_GPa = 27\npoisson_ratio = 0.2\n[reservoir]\nlength_m = 150\n"
+            "[contact]\nfriction = 0.84\n[mesh]\nsize_m = 12\ncontact_size_m = 9\n[sliding]\nrun_out_max_s = 1\n"
             "[[motion.record]]\nname = \"shake\"\nhorizontal = \"shake.csv\"\nvertical = \"shake.csv\"\n");
     }
     Answer study(const std::string& out, std::vector<std::string> more) const

@@ -38,6 +38,7 @@ young_modulus_GPa = 25
 young_modulus_GPa = 30
 width_m = @300@
 depth_m = @110@
+mass = "massless"
 [curtain]
 distance_m = @7@
 depth_m = @30@
