@@ -2,6 +2,8 @@
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
+#include "fe2d/run/self_excited.hpp"
+#include "fe2d/run/slide_probe.hpp"
 
 #include <fmt/format.h>
 
@@ -103,14 +105,31 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
 }
 
 void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
-                       const ContactMemory& rest, ReducedResult& result) const
+                       const ContactMemory& rest, const StageResult* rest_stage, ReducedResult& result) const
 {
     const double dt = motion.dt;
     const int parts = motion.parts;
     const GroundInput& ground = motion.ground;
     ReducedContact dynamics(plane, system, scheme_of(scene_.time), rest, scene_.contact, motion.contact);
+    std::optional<SlideProbe> probe;
+    std::optional<SlideWatch> watch;
+    double friction = 0.0; // dissipated so far [J/m]
+    const auto look = [&] {
+        watch->add(probe->instant(dynamics.state().time, dynamics.state().contact, strength.law(), friction));
+    };
+    const auto add_row = [&] {
+        record(dynamics, result.history);
+        if (watch) watch->add_row(result.history.slide);
+    };
     result.history = {};
-    record(dynamics, result.history);
+    if (rest_stage) {
+        probe.emplace(full_.structure().planes(), *rest_stage, rest.slip);
+        watch.emplace(
+            SlideLimits{ground.duration(), probe->static_normal_force(), scene_.sliding.steady_rate_change},
+            [this] { return full_.window(); });
+        look();
+    }
+    add_row();
     result.dt = dt / parts;
     result.max_slip = 0.0;
     result.status = Status::sliding_at_end;
@@ -120,11 +139,16 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     for (long n = 0; n < all_steps; ++n) {
         for (int part = 1; part <= parts; ++part) {
             const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
+            const ContactMemory before = watch ? dynamics.state().contact : ContactMemory();
             dynamics.advance(dt / parts, ground.at(time), strength.law());
             strength.follow(dynamics.state().contact);
+            if (watch) {
+                friction += friction_work(before, dynamics.state().contact);
+                look();
+            }
             result.max_slip = std::max(result.max_slip, std::abs(dynamics.mean_slip()));
         }
-        record(dynamics, result.history);
+        add_row();
         if (options_.progress &&
             options_.progress({dynamics.state().time, ground.duration(), n + 1, record_steps}) == RunAnswer::stop) {
             result.status = Status::interrupted;
@@ -139,7 +163,12 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
             result.status = Status::at_rest;
             break;
         }
+        if (watch && watch->self_excited()) {
+            result.status = Status::self_excited;
+            break;
+        }
     }
+    if (watch) result.run_out = watch->figures();
     const ContactMemory& end = dynamics.state().contact;
     result.slip = result.history.slip.back();
     result.end_time = dynamics.state().time;
@@ -162,7 +191,7 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
         Strength strength(contact, coarse_.plane());
         strength.follow(memory);
         ReducedResult result;
-        shake(coarse_motion, coarse_.plane(), system, strength, memory, result);
+        shake(coarse_motion, coarse_.plane(), system, strength, memory, nullptr, result);
         interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;
     };
@@ -233,7 +262,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     const auto shake_with = [&](int pass) {
         loop.parts = 1 << pass;
         strength = at_start;
-        shake(loop, structure.plane(), *system_, strength, memory, result);
+        shake(loop, structure.plane(), *system_, strength, memory, &result.stages.back(), result);
         result.halvings = pass;
     };
     const auto wanted = [&] {
@@ -244,16 +273,20 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     shake_with(first);
     for (int k = first + 1; !fixed && k <= options_.largest_halvings; ++k) {
         const double coarser = result.slip;
+        const bool was_self_excited = result.status == Status::self_excited;
         shake_with(k);
         result.step_error = std::abs(result.slip - coarser);
         if (result.step_error <= wanted()) break;
+        if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }
     const bool over = result.status == Status::at_rest || result.status == Status::sliding_at_end;
     const double length = structure.plane().length();
     if (over && result.step_error > wanted()) result.status = Status::tolerance_missed;
     const double open = std::isfinite(result.step_error) ? result.step_error : 0.0;
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
-    const std::optional<double> error = truncation_error(loop, contact.value_or(scene_.contact), memory);
+    const std::optional<double> error = result.status == Status::self_excited // no slip, and no error of it
+                                            ? std::numeric_limits<double>::quiet_NaN()
+                                            : truncation_error(loop, contact.value_or(scene_.contact), memory);
     if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
     result.seconds.dynamics = clock.seconds();
@@ -268,7 +301,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.seconds.statics += clock.seconds();
 
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
-    result.message = message_of(result, length);
+    result.message = result.status == Status::self_excited ? self_excited_sentence(scene_, result.slip, result.run_out)
+                                                           : message_of(result, length);
     return result;
 }
 

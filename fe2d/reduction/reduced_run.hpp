@@ -34,6 +34,7 @@ struct ReducedHistory {
     std::vector<double> crest_x;      ///< relative to the ground, downstream [m]
     std::vector<double> normal_force; ///< Σλ_n [N/m]
     std::vector<double> shear_force;  ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+    SlideHistory slide;               ///< as of the full run; empty on the plane of the estimate
 };
 
 struct ReducedSeconds {
@@ -61,6 +62,7 @@ struct ReducedResult {
     int halvings = 0;
     double dt = 0.0;       ///< [s]
     double end_time = 0.0; ///< [s]
+    RunOutFigures run_out; ///< as of the full run, but without ΔE: no ledger is kept
     DynamicCounts counts;
     Eigen::VectorXd pair_force, pair_slip, pair_opening; ///< at the end: λ [N/m], 2m; [m]; [m]
     ReducedSeconds seconds;
@@ -93,8 +95,9 @@ public:
 private:
     struct Motion; ///< what the time loop reads
     /// From rest to the end of the run-out; history, slip, counts and contact at the end go into `result`.
+    /// @param rest_stage  the run is watched for sliding by itself; null: it is not
     void shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
-               const ContactMemory& rest, ReducedResult& result) const;
+               const ContactMemory& rest, const StageResult* rest_stage, ReducedResult& result) const;
     /// @returns nothing when one of its runs was interrupted
     std::optional<double> truncation_error(const Motion& motion, const Contact& contact,
                                            const ContactMemory& rest) const;

@@ -1,5 +1,6 @@
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/slide_probe.hpp"
 #include "fe2d/time/explicit_run.hpp"
 
 #include "core/input_error.hpp"
@@ -64,7 +65,15 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
         result.halvings = halvings;
         result.status = Status::sliding_at_end;
         HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
-        recorder.add();
+        const SlideProbe probe(structure_->planes(), lane->result.stages.back(), dynamics.state().contact.slip);
+        SlideWatch watch = slide_watch(*lane, duration);
+        const auto look = [&] { watch.add(probe.instant(dynamics, strength.law())); };
+        const auto add_row = [&] {
+            recorder.add();
+            watch.add_row(result.history.slide);
+        };
+        look();
+        add_row();
         std::vector<GroundAcceleration> ahead(static_cast<std::size_t>(strength.constant() ? parts : 1));
         for (long n = 0; n < all_steps && result.status == Status::sliding_at_end; ++n) {
             for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
@@ -75,8 +84,9 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
                                   row);
                 dynamics.advance(step, ahead, strength.law());
                 strength.follow(dynamics.state().contact);
+                look();
             }
-            recorder.add();
+            add_row();
             if (options_.progress &&
                 options_.progress(progress_of(*lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
                 result.status = Status::interrupted;
@@ -84,7 +94,10 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
                 result.status = Status::diverged;
             else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
                 result.status = Status::at_rest;
+            else if (watch.self_excited())
+                result.status = Status::self_excited;
         }
+        result.run_out = watch.figures();
         end_lane(dynamics, strength, *lane, result);
         result.seconds.dynamics += clock.seconds();
         results.push_back(std::move(result));

@@ -1,5 +1,6 @@
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/slide_probe.hpp"
 
 #include "core/stopwatch.hpp"
 #include "fe2d/model/held_edges.hpp"
@@ -97,12 +98,23 @@ struct Pass {
     Strength strength;
     RunResult result;
     HistoryRecorder recorder;
+    SlideProbe probe;
+    SlideWatch watch;
     bool going = true;
 
-    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series)
-        : dynamics(std::move(start)), strength(at_start), result(so_far), recorder(dynamics, result.history, series)
+    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series, SlideWatch watching)
+        : dynamics(std::move(start)), strength(at_start), result(so_far), recorder(dynamics, result.history, series),
+          probe(dynamics.structure().planes(), so_far.stages.back(), dynamics.state().contact.slip),
+          watch(std::move(watching))
+    {
+        look();
+        add_row();
+    }
+    void look() { watch.add(probe.instant(dynamics, strength.law())); }
+    void add_row()
     {
         recorder.add();
+        watch.add_row(result.history.slide);
     }
     void end(Status status)
     {
@@ -137,7 +149,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         const Rest at_rest = rest(*lane);
         DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
-        passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series));
+        passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series,
+                                                slide_watch(*lane, duration)));
         RunResult& result = passes.back()->result;
         result.dt = step;
         result.halvings = halvings;
@@ -158,14 +171,17 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
             const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
             DynamicContact::advance(under_way, step, ground.at(time));
             for (const auto& pass : passes)
-                if (pass->going) pass->strength.follow(pass->dynamics.state().contact);
+                if (pass->going) {
+                    pass->strength.follow(pass->dynamics.state().contact);
+                    pass->look();
+                }
         }
         const bool stopped = options_.progress && options_.progress(progress_of(*lanes.front(), halvings, record_steps,
                                                                                 n + 1, dt)) == RunAnswer::stop;
         for (const auto& pass : passes) {
             if (!pass->going) continue;
             RunResult& result = pass->result;
-            pass->recorder.add();
+            pass->add_row();
             if (stopped)
                 pass->end(Status::interrupted);
             else if (!pass->dynamics.within_reach())
@@ -174,6 +190,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
                 pass->end(Status::diverged);
             else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
                 pass->end(Status::at_rest);
+            else if (pass->watch.self_excited())
+                pass->end(Status::self_excited);
         }
     }
     const double seconds = clock.seconds() / static_cast<double>(lanes.size());
@@ -182,6 +200,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         Pass& pass = *passes[i];
         if (adaptive && halvings == 0) lanes[i]->local_error = worst(pass.dynamics.local_errors());
         if (adaptive) pass.result.dt = pass.dynamics.state().time / std::max(1, pass.dynamics.counts().steps);
+        pass.result.run_out = pass.watch.figures();
         end_lane(pass.dynamics, pass.strength, *lanes[i], pass.result);
         pass.result.seconds.dynamics += seconds;
         results.push_back(std::move(pass.result));
@@ -241,6 +260,12 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory);
 }
 
+SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
+{
+    const double normal_force = lane.result.stages.back().resultant.normal_force;
+    return {{record_end, normal_force, scene_.sliding.steady_rate_change}, [this] { return window(); }};
+}
+
 /// A pass with smaller steps; lanes whose error is still too large get the next one.
 void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const
 {
@@ -254,6 +279,7 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
                                               finer[i].dt, 1e3 * lane.result.slip, lane.result.dt);
             continue;
         }
+        const bool was_self_excited = lane.result.status == Status::self_excited;
         lane.result = std::move(finer[i]);
         lane.note_slips();
         lane.result.slip_error = step_error(lane.slips.front());
@@ -265,6 +291,7 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
                 std::max(excess, step_error(plane) / (scene_.time.slip_tolerance *
                                                       std::max(std::abs(plane.back().slip), options_.smallest_slip)));
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
+        if (was_self_excited && lane.result.status == Status::self_excited) continue; // both agree; there is no slip to refine
         lane.next = next_halvings(lane.slips.front(), excess);
         if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
     }

@@ -1,4 +1,5 @@
 #include "fe2d/run/earthquake_lane.hpp"
+#include "fe2d/run/self_excited.hpp"
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
@@ -151,6 +152,28 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
     return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
 }
 
+/// The dam bonded to massless rock in any case: modes of a box of rock with mass are the box's, and waves that leave have
+/// none.
+Model EarthquakeRun::tied_model() const
+{
+    return build_model(with_massless_rock(scene_), model_options(scene_, options_, Base::tied));
+}
+
+double EarthquakeRun::window() const
+{
+    std::call_once(window_found_, [this] {
+        const Model tied = tied_model();
+        double frequency = 0.0;
+        if (water_) {
+            const CoupledModes modes = coupled_modes_up_to(coupled_pencil(tied, water_->water), 0.0, 1);
+            frequency = leading_modal_masses(modes, 1).front().frequency / (2.0 * std::numbers::pi);
+        } else if (const NaturalModes natural = natural_modes(tied, 1); natural.frequency.size() > 0)
+            frequency = natural.frequency[0];
+        window_ = slide_window(frequency);
+    });
+    return window_;
+}
+
 void EarthquakeRun::find_damping()
 {
     const Damping& wanted = scene_.damping;
@@ -164,8 +187,7 @@ void EarthquakeRun::find_damping()
         damping_.constants = {wanted.mass_coefficient.value_or(0.0), wanted.stiffness_coefficient.value_or(0.0)};
         return;
     }
-    // Of massless rock in any case: modes of a box of rock with mass are the box's, and waves that leave have none.
-    const Model tied = build_model(with_massless_rock(scene_), model_options(scene_, options_, Base::tied));
+    const Model tied = tied_model();
     if (water_) { // the leading modes, without those of the water alone
         damping_.constants = damping_of(scene_, tied, water_->water, {}).constants;
         return;
@@ -275,12 +297,13 @@ void EarthquakeRun::judge(RunResult& result) const
     case Status::sliding_at_end:
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
                                      1e3 * result.slip, scene_.sliding.run_out_max);
-        if (!result.stages.empty() && result.stages.back().sliding_factor > 1.0 &&
-            FrictionOverSlip(scene_.contact).constant() && scene_.contact.cohesion == 0.0)
-            result.message +=
-                fmt::format(" Without the earthquake it stands, FS {:.3g}: what walks on may be the model, "
-                            "not the dam (docs/fe-contact.md, A dam that goes on sliding).",
-                            result.stages.back().sliding_factor);
+        if (result.run_out.sliding_factor > 1.0)
+            result.message += fmt::format(" At rest it would stand, FS {:.3g}, and three windows of steady sliding, which "
+                                          "would make it self-excited, were not seen: lengthen sliding.run_out_max_s.",
+                                          result.run_out.sliding_factor);
+        break;
+    case Status::self_excited:
+        result.message = self_excited_sentence(scene_, result.slip, result.run_out);
         break;
     case Status::not_resolved:
         result.message = fmt::format("Contact was not resolved in {} of {} steps, largest residual {:.1e} of N'.",

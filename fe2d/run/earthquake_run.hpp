@@ -6,6 +6,7 @@
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
+#include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stages.hpp"
 #include "fe2d/time/run_progress.hpp"
 #include "records/record.hpp"
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -71,6 +73,7 @@ struct RunResult {
     int halvings = 0;        ///< the step was dt / 2^halvings
     double dt = 0.0;         ///< [s]; of adaptive steps the mean
     double end_time = 0.0;   ///< run-out included [s]
+    RunOutFigures run_out;   ///< slip with the ground moving and at rest, and what pays for it
     RayleighConstants damping;
     DynamicCounts counts;                     ///< of the run that is reported
     double energy_error = 0.0;                ///< |imbalance| at the end over the largest term [-]
@@ -111,6 +114,8 @@ public:
     /// The same with rows as the base's plane has them, as the steps take it.
     const ReducedRock* radiating_on_base() const { return operators_ ? operators_->radiating() : nullptr; }
     double seconds() const { return seconds_; }                                ///< that making it ready took
+    /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
+    double window() const;
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
     /// @param contact  strength; default: the scene's
@@ -141,10 +146,12 @@ private:
     };
     Rest rest(const Lane& lane) const;
     Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
+    Model tied_model() const;
     void find_damping();
     std::shared_ptr<const ReducedRock> let_radiate();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
+    SlideWatch slide_watch(const Lane& lane, double record_end) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     void stand(Lane& lane) const;
     StepControl control_of(const Lane& lane, int level) const;
@@ -175,6 +182,8 @@ private:
     bool usable_ = false;
     std::string why_not_;
     double seconds_ = 0.0;
+    mutable std::once_flag window_found_;
+    mutable double window_ = 0.0; ///< see window() [s]
 };
 
 } // namespace damslip::fe2d

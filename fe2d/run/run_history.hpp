@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stored_states.hpp"
 
 #include <vector>
@@ -58,6 +59,7 @@ struct RunHistory {
     std::vector<Energy> energy;          ///< [J/m]
     std::vector<double> imbalance;       ///< [J/m]
     std::vector<LiftHistory> lifts;      ///< from bottom to top
+    SlideHistory slide;                  ///< what pays for the sliding; rows of `time`
     PairHistory by_pair;                 ///< rows of `time`; empty with PairSeries::none
     StateKeeper states;                  ///< displacements of some instants; empty with PairSeries::none
 };

@@ -3,6 +3,7 @@
 #include "analysis/accuracy/climb.hpp"
 #include "analysis/accuracy/rung_runner.hpp"
 #include "analysis/accuracy/variant.hpp"
+#include "analysis/prepare/contact_law.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
@@ -99,7 +100,9 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
 std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loaded,
                                      const std::vector<RungResult>& results, bool interrupted)
 {
-    std::vector<std::string> messages = note_texts(loaded.scene.notes);
+    std::vector<std::string> messages;
+    if (const std::optional<std::string> note = rigid_base_note(loaded.scene)) messages.push_back(*note + ".");
+    for (std::string& note : note_texts(loaded.scene.notes)) messages.push_back(std::move(note));
     messages.insert(messages.end(), facts.left_out.begin(), facts.left_out.end());
     if (loaded.records->size() < loaded.in_scene)
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
@@ -196,6 +199,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
     const Loaded loaded = load(a, streams);
+    say_rigid_base(loaded.scene, streams);
     TerminalWatch watch(streams);
     const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, watch);
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);

@@ -232,6 +232,9 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     Scene scene = read_run_scene(arguments.inputs, streams);
     const Axes axes = make_axes(arguments, scene);
     say(axes.notes, arguments.inputs.strict, streams);
+    if (std::any_of(axes.method.begin(), axes.method.end(),
+                    [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
+        say_rigid_base(scene, streams);
     scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",

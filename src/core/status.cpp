@@ -31,7 +31,7 @@ constexpr std::array rows{
               "Slid further than contact.max_slip_m; the rest of the record was not run.", "raise contact.max_slip_m"},
     StatusRow{self_excited, "self-excited", exit_no_answer, SlipMeaning::none, Judging::none,
               "Goes on sliding by itself with the ground at rest, although it would stand.",
-              "let the rock radiate: [foundation] with mass"},
+              "let the rock radiate ([foundation] with mass); the message names the change"},
     StatusRow{tolerance_missed, "tolerance missed", exit_no_answer, SlipMeaning::final, Judging::none,
               "The time step leaves more of the slip open than time.slip_tolerance allows.",
               "give a smaller time.dt_s, or a larger time.slip_tolerance"},

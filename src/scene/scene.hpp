@@ -243,6 +243,7 @@ struct SlidingOptions {
     LiftOff lift_off = LiftOff::no_friction;
     bool two_way = true;       ///< upstream sliding allowed
     double run_out_max = 60.0; ///< integration after the record's end at most [s]; 0: none
+    double steady_rate_change = 0.1; ///< FE: share by which a steady rate of sliding falls from window to window at most [-]
 };
 
 enum class CombinationKind { usual, unusual, extreme, post_seismic };

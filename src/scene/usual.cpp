@@ -158,6 +158,7 @@ constexpr std::array rows{
     Row{"damping.stiffness_coefficient", 0, 0.02, judgement},
     Row{"time.dt", 1e-5, 0.05, judgement},
     Row{"time.slip_tolerance", 1e-4, 0.1, judgement},
+    Row{"sliding.steady_rate_change", 0.02, 0.3, judgement},
 };
 
 constexpr std::array none{

@@ -41,6 +41,11 @@ bool has_slip(const ContactRun& r)
     return reported(r.fe.status, r.fe.max_slip).has_value();
 }
 
+std::optional<double> walked_at_least(Status status, double slip)
+{
+    return status == Status::self_excited ? std::optional(std::abs(slip)) : std::nullopt;
+}
+
 std::string ContactRun::label() const
 {
     return both ? fmt::format("{}, polarity {:+d}", record, polarity) : record;
@@ -145,12 +150,14 @@ ContactRun as_contact_run(const ReducedRecord& r)
     run.fe.max_slip = r.result.max_slip;
     run.fe.slip_error = r.result.truncation_error + r.result.step_error;
     run.fe.end_time = r.result.end_time;
+    run.fe.run_out = r.result.run_out;
     fe2d::RunHistory& h = run.fe.history;
     h.time = r.result.history.time;
     h.slip = r.result.history.slip;
     h.crest_x = r.result.history.crest_x;
     h.normal_force = r.result.history.normal_force;
     h.shear_force = r.result.history.shear_force;
+    h.slide = r.result.history.slide;
     const auto ground = [&](const std::vector<double>& accel) {
         std::vector<double> at(h.time.size(), 0.0); // still after the record's end
         for (std::size_t i = 0; i < h.time.size(); ++i) {

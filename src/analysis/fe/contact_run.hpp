@@ -42,6 +42,9 @@ SlipError lift_error(const ContactRun& run, std::size_t lift);
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);
 
+/// How far a dam that goes on by itself had come when the run ended [m]; none for all others.
+std::optional<double> walked_at_least(Status status, double slip);
+
 /// Why parts of the errors are not known, each reason once.
 std::vector<std::string> error_notes(const std::vector<ContactRun>& runs);
 

@@ -21,4 +21,10 @@ std::vector<std::string> contact_law_notes(const Scene& scene)
     return notes;
 }
 
+std::optional<std::string> rigid_base_note(const Scene& scene)
+{
+    if (scene.foundation) return std::nullopt;
+    return "rigid base: no wave leaves; an elastic dam may walk on it by itself";
+}
+
 } // namespace damslip

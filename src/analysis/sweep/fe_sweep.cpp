@@ -1,5 +1,6 @@
 #include "analysis/sweep/fe_sweep.hpp"
 
+#include "analysis/fe/contact_run.hpp"
 #include "analysis/fe/fe_meter.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
@@ -44,6 +45,8 @@ FeSlip slip_of(const Result& r, double step_error)
     slip.slip = reported(r.status, r.slip);
     slip.max_slip = reported(r.status, r.max_slip);
     slip.slip_error = reported(r.status, step_error);
+    slip.walked = walked_at_least(r.status, r.slip);
+    if (!r.history.time.empty()) slip.run_out = r.run_out;
     return slip;
 }
 

@@ -19,7 +19,7 @@ namespace damslip {
 
 namespace {
 
-constexpr std::string_view first_line = "damslip sweep journal 2";
+constexpr std::string_view first_line = "damslip sweep journal 3";
 constexpr std::string_view done_line = "done\n", begun_word = "begun";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
 
@@ -29,11 +29,14 @@ std::string head_of(const SweepIdentity& i, const Shard& shard)
                        i.scene, i.records, i.grid, i.rows, shard.index, shard.count);
 }
 
-/// The numbers of a row, in the order of its line; the status stands before the last.
-constexpr std::optional<double> RowResults::*numbers[] = {
-    &RowResults::slip,      &RowResults::max_slip,   &RowResults::upstream_slip,    &RowResults::slip_low,
-    &RowResults::slip_high, &RowResults::slip_error, &RowResults::truncation_error, &RowResults::critical_friction,
-    &RowResults::lift_slip};
+/// The numbers of a row, in the order of its line; the status stands among them.
+using R = RowResults;
+constexpr std::optional<double> R::*numbers[] = {
+    &R::slip,           &R::max_slip,         &R::upstream_slip,     &R::slip_low,
+    &R::slip_high,      &R::slip_error,       &R::truncation_error,  &R::critical_friction,
+    &R::lift_slip,      &R::walked,           &R::thrust_over_friction, &R::hops,
+    &R::hop_frequency,  &R::unloaded_share,   &R::end_rate,          &R::slip_shaking,
+    &R::slip_at_rest};
 constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
 
 nlohmann::json cells_of(const RowResults& results)

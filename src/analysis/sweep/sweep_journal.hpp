@@ -17,6 +17,14 @@ struct RowResults {
     std::optional<double> critical_friction;                                  ///< [-]
     std::string status;              ///< of the list, or a remark of the method
     std::optional<double> lift_slip; ///< [m]
+    // Of finite elements, see fe2d::RunOutFigures.
+    std::optional<double> walked;               ///< at least, by a dam that goes on by itself [m]
+    std::optional<double> thrust_over_friction; ///< [-]
+    std::optional<double> hops;
+    std::optional<double> hop_frequency; ///< [Hz]
+    std::optional<double> unloaded_share; ///< [-]
+    std::optional<double> end_rate;       ///< [m/s]
+    std::optional<double> slip_shaking, slip_at_rest; ///< [m]
 
     friend bool operator==(const RowResults&, const RowResults&) = default;
 };

@@ -1,5 +1,7 @@
 #include "analysis/sweep/sweep_rows.hpp"
 
+#include <cmath>
+
 namespace damslip {
 
 namespace {
@@ -74,6 +76,16 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip)
     results.critical_friction = slip.critical_friction;
     results.status = word(slip.status);
     results.lift_slip = slip.lift_slip;
+    results.walked = slip.walked;
+    if (const std::optional<fe2d::RunOutFigures>& f = slip.run_out) {
+        if (std::isfinite(f->thrust_over_friction)) results.thrust_over_friction = f->thrust_over_friction;
+        results.hops = f->hops;
+        results.hop_frequency = f->hop_frequency;
+        results.unloaded_share = f->unloaded_share;
+        results.end_rate = f->rate;
+        results.slip_shaking = f->slip_shaking;
+        results.slip_at_rest = f->slip_at_rest;
+    }
     return {id, is_answer(slip.status), std::move(results), slip.history};
 }
 

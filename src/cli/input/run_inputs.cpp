@@ -1,5 +1,6 @@
 #include "cli/input/run_inputs.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "core/number.hpp"
 #include "core/usage_error.hpp"
 #include "scene/plausible.hpp"
@@ -123,6 +124,12 @@ void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& strea
     if (strict && !notes.empty()) throw InputError(notes);
     if (streams.quiet) return;
     for (const Diagnostic& note : notes) streams.talk << "note: " << note_text(note) << "\n";
+}
+
+void say_rigid_base(const Scene& scene, const Streams& streams)
+{
+    if (streams.quiet) return;
+    if (const std::optional<std::string> note = rigid_base_note(scene)) streams.talk << "warning: " << *note << "\n";
 }
 
 void need_scene_file(const RunInputs& inputs, const std::string& flag)

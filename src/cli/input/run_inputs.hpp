@@ -37,6 +37,9 @@ std::optional<Diagnostic> unusual_argument(const std::string& subject, const std
 /// @throws InputError
 void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& streams);
 
+/// Warns, before anything is computed, of a base that gives no way below finite elements that slide.
+void say_rigid_base(const Scene& scene, const Streams& streams);
+
 /// A scene that comes from standard input cannot be read a second time. @param flag  that needs it again
 /// @throws UsageError
 void need_scene_file(const RunInputs& inputs, const std::string& flag);

@@ -1,5 +1,6 @@
 #include "pages/ablation/ablation_tables.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "core/units.hpp"
 #include "scene/plausible.hpp"
 
@@ -50,7 +51,10 @@ std::optional<std::string> interaction_note(const Ablations& in)
 
 std::vector<std::string> ablation_notes(const Ablations& in)
 {
-    std::vector<std::string> notes = note_texts(in.plan.full.notes);
+    std::vector<std::string> notes;
+    if (const auto note = rigid_base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
+        notes.push_back(*note + ".");
+    for (std::string& note : note_texts(in.plan.full.notes)) notes.push_back(std::move(note));
     if (!in.water.empty()) notes.push_back(in.water + " in all runs");
     if (in.runs.step) notes.push_back(step_note(*in.runs.step));
     if (in.plan.method == Method::rigid_block)

@@ -4,6 +4,7 @@
 #include "analysis/prepare/contact_law.hpp"
 #include "core/file.hpp"
 #include "core/version.hpp"
+#include "fe2d/run/self_excited.hpp"
 #include "pages/fe/water_notes.hpp"
 #include "pages/report/table_text.hpp"
 #include "scene/exact_contact.hpp"
@@ -60,16 +61,32 @@ void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input
                contact_arrays(in.model.model().mesh, r.fe));
 }
 
+std::vector<std::string> base_notes(const Scene& scene)
+{
+    std::vector<std::string> notes;
+    if (const std::optional<std::string> note = rigid_base_note(scene)) notes.push_back(*note);
+    for (std::string& note : note_texts(scene.notes)) notes.push_back(std::move(note));
+    return notes;
+}
+
+void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages)
+{
+    for (const ContactRun& r : runs) {
+        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + r.fe.message);
+        if (has_slip(r) && r.fe.run_out.walked())
+            messages.push_back(r.label() + ": " + fe2d::walked_sentence(r.fe.slip, r.fe.run_out));
+    }
+}
+
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock)
 {
-    std::vector<std::string> messages = note_texts(scene.notes);
+    std::vector<std::string> messages = base_notes(scene);
     for (std::string& note : contact_law_notes(scene)) messages.push_back(std::move(note));
     messages.insert(messages.end(), of_rock.begin(), of_rock.end());
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
-    for (const ContactRun& r : runs)
-        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + r.fe.message);
+    add_run_messages(runs, messages);
     return messages;
 }
 
@@ -80,7 +97,8 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     const fe2d::RayleighConstants& damping = in.model.damping();
     const Eigen::Index pairs = in.model.structure().pairs();
     const Table stages = contact_stage_table(runs), table = contact_run_table(runs, allowable),
-                slips = contact_slip_table(runs), lifts = contact_lift_table(runs, allowable),
+                slips = contact_slip_table(runs), run_out = run_out_table(runs),
+                lifts = contact_lift_table(runs, allowable),
                 law = contact_law_table(runs);
     const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
     const Headline headline = fe_headline(in.scene, runs);
@@ -93,12 +111,13 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     j["stages"] = json_of(stages);
     j["runs"] = json_of(table);
     j["slip"] = json_of(slips);
+    j["run_out"] = json_of(run_out);
     if (has_lifts) j["lift_joints"] = json_of(lifts);
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
     if (gives_way) j["contact_law"] = json_of(law);
 
-    std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips};
+    std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips, run_out};
     if (has_lifts) shown.push_back(lifts);
     if (gives_way) shown.push_back(law);
     answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n", pairs, damping.mass,

@@ -62,10 +62,20 @@ std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
         all.push_back({{key + "normal_force_N_m", name + "N'", "N/m", 6}, of(lift.normal_force)});
         all.push_back({{key + "largest_opening_m", name + "opening", "m", 4}, of(lift.largest_opening)});
     }
+    for (RowColumn& column : slide_columns(h.slide)) all.push_back(std::move(column));
     return all;
 }
 
 } // namespace
+
+std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& h)
+{
+    if (h.rate.empty()) return {};
+    return {{{"thrust_over_friction", "χ", "–", 4}, of(h.thrust_over_friction)},
+            {{"hops", "hops", "", 6}, of(h.hops)},
+            {{"unloaded_share", "unloaded", "–", 4}, of(h.unloaded_share)},
+            {{"slip_rate_m_s", "slip rate", "m/s", 4}, of(h.rate)}};
+}
 
 Table contact_history_table(const fe2d::RunHistory& h)
 {

@@ -187,7 +187,22 @@ std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allo
         {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
         {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
         {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
-        {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }}};
+        {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
+        {{"walked_at_least_m", "walked ≥", "m", 5},
+         [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
+}
+
+void write_walked_slips(Table& t)
+{
+    const auto place = [&](std::string_view key) {
+        return static_cast<std::size_t>(
+            std::find_if(t.columns.begin(), t.columns.end(), [=](const Column& c) { return c.key == key; }) -
+            t.columns.begin());
+    };
+    const std::size_t walked = place("walked_at_least_m"), slip = place("slip_mm");
+    for (std::vector<Cell>& row : t.rows)
+        if (const double* metres = std::get_if<double>(&row[walked]))
+            row[slip] = fmt::format("walked ≥ {:.4g}", 1e3 * *metres);
 }
 
 Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
@@ -213,7 +228,9 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
 
 Table answer_part(const Table& run_table)
 {
-    Table t = with_columns(run_table, {"record", "polarity", "status", "slip_mm", "slip_error_mm", "mesh_error_mm",
+    Table whole = run_table;
+    write_walked_slips(whole);
+    Table t = with_columns(whole, {"record", "polarity", "status", "slip_mm", "slip_error_mm", "mesh_error_mm",
                                        "total_error_mm", "error_parts", "max_slip_m", "slip_rigid_mm", "verdict"});
     t.notes.assign(run_table.notes.begin(), run_table.notes.end() - 1);
     return t;
@@ -339,6 +356,33 @@ Table contact_energy_table(const std::vector<ContactRun>& runs)
                     runs | std::views::filter([](const R& r) { return !r.fe.history.energy.empty(); }),
                     {"kinetic + strain + damping + numerical + friction + radiated = external + contact normal, since "
                      "the static state; what is left is the imbalance."});
+}
+
+Table run_out_table(const std::vector<ContactRun>& runs)
+{
+    using R = ContactRun;
+    using F = fe2d::RunOutFigures;
+    const auto figure = [](double F::*number, double factor = 1.0) {
+        return [=](const R& r) { return finite_cell(factor * (r.fe.run_out.*number)); };
+    };
+    return table_of<R>(
+        "After the record",
+        {record_column,
+         polarity_column,
+         {{"shaking_slip_mm", "slip while shaken", "mm", 5}, figure(&F::slip_shaking, 1e3)},
+         {{"run_out_slip_mm", "slip at rest", "mm", 5}, figure(&F::slip_at_rest, 1e3)},
+         {{"end_rate_mm_s", "rate at end", "mm/s", 3}, figure(&F::rate, 1e3)},
+         {{"thrust_over_friction", "χ", "–", 3}, figure(&F::thrust_over_friction)},
+         {{"energy_kept_J_m", "ΔE", "J/m", 3}, figure(&F::energy_kept)},
+         {{"hops", "hops"}, [](const R& r) { return r.fe.run_out.hops; }},
+         {{"hop_frequency_Hz", "of them", "Hz", 3}, figure(&F::hop_frequency)},
+         {{"unloaded_share", "unloaded", "–", 3}, figure(&F::unloaded_share)},
+         {{"sliding_factor", "FS at rest", "–", 4}, figure(&F::sliding_factor)}},
+        runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
+        {"slip while the ground moved, and with it at rest; χ: work of the static thrust on the slip over that of "
+         "friction (1/FS where N' stays as it is; 1 or more with FS > 1: it slides by itself); ΔE: what the dam kept of "
+         "it; hops: times that the whole base was open; unloaded: share of the time with N' below 5 % of its static "
+         "value. Of the run-out; where sliding is self-excited χ, ΔE and unloaded of its last three windows."});
 }
 
 Table contact_law_table(const std::vector<ContactRun>& runs)

@@ -28,6 +28,11 @@ Table contact_slip_table(const std::vector<ContactRun>& runs); ///< slip along t
 Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
 Table contact_count_table(const std::vector<ContactRun>& runs);  ///< steps by the path of the contact solver
 Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at the end
+/// Slip with the ground moving and at rest, and what pays for it (fe2d::SlideWatch).
+Table run_out_table(const std::vector<ContactRun>& runs);
+
+/// For people: "walked >= 512" in place of a slip that a dam which goes on by itself has not.
+void write_walked_slips(Table& run_table);
 
 /// Columns of contact_run_table() for people: the answer, and how it was computed.
 Table answer_part(const Table& run_table);
@@ -36,6 +41,9 @@ Table solution_part(const Table& run_table);
 /// Slip of each run beside that of the same run with exact contact: what penalty, slip tolerance or soft
 /// normal contact err by.
 Table contact_law_table(const std::vector<ContactRun>& runs);
+
+/// Columns over the rows of a history, none where it is empty. @param history  outlives them
+std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& history);
 
 // Of one run.
 Table contact_history_table(const fe2d::RunHistory& history);

@@ -1,5 +1,6 @@
 #include "pages/fe/fe_output.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "fe2d/statics/stress.hpp"
@@ -72,6 +73,7 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
 {
     if (runs.empty()) return nullptr;
     const ContactRun& worst = worst_of(runs);
+    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
     const auto number = [&](double metres, double unit) {
         const std::optional<double> known = reported(worst.fe.status, metres);
         return known ? nlohmann::ordered_json(*known / unit) : nlohmann::ordered_json();
@@ -80,6 +82,7 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
             {"polarity", worst.polarity},
             {"status", word(worst.fe.status)},
             {"max_slip_m", number(worst.fe.max_slip, 1.0)},
+            {"walked_at_least_m", walked ? nlohmann::ordered_json(*walked) : nlohmann::ordered_json()},
             {"total_error_mm", number(slip_error(worst).total, units::mm)},
             {"verdict", word(verdict_of(worst, allowable))}};
 }
@@ -89,7 +92,9 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
 FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
     const Table counts = count_table(frame.model.counts, frame.water);
-    FeAnswer answer{json_header("fe", frame.scene), frame.scene.title + "\n\n" + text(counts)};
+    const std::optional<std::string> first = kind == FeKind::tied ? std::nullopt : rigid_base_note(frame.scene);
+    FeAnswer answer{json_header("fe", frame.scene),
+                    (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts)};
     answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
     if (kind == FeKind::reduced) answer.json["reduced"] = true;
     answer.json["effects"] = json_of(effect_table(frame.plan));

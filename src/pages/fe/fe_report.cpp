@@ -144,7 +144,9 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         const std::optional<double> known = reported(status, std::abs(slip));
         return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
     };
-    list.emplace_back("Largest slip on the way, FE", millimetres(worst.fe.status, worst.fe.max_slip));
+    const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
+    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("walked ≥ {:.4g} mm", *walked / mm)
+                                                            : millimetres(worst.fe.status, worst.fe.max_slip));
     list.emplace_back("Worst run", worst.label());
     list.emplace_back("Rigid block, same motion",
                       worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
@@ -237,7 +239,8 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
 
     const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
     const Table table = contact_run_table(runs, allowable);
-    Section slip{"Slip", {rows_part(answer_part(table)), rows_part(contact_slip_table(runs))}, Fold::open};
+    Section slip{"Slip", {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs))},
+                 Fold::open};
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
     page.sections.push_back(std::move(slip));
     page.sections.push_back(statics_section(runs));

@@ -53,6 +53,11 @@ FePageFrame contact_frame(const FeReport::Input& input);
 
 /// What has to be said of scene and runs beside the tables.
 /// @param of_rock  warnings on the rock
+/// What is to be known first, the rigid base before all; then what is unusual in the scene.
+std::vector<std::string> base_notes(const Scene& scene);
+/// What became of runs that did not come to rest, or only after they had walked.
+void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages);
+
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock);
 

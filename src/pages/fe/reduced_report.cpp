@@ -61,7 +61,8 @@ Table reduced_table(const std::vector<ReducedRecord>& runs, const std::optional<
          shared("steps"),
          shared("dt_s"),
          shared("unresolved"),
-         shared("seconds")},
+         shared("seconds"),
+         shared("walked_at_least_m")},
         rows);
     t.notes.push_back(
         "slip: area mean over the base since the static state, positive downstream; ± modes: what the elastic modes "
@@ -78,13 +79,13 @@ Table history_table(const fe2d::ReducedHistory& h)
     const auto of = [](const std::vector<double>& values) {
         return [&values](std::size_t row) { return values[row]; };
     };
-    return table_of<std::size_t>("",
-                                 {{{"time_s", "time", "s", 6}, of(h.time)},
-                                  {{"slip_m", "slip", "m", 6}, of(h.slip)},
-                                  {{"crest_x_m", "crest x", "m", 6}, of(h.crest_x)},
-                                  {{"normal_force_N_m", "N'", "N/m", 6}, of(h.normal_force)},
-                                  {{"shear_force_N_m", "T", "N/m", 6}, of(h.shear_force)}},
-                                 std::views::iota(std::size_t{0}, h.time.size()));
+    std::vector<ColumnOf<std::size_t>> columns{{{"time_s", "time", "s", 6}, of(h.time)},
+                                               {{"slip_m", "slip", "m", 6}, of(h.slip)},
+                                               {{"crest_x_m", "crest x", "m", 6}, of(h.crest_x)},
+                                               {{"normal_force_N_m", "N'", "N/m", 6}, of(h.normal_force)},
+                                               {{"shear_force_N_m", "T", "N/m", 6}, of(h.shear_force)}};
+    for (ColumnOf<std::size_t>& column : slide_columns(h.slide)) columns.push_back(std::move(column));
+    return table_of("", columns, std::views::iota(std::size_t{0}, h.time.size()));
 }
 
 FePageFrame reduced_frame(const ReducedReportInput& in)
@@ -119,9 +120,8 @@ void write_reduced_history(const std::filesystem::path& folder, const Scene& sce
 
 std::vector<std::string> reduced_messages(const Scene& scene, const std::vector<ReducedRecord>& runs)
 {
-    std::vector<std::string> messages = note_texts(scene.notes);
-    for (const ContactRun& run : as_contact_runs(runs))
-        if (run.fe.status != Status::at_rest) messages.push_back(run.label() + ": " + run.fe.message);
+    std::vector<std::string> messages = base_notes(scene);
+    add_run_messages(as_contact_runs(runs), messages);
     return messages;
 }
 
@@ -136,7 +136,11 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
     add_verdict(headline, runs, allowable, answer);
     answer.json["stages"] = json_of(stages);
     answer.json["runs"] = json_of(table);
-    answer.text += texts({stages, table}) + "\n" + headline_text(headline);
+    const Table run_out = run_out_table(runs);
+    answer.json["run_out"] = json_of(run_out);
+    Table shown = table;
+    write_walked_slips(shown);
+    answer.text += texts({stages, shown, run_out}) + "\n" + headline_text(headline);
     end_fe_answer(in.messages, answer);
     return answer;
 }
@@ -170,8 +174,9 @@ Page reduced_page(const ReducedReportInput& in)
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept
     page.key_figures.emplace_back("Elastic modes",
                                   fmt::format("{}", in.runs.empty() ? 0 : in.runs.front().result.modes));
-    const Table table = reduced_table(in.runs, in.scene.criteria.allowable_slip);
-    page.sections.push_back({"Slip", {rows_part(without_seconds(table))}, Fold::open});
+    Table table = reduced_table(in.runs, in.scene.criteria.allowable_slip);
+    write_walked_slips(table);
+    page.sections.push_back({"Slip", {rows_part(without_seconds(table)), rows_part(run_out_table(runs))}, Fold::open});
     page.sections.push_back({"Static stages", {rows_part(contact_stage_table(runs))}, Fold::open});
     for (Section& section : sections) page.sections.push_back(std::move(section));
     end_fe_page(frame, motions, {}, page);

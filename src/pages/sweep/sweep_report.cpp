@@ -1,5 +1,6 @@
 #include "pages/sweep/sweep_report.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
@@ -319,7 +320,13 @@ Page sweep_page(const SweepReportInput& in)
                         {"Records", fmt::format("{}", view.records.size())},
                         {"Methods", fmt::format("{}", view.methods.size())}};
     if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
-    if (in.scene) page.warnings = note_texts(in.scene->notes);
+    if (in.scene) {
+        const std::optional<std::string> rigid_base = rigid_base_note(*in.scene);
+        if (rigid_base &&
+            std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); }))
+            page.warnings.push_back(*rigid_base + ".");
+        for (std::string& note : note_texts(in.scene->notes)) page.warnings.push_back(std::move(note));
+    }
     for (std::string& w : warnings(view)) page.warnings.push_back(std::move(w));
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     if (view.rows.empty()) return page;

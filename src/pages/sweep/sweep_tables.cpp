@@ -1,10 +1,12 @@
 #include "pages/sweep/sweep_tables.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "scene/plausible.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -63,7 +65,15 @@ std::vector<ColumnOf<SweepLine>> columns()
         {{"critical_friction", "critical μ", "–", 6}, given(&R::critical_friction)},
         {{"status", "status"}, [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
         {{"lift_joint_slip_m", "lift joints", "m", 5}, given(&R::lift_slip)},
-        {{"remark", "remark"}, remark}};
+        {{"remark", "remark"}, remark},
+        {{"walked_at_least_m", "walked ≥", "m", 5}, given(&R::walked)},
+        {{"thrust_over_friction", "χ", "–", 3}, given(&R::thrust_over_friction)},
+        {{"hops", "hops"}, [](const L& l) { return l.results.hops ? Cell(std::llround(*l.results.hops)) : Cell(); }},
+        {{"hop_frequency_Hz", "hops", "Hz", 3}, given(&R::hop_frequency)},
+        {{"unloaded_share", "unloaded", "–", 3}, given(&R::unloaded_share)},
+        {{"end_rate_m_s", "rate at end", "m/s", 3}, given(&R::end_rate)},
+        {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
+        {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)}};
 }
 
 } // namespace
@@ -137,7 +147,10 @@ nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const T
 {
     auto j = json_header("sweep", given);
     j["rows"] = json_of(rows);
-    j["notes"] = note_texts(given.notes);
+    std::vector<std::string> notes;
+    if (const std::optional<std::string> note = rigid_base_note(given); note && outcome.fe) notes.push_back(*note + ".");
+    for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
+    j["notes"] = notes;
     if (outcome.fe) {
         j["comparison"] = json_of(compared);
         j["counts"] = json_of(count_table(*outcome.fe))[0];

@@ -1,0 +1,121 @@
+#include "fe2d/run/slide_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::fe2d {
+
+namespace {
+
+constexpr double unloaded_below = 0.05;  ///< of the static N' [-]
+constexpr double indicator_time = 1.0;   ///< before each row of the history [s]
+constexpr std::size_t windows = 3;       ///< that have to go on alike
+constexpr double walked_share = 0.1;     ///< of the slip [-]
+constexpr int walked_hops = 3;
+constexpr double round_off = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
+
+} // namespace
+
+double slide_window(double first_frequency)
+{
+    return first_frequency > 0.0 ? std::max(1.0, 5.0 / first_frequency) : 1.0;
+}
+
+bool RunOutFigures::walked() const
+{
+    return std::abs(slip_at_rest) > walked_share * std::abs(slip_shaking + slip_at_rest) && hops > walked_hops;
+}
+
+SlideWatch::SlideWatch(const SlideLimits& limits, std::function<double()> window)
+    : limits_(limits), find_window_(std::move(window))
+{
+}
+
+double SlideWatch::window_end() const
+{
+    return edges_.front().time + static_cast<double>(edges_.size()) * window_;
+}
+
+void SlideWatch::add(const SlideInstant& now)
+{
+    Tally next{now};
+    if (!second_.empty()) {
+        const Tally& last = second_.back();
+        next.hops = last.hops + (now.open && !last.open);
+        const bool unloaded = now.normal_force < unloaded_below * limits_.static_normal_force;
+        next.unloaded = last.unloaded + (unloaded ? now.time - last.time : 0.0);
+        if (!edges_.empty() && next.hops > last.hops) {
+            if (last.hops == hops_shaking_) first_hop_ = now.time;
+            last_hop_ = now.time;
+        }
+    }
+    second_.push_back(next);
+    while (second_.size() > 2 && second_[1].time <= now.time - indicator_time + round_off) second_.pop_front();
+    if (now.time < limits_.record_end - round_off) return;
+    if (edges_.empty()) {
+        edges_.push_back(next);
+        hops_shaking_ = next.hops;
+        return;
+    }
+    if (now.time < edges_.front().time + slide_window(0.0) - round_off) return;
+    if (window_ == 0.0) window_ = find_window_();
+    if (now.time < window_end() - round_off) return;
+    edges_.push_back(next);
+    self_excited_ = goes_on();
+}
+
+double SlideWatch::chi(const Tally& from, const Tally& to) const
+{
+    const double friction = to.friction - from.friction;
+    if (friction <= round_off * limits_.static_normal_force) return std::numeric_limits<double>::quiet_NaN();
+    return (to.thrust_work - from.thrust_work) / friction;
+}
+
+bool SlideWatch::goes_on() const
+{
+    if (edges_.size() <= windows || !(edges_.back().sliding_factor > 1.0)) return false;
+    const Tally *first = &edges_.back() - windows, *last = &edges_.back();
+    double before = 0.0;
+    for (const Tally* edge = first; edge != last; ++edge) {
+        const double power = (edge[1].thrust_work - edge->thrust_work) / (edge[1].time - edge->time);
+        if (!(power > 0.0) || power < (1.0 - limits_.rate_change) * before) return false;
+        before = power;
+    }
+    const double work = last->thrust_work - first->thrust_work, friction = last->friction - first->friction;
+    if (work <= round_off * limits_.static_normal_force) return false; // no thrust: nothing pays
+    return work >= friction || work - friction - (last->other_losses - first->other_losses) >= 0.0;
+}
+
+void SlideWatch::add_row(SlideHistory& history) const
+{
+    const Tally &from = second_.front(), &now = second_.back();
+    const double time = now.time - from.time;
+    const auto share = [&](double change) { return time > 0.0 ? change / time : 0.0; };
+    history.thrust_over_friction.push_back(chi(from, now));
+    history.hops.push_back(now.hops);
+    history.unloaded_share.push_back(share(now.unloaded - from.unloaded));
+    history.rate.push_back(share(now.slip - from.slip));
+}
+
+RunOutFigures SlideWatch::figures() const
+{
+    RunOutFigures figures;
+    if (second_.empty()) return figures;
+    const Tally& now = second_.back();
+    figures.sliding_factor = now.sliding_factor;
+    const double last_second = now.time - second_.front().time;
+    if (last_second > 0.0) figures.rate = (now.slip - second_.front().slip) / last_second;
+    figures.slip_shaking = edges_.empty() ? now.slip : edges_.front().slip;
+    if (edges_.empty()) return figures;
+    figures.slip_at_rest = now.slip - figures.slip_shaking;
+    figures.hops = now.hops - hops_shaking_;
+    if (figures.hops > 1) figures.hop_frequency = (figures.hops - 1) / (last_hop_ - first_hop_);
+    const Tally& from = self_excited_ ? *(&edges_.back() - windows) : edges_.front();
+    figures.thrust_over_friction = chi(from, now);
+    figures.energy_kept = now.thrust_work - from.thrust_work - (now.friction - from.friction) -
+                          (now.other_losses - from.other_losses);
+    if (now.time > from.time) figures.unloaded_share = (now.unloaded - from.unloaded) / (now.time - from.time);
+    return figures;
+}
+
+} // namespace damslip::fe2d
