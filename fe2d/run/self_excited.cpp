@@ -13,7 +13,7 @@ namespace {
 /// Sentences with the change of the scene that lets waves leave.
 std::string remedy(const Scene& scene)
 {
-    const std::string then = fmt::format(", then  damslip fe {}", scene.file.string());
+    const std::string then = fmt::format(", then  damslip fe {}  with the options of this run", scene.file.string());
     if (!scene.foundation) return "give [foundation] so that the rock radiates" + then;
     if (!rock_has_mass(scene))
         return "let the rock radiate: delete  mass = \"massless\"  in [foundation], or write  mass = \"with-mass\"" + then;

@@ -1,5 +1,6 @@
 #include "pages/fe/fe_page.hpp"
 
+#include "analysis/prepare/contact_law.hpp"
 #include "pages/fe/fe_output.hpp"
 #include "pages/fe/mesh_drawing.hpp"
 #include "pages/scene/effect_table.hpp"
@@ -11,13 +12,11 @@
 
 namespace damslip::pages {
 
-namespace {
-
-} // namespace
-
 Page begin_fe_page(const FePageFrame& in)
 {
-    Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". ");
+    const std::optional<std::string> first = in.slides ? rigid_base_note(in.scene) : std::nullopt;
+    Page page =
+        begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""));
     page.warnings = record_warnings(in.records);
     page.sections.push_back(
         {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});

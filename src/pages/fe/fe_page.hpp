@@ -18,6 +18,7 @@ struct FePageFrame {
     PressureProfile uplift;        ///< under the base before the earthquake; empty: none
     std::string kind;              ///< for the subtitle: "finite elements with contact"
     std::string method;            ///< for the provenance
+    bool slides = true;            ///< false: the base is bonded
 };
 
 /// Title, what the records say of themselves, the section with its mesh.

@@ -169,7 +169,8 @@ FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::ve
             water,
             {}, // a bonded base takes its uplift with the loads
             "finite elements, base bonded to the rock",
-            fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count)};
+            fmt::format("plane-strain finite elements, {} unknowns, base bonded", model.dofs.count),
+            false};
 }
 
 void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const TiedRun& run)
