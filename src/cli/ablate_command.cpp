@@ -31,7 +31,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     const Method method = arguments.method == "fe" ? Method::finite_elements : Method::rigid_block;
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip explain --ablate", "damslip explain SCENE gives the effects of the wedge");
-    if (method == Method::finite_elements) say_rigid_base(given, streams);
+    if (method == Method::finite_elements) say_base(given, streams);
     check_records(given, method);
     const Ready ready = prepare(given, method, {.stop = streams.stop}); // the water is chosen once: no removal changes it
     const AblationPlan plan = make_ablations(ready.given, method, seepage_points(ready.given));

@@ -101,7 +101,7 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
                                      const std::vector<RungResult>& results, bool interrupted)
 {
     std::vector<std::string> messages;
-    if (const std::optional<std::string> note = rigid_base_note(loaded.scene)) messages.push_back(*note + ".");
+    if (const std::optional<std::string> note = base_note(loaded.scene)) messages.push_back(*note + ".");
     for (std::string& note : note_texts(loaded.scene.notes)) messages.push_back(std::move(note));
     messages.insert(messages.end(), facts.left_out.begin(), facts.left_out.end());
     if (loaded.records->size() < loaded.in_scene)
@@ -199,7 +199,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
     const Loaded loaded = load(a, streams);
-    say_rigid_base(loaded.scene, streams);
+    say_base(loaded.scene, streams);
     TerminalWatch watch(streams);
     const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, watch);
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);

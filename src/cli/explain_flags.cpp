@@ -8,6 +8,7 @@ namespace {
 void explain_flags(CLI::App& sub, ExplainArguments& a)
 {
     add_run_inputs(sub, a.inputs);
+    add_rock(sub, a.inputs);
     sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
     sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
     sub.add_option("--method", a.method, "rigid or fe")->check(CLI::IsMember({"rigid", "fe"}))->capture_default_str();

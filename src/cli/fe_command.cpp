@@ -30,7 +30,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip fe", "damslip screen SCENE gives the slip of the wedge");
     const Ready ready = prepare(given, Method::finite_elements, {.reduced = arguments.reduced, .stop = streams.stop});
-    if (arguments.reduced || arguments.base != "tied") say_rigid_base(ready.scene, streams);
+    if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
     if (!streams.quiet && ready.reservoir) streams.talk << ready.reservoir->reason << "\n";
     if (!streams.quiet && ready.dam_period)
         streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / ready.dam_period->frequency);

@@ -17,6 +17,7 @@ struct FeArguments {
     std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
+    bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     bool mesh_error = true;      ///< one more run on elements of twice the size tells what the mesh leaves open
 };
 

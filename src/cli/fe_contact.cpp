@@ -1,9 +1,11 @@
 #include "cli/fe_command.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
+#include "analysis/fe/model_spread.hpp"
 #include "analysis/prepare/rock_warnings.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "pages/fe/fe_report.hpp"
+#include "pages/fe/rock_lines.hpp"
 
 #include <optional>
 
@@ -20,7 +22,7 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (!arguments.out.empty()) page.emplace(shared);
-    std::vector<std::string> of_rock;
+    std::vector<std::string> of_rock = radiating_messages(ready.scene, model);
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         for (const std::string& warning : rock_warnings(ready.scene, model.model().mesh, motion))
             if (std::string note = r.record + ": " + warning; of_rock.empty() || of_rock.back() != note)
@@ -30,10 +32,11 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
         r.fe.history.by_pair = {};
         r.fe.history.states = {};
     });
+    const std::string spread = spread_line(model_spread(ready, runs, arguments.spread, watch), runs);
     const std::vector<std::string> messages = contact_messages(ready.scene, runs, of_rock);
     put_answer(
-        contact_answer(shared, runs, messages), arguments, ready.scene, fields,
-        [&] { return page->page(runs, messages); }, streams);
+        contact_answer(shared, runs, messages, spread), arguments, ready.scene, fields,
+        [&] { return page->page(runs, messages, spread); }, streams);
     return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
 }
 

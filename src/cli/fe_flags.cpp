@@ -15,11 +15,15 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->check(CLI::IsMember({1, -1}))
         ->group("Ground motion");
     sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_rock(sub, a.inputs);
     sub.add_option("--base", a.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
         ->check(CLI::IsMember({"contact", "tied"}))
         ->capture_default_str();
     sub.add_flag("!--no-mesh-error", a.mesh_error,
                  "leave out the run on elements of twice the size that tells what the mesh leaves open of the slip");
+    sub.add_flag("--spread", a.spread,
+                 "run the worst record on massless rock (or radiating, where the scene's has no mass) and with added mass in "
+                 "place of acoustic water, too: how far the models lie apart");
     CLI::Option* reduced =
         sub.add_flag("--reduced", a.reduced, "earthquake on few modes of the dam; slip with an error estimate")
             ->group("Reduced run");

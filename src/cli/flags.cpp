@@ -25,6 +25,12 @@ void add_run_inputs(CLI::App& sub, RunInputs& in)
     sub.add_option("--vertical-column", in.vertical_column, "the same of the vertical files")->group("Ground motion");
 }
 
+void add_rock(CLI::App& sub, RunInputs& in)
+{
+    sub.add_option("--rock", in.rock, "radiating (with mass, waves leave) or massless, in place of the scene's rock")
+        ->check(CLI::IsMember({"radiating", "massless"}));
+}
+
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag)
 {
     return [kind, flag](const std::string& path) -> std::string {

@@ -13,6 +13,8 @@ namespace damslip::cli {
 void add_scene(CLI::App& sub, RunInputs& in);
 /// The same, and records in place of the scene's.
 void add_run_inputs(CLI::App& sub, RunInputs& in);
+/// --rock, of commands that run finite elements.
+void add_rock(CLI::App& sub, RunInputs& in);
 
 /// Check of an option that names output: what would fail after minutes is said before anything begins.
 /// @throws UsageError, from the check

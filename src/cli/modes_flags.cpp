@@ -8,6 +8,7 @@ namespace {
 void modes_flags(CLI::App& sub, ModesArguments& a)
 {
     add_run_inputs(sub, a.inputs);
+    add_rock(sub, a.inputs);
     sub.add_option("-n,--count", a.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
     sub.add_flag("--frf", a.frequency_response,
                  "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");

@@ -234,7 +234,7 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     say(axes.notes, arguments.inputs.strict, streams);
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
-        say_rigid_base(scene, streams);
+        say_base(scene, streams);
     scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",

@@ -1,6 +1,9 @@
 #include "analysis/prepare/contact_law.hpp"
 
+#include "scene/rock_mass.hpp"
 #include "scene/water.hpp"
+
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -21,10 +24,20 @@ std::vector<std::string> contact_law_notes(const Scene& scene)
     return notes;
 }
 
-std::optional<std::string> rigid_base_note(const Scene& scene)
+std::optional<std::string> base_note(const Scene& scene)
 {
-    if (scene.foundation) return std::nullopt;
-    return "rigid base: no wave leaves; an elastic dam may walk on it by itself";
+    switch (rock_kind(scene)) {
+    case RockKind::rigid:
+        return "rigid base: no wave leaves; an elastic dam may walk on it by itself";
+    case RockKind::massless:
+        return fmt::format("massless rock keeps all waves: slips come out too large, often by half and more;  damslip fe "
+                           "{} --rock radiating  lets them leave",
+                           scene.file.empty() ? "SCENE" : scene.file.string());
+    case RockKind::boxed:
+    case RockKind::radiating:
+        break;
+    }
+    return std::nullopt;
 }
 
 } // namespace damslip

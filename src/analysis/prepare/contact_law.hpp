@@ -12,7 +12,7 @@ namespace damslip {
 /// default.
 std::vector<std::string> contact_law_notes(const Scene& scene);
 
-/// What has to be known first of a slip by finite elements on a base that gives no way; none where there is rock.
-std::optional<std::string> rigid_base_note(const Scene& scene);
+/// What has to be known first of a slip by finite elements on a base that lets no wave go; none where the rock radiates.
+std::optional<std::string> base_note(const Scene& scene);
 
 } // namespace damslip

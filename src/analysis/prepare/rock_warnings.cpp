@@ -38,7 +38,7 @@ double longest_edge(const fe2d::Mesh& mesh)
 std::vector<std::string> rock_warnings(const Scene& scene, const fe2d::Mesh& mesh, const GroundMotion& motion)
 {
     std::vector<std::string> warnings;
-    if (!rock_has_mass(scene)) return warnings;
+    if (!rock_is_boxed(scene)) return warnings;
     const fe2d::ElasticWaves c =
         fe2d::elastic_waves(fe2d::elastic_material(scene.foundation->material, scene, "foundation"));
     if (!rock_edges_are_viscous(scene)) {

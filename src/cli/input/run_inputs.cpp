@@ -5,6 +5,7 @@
 #include "core/usage_error.hpp"
 #include "scene/plausible.hpp"
 #include "scene/read.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/with_friction.hpp"
 
 #include <algorithm>
@@ -96,6 +97,13 @@ Scene read_run_scene(const RunInputs& inputs, const Streams& streams)
                          "for example  --friction 0.77");
         scene = with_friction(scene, *inputs.friction);
     }
+    if (!inputs.rock.empty()) {
+        if (!scene.foundation)
+            refuse_usage(fmt::format("--rock {} with a scene without [foundation].", inputs.rock),
+                         "a scene with rock: [foundation] and its young_modulus_GPa",
+                         "add  [foundation]  with  young_modulus_GPa = 30  to the scene");
+        scene = inputs.rock == "massless" ? with_massless_rock(scene) : with_radiating_rock(scene);
+    }
     if (inputs.scale) {
         if (!(*inputs.scale >= 0 && std::isfinite(*inputs.scale)))
             refuse_usage(fmt::format("--scale {} is not allowed.", *inputs.scale), "a factor >= 0",
@@ -126,10 +134,10 @@ void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& strea
     for (const Diagnostic& note : notes) streams.talk << "note: " << note_text(note) << "\n";
 }
 
-void say_rigid_base(const Scene& scene, const Streams& streams)
+void say_base(const Scene& scene, const Streams& streams)
 {
     if (streams.quiet) return;
-    if (const std::optional<std::string> note = rigid_base_note(scene)) streams.talk << "warning: " << *note << "\n";
+    if (const std::optional<std::string> note = base_note(scene)) streams.talk << "warning: " << *note << "\n";
 }
 
 void need_scene_file(const RunInputs& inputs, const std::string& flag)

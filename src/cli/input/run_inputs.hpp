@@ -22,6 +22,7 @@ struct RunInputs {
     std::string vertical_column;                  ///< the same, vertical components
     std::optional<double> friction;
     std::optional<double> scale;
+    std::string rock;   ///< "radiating" or "massless" in place of the scene's; empty: the scene's
     std::string scheme; ///< "exact" or "slammer"; empty: the scene's
 };
 
@@ -37,8 +38,8 @@ std::optional<Diagnostic> unusual_argument(const std::string& subject, const std
 /// @throws InputError
 void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& streams);
 
-/// Warns, before anything is computed, of a base that gives no way below finite elements that slide.
-void say_rigid_base(const Scene& scene, const Streams& streams);
+/// Warns, before anything is computed, of a base that lets no wave go below finite elements that slide.
+void say_base(const Scene& scene, const Streams& streams);
 
 /// A scene that comes from standard input cannot be read a second time. @param flag  that needs it again
 /// @throws UsageError

@@ -52,7 +52,7 @@ std::optional<std::string> interaction_note(const Ablations& in)
 std::vector<std::string> ablation_notes(const Ablations& in)
 {
     std::vector<std::string> notes;
-    if (const auto note = rigid_base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
+    if (const auto note = base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
         notes.push_back(*note + ".");
     for (std::string& note : note_texts(in.plan.full.notes)) notes.push_back(std::move(note));
     if (!in.water.empty()) notes.push_back(in.water + " in all runs");

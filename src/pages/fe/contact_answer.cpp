@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "fe2d/run/self_excited.hpp"
+#include "pages/fe/rock_lines.hpp"
 #include "pages/fe/water_notes.hpp"
 #include "pages/report/table_text.hpp"
 #include "scene/exact_contact.hpp"
@@ -64,7 +65,7 @@ void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input
 std::vector<std::string> base_notes(const Scene& scene)
 {
     std::vector<std::string> notes;
-    if (const std::optional<std::string> note = rigid_base_note(scene)) notes.push_back(*note);
+    if (const std::optional<std::string> note = base_note(scene)) notes.push_back(*note);
     for (std::string& note : note_texts(scene.notes)) notes.push_back(std::move(note));
     return notes;
 }
@@ -91,7 +92,7 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 }
 
 FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& runs,
-                        const std::vector<std::string>& messages)
+                        const std::vector<std::string>& messages, const std::string& spread)
 {
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     const fe2d::RayleighConstants& damping = in.model.damping();
@@ -107,6 +108,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     auto& j = answer.json;
     j["contact_pairs"] = pairs;
     j["damping"] = {{"mass_coefficient_1_s", damping.mass}, {"stiffness_coefficient_s", damping.stiffness}};
+    j["rock"] = rock_json(in.scene, in.model);
     add_verdict(headline, runs, allowable, answer);
     j["stages"] = json_of(stages);
     j["runs"] = json_of(table);
@@ -120,9 +122,10 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips, run_out};
     if (has_lifts) shown.push_back(lifts);
     if (gives_way) shown.push_back(law);
-    answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n\n", pairs, damping.mass,
-                               damping.stiffness) +
-                   texts(shown) + "\n" + headline_text(headline);
+    answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs,
+                               damping.mass, damping.stiffness, rock_line(in.scene, in.model)) +
+                   texts(shown) + "\n" + headline_text(headline) + (spread.empty() ? "" : spread + "\n");
+    j["model_spread"] = spread;
     end_fe_answer(messages, answer);
     return answer;
 }

@@ -92,7 +92,7 @@ nlohmann::ordered_json worst_json(const std::vector<ContactRun>& runs, const std
 FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
     const Table counts = count_table(frame.model.counts, frame.water);
-    const std::optional<std::string> first = frame.slides ? rigid_base_note(frame.scene) : std::nullopt;
+    const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt;
     FeAnswer answer{json_header("fe", frame.scene),
                     (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts)};
     answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";

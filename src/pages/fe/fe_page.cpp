@@ -14,7 +14,7 @@ namespace damslip::pages {
 
 Page begin_fe_page(const FePageFrame& in)
 {
-    const std::optional<std::string> first = in.slides ? rigid_base_note(in.scene) : std::nullopt;
+    const std::optional<std::string> first = in.slides ? base_note(in.scene) : std::nullopt;
     Page page =
         begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""));
     page.warnings = record_warnings(in.records);

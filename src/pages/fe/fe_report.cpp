@@ -5,6 +5,7 @@
 #include "pages/fe/fe_page.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -147,6 +148,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
     list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("walked ≥ {:.4g} mm", *walked / mm)
                                                             : millimetres(worst.fe.status, worst.fe.max_slip));
+    list.emplace_back("Rock", rock_words(scene));
     list.emplace_back("Worst run", worst.label());
     list.emplace_back("Rigid block, same motion",
                       worst.rigid ? millimetres(worst.rigid->status, worst.rigid->max_slip) : "slides statically");
@@ -227,7 +229,8 @@ FePageFrame contact_frame(const FeReport::Input& in)
                         in.model.model().dofs.count, in.model.structure().pairs())};
 }
 
-Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages) const
+Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages,
+                    const std::string& spread) const
 {
     const FePageFrame frame = contact_frame(in_);
     Page page = begin_fe_page(frame);
@@ -242,6 +245,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     Section slip{"Slip", {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs))},
                  Fold::open};
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
+    if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
     page.sections.push_back(std::move(slip));
     page.sections.push_back(statics_section(runs));
     if (!stresses_.empty()) {

@@ -37,8 +37,9 @@ public:
     /// @param run  with the history of its pairs @param motion  it ran with
     void add(const ContactRun& run, const GroundMotion& motion);
 
-    /// @param runs  all of them, in the order of add() @param messages  shown as warnings
-    Page page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages) const;
+    /// @param runs  all of them, in the order of add() @param messages  shown as warnings @param spread  spread_line()
+    Page page(const std::vector<ContactRun>& runs, const std::vector<std::string>& messages,
+              const std::string& spread = {}) const;
 
 private:
     Input in_;
@@ -61,9 +62,9 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock);
 
-/// All runs of one call as the answer of `fe`.
+/// All runs of one call as the answer of `fe`. @param spread  spread_line()
 FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,
-                        const std::vector<std::string>& messages);
+                        const std::vector<std::string>& messages, const std::string& spread = {});
 
 /// What is kept of one run beside its figures: its tables as CSV files, and fields at the end.
 /// @param folder  empty: no files

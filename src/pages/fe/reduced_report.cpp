@@ -5,6 +5,7 @@
 #include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_page.hpp"
 #include "pages/fe/fe_report.hpp"
+#include "pages/fe/rock_lines.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "scene/plausible.hpp"
@@ -133,6 +134,7 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
     const Table stages = contact_stage_table(runs), table = reduced_table(in.runs, allowable);
     FeAnswer answer = begin_fe_answer(FeKind::reduced, reduced_frame(in));
     answer.json["contact_pairs"] = in.full.structure().plane().pairs();
+    answer.json["rock"] = rock_json(in.scene, in.full);
     add_verdict(headline, runs, allowable, answer);
     answer.json["stages"] = json_of(stages);
     answer.json["runs"] = json_of(table);
@@ -140,7 +142,7 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
     answer.json["run_out"] = json_of(run_out);
     Table shown = table;
     write_walked_slips(shown);
-    answer.text += texts({stages, shown, run_out}) + "\n" + headline_text(headline);
+    answer.text += "  " + rock_line(in.scene, in.full) + "\n\n" + texts({stages, shown, run_out}) + "\n" + headline_text(headline);
     end_fe_answer(in.messages, answer);
     return answer;
 }

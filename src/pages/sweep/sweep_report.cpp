@@ -321,7 +321,7 @@ Page sweep_page(const SweepReportInput& in)
                         {"Methods", fmt::format("{}", view.methods.size())}};
     if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
     if (in.scene) {
-        const std::optional<std::string> rigid_base = rigid_base_note(*in.scene);
+        const std::optional<std::string> rigid_base = base_note(*in.scene);
         if (rigid_base &&
             std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); }))
             page.warnings.push_back(*rigid_base + ".");
