@@ -25,14 +25,11 @@ void check_rock(const Scene& s, Findings& f)
 {
     if (!s.foundation) return;
     if (!rock_has_mass(s)) {
-        if (s.foundation->boundary != RockBoundary::fixed) {
-            const char* edges = s.foundation->boundary == RockBoundary::viscous ? "viscous" : "absorbing";
+        if (s.foundation->boundary == RockBoundary::viscous) // absorbing is the default, which massless rock leaves aside
             f.wrong("foundation.boundary",
-                    fmt::format("foundation.boundary = \"{}\" with foundation.mass = \"massless\": no waves travel there.",
-                                edges),
-                    fmt::format("mass = \"with-mass\" for {} edges, boundary = \"fixed\" for massless rock", edges),
+                    "foundation.boundary = \"viscous\" with foundation.mass = \"massless\": no waves travel there.",
+                    "mass = \"with-mass\" for viscous edges, no boundary for massless rock",
                     "write  mass = \"with-mass\"  in [foundation], or delete boundary");
-        }
         return;
     }
     if (rock_radiates(s)) {

@@ -187,7 +187,7 @@ std::vector<KeyGroup> base_groups()
                 at(&Drains::gallery_level)),
          number("lost_at_slip", small_length, Range::at_least(0), "never", "slip at which the drains shear off", "0.05",
                 at(&Drains::lost_at_slip))}));
-    Key rock_density = number("density", density, Range::between(0, 1e5), "0",
+    Key rock_density = number("density", density, Range::between(0, 1e5), "0; 2650 where rock radiates",
                               "rock density: weight where stages.gravity asks for it, inertia where mass does", "2650",
                               [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.density; });
     groups.push_back(optional_group(
@@ -197,14 +197,16 @@ std::vector<KeyGroup> base_groups()
          number("poisson_ratio", none, Range{0, 0.5, false, true}, "0.2", "Poisson's ratio", "0.2",
                 [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.poisson_ratio; }),
          rock_density,
-         word("mass", "massless",
-              "`with-mass`: the rock has inertia in FE runs, waves travel through it; needs density", "with-mass",
+         word("mass", "with-mass",
+              "`with-mass`: the rock has inertia in FE runs and waves travel through it; `massless`: it only gives way and "
+              "keeps all waves",
+              "massless",
               choice(&Foundation::mass, {{"massless", RockMass::massless}, {"with-mass", RockMass::with_mass}})),
-         word("boundary", "fixed",
+         word("boundary", "absorbing",
               "edges of rock with mass: `fixed` normal to themselves, the record moves the box, waves come back; "
               "`viscous` dashpots, the record is the free surface's motion without the dam; `absorbing` the same, waves "
               "leave a box of its own that is reduced to the base",
-              "absorbing",
+              "viscous",
               choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed},
                                              {"viscous", RockBoundary::viscous},
                                              {"absorbing", RockBoundary::absorbing}})),
