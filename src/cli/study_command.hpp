@@ -7,7 +7,7 @@ namespace damslip::cli {
 
 struct StudyArguments {
     RunInputs inputs;
-    std::string method = "rigid,rigid-v,fe,fe-whole-steps,fe-goldgruber-2015";
+    std::string method = "rigid,rigid-v,fe,fe-whole-steps,fe-goldgruber-2015,fe-radiating";
     std::filesystem::path out; ///< folder for rows.csv, findings.csv and report.html
     int jobs = 0;              ///< threads; 0: all cores
     bool resume = false;       ///< go on from rows.csv.journal

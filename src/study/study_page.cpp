@@ -26,6 +26,7 @@ std::vector<std::string> shown_methods(const StudyRows& rows)
     std::vector<std::string> methods;
     if (!rows.accurate().empty()) methods.push_back(rows.accurate());
     if (rows.has(chapter_4::source_method)) methods.emplace_back(chapter_4::source_method);
+    if (rows.has(chapter_4::radiating_method)) methods.emplace_back(chapter_4::radiating_method);
     return methods;
 }
 
@@ -123,7 +124,8 @@ Section settings_section(const StudyPageInput& in)
         for (const std::string water : {"acoustic", "westergaard"})
             for (const auto& [method, name] :
                  {std::pair{"fe", "step converged"}, std::pair{"fe-whole-steps", "whole steps of the record"},
-                  std::pair{chapter_4::source_method, "source's settings"}})
+                  std::pair{chapter_4::source_method, "source's settings"},
+                  std::pair{chapter_4::radiating_method, "rock that radiates"}})
                 curves.push_back({fmt::format("{}, {}", water, name),
                                   {"seepage", water, size, 1.0, method},
                                   water == "acoustic" ? Mark::line_and_points : Mark::dashed,

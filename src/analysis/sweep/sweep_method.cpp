@@ -1,6 +1,7 @@
 #include "analysis/sweep/sweep_method.hpp"
 
 #include "scene/preset.hpp"
+#include "scene/rock_mass.hpp"
 #include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ std::vector<SweepMethod> make_list()
                                   fe("fe-slip-tolerance", FeLaw::slip_tolerance),
                                   fe("fe-whole-steps", FeLaw::whole_steps),
                                   fe("fe-goldgruber-2015", FeLaw::goldgruber_2015),
+                                  fe("fe-radiating", FeLaw::radiating),
+                                  fe("fe-massless", FeLaw::massless),
                                   {"fe-reduced", SweepKind::finite_elements, FeLaw::scene, true}};
     for (const sliding::Regression& r : sliding::regressions())
         list.push_back({std::string(r.id), SweepKind::regression, FeLaw::scene, false});
@@ -54,6 +57,8 @@ Scene with_law(Scene scene, FeLaw law, std::optional<double> penalty_stiffness)
         scene.time.substeps = 0;
         return scene;
     }
+    if (law == FeLaw::radiating) return with_radiating_rock(std::move(scene));
+    if (law == FeLaw::massless) return with_massless_rock(std::move(scene));
     scene.contact.normal = NormalContact::hard;
     if (law == FeLaw::penalty) {
         scene.contact.enforcement = ContactEnforcement::penalty;

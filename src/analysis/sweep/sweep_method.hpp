@@ -11,14 +11,16 @@ namespace damslip {
 /// How a row of a sweep is computed.
 enum class SweepKind { rigid, rigid_vertical, regression, finite_elements };
 
-/// Contact law of FE rows, in place of the scene's.
+/// Contact law, steps or rock of FE rows, in place of the scene's.
 enum class FeLaw {
     scene,
     exact,
     penalty,
     slip_tolerance,
     goldgruber_2015,
-    whole_steps ///< the scene's law, but steps of time.dt without sub-steps
+    whole_steps, ///< the scene's law, but steps of time.dt without sub-steps
+    radiating,   ///< the scene's law, rock that radiates ...
+    massless     ///< ... or keeps all waves; as the scene where there is no rock
 };
 
 struct SweepMethod {
