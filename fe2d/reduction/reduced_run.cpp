@@ -124,9 +124,8 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
     result.history = {};
     if (rest_stage) {
         probe.emplace(full_.structure().planes(), *rest_stage, rest.slip);
-        watch.emplace(
-            SlideLimits{ground.duration(), probe->static_normal_force(), scene_.sliding.steady_rate_change},
-            [this] { return full_.window(); });
+        watch.emplace(SlideLimits{ground.duration(), probe->static_normal_force(), scene_.sliding.steady_rate_change},
+                      [this] { return full_.window(); });
         look();
     }
     add_row();

@@ -102,7 +102,8 @@ struct Pass {
     SlideWatch watch;
     bool going = true;
 
-    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series, SlideWatch watching)
+    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series,
+         SlideWatch watching)
         : dynamics(std::move(start)), strength(at_start), result(so_far), recorder(dynamics, result.history, series),
           probe(dynamics.structure().planes(), so_far.stages.back(), dynamics.state().contact.slip),
           watch(std::move(watching))
@@ -291,7 +292,8 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
                 std::max(excess, step_error(plane) / (scene_.time.slip_tolerance *
                                                       std::max(std::abs(plane.back().slip), options_.smallest_slip)));
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
-        if (was_self_excited && lane.result.status == Status::self_excited) continue; // both agree; there is no slip to refine
+        if (was_self_excited && lane.result.status == Status::self_excited)
+            continue; // both agree; there is no slip to refine
         lane.next = next_halvings(lane.slips.front(), excess);
         if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
     }

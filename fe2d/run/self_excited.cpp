@@ -16,7 +16,8 @@ std::string remedy(const Scene& scene)
     const std::string then = fmt::format(", then  damslip fe {}  with the options of this run", scene.file.string());
     if (!scene.foundation) return "give [foundation] so that the rock radiates" + then;
     if (!rock_has_mass(scene))
-        return "let the rock radiate: delete  mass = \"massless\"  in [foundation], or write  mass = \"with-mass\"" + then;
+        return "let the rock radiate: delete  mass = \"massless\"  in [foundation], or write  mass = \"with-mass\"" +
+               then;
     if (scene.foundation->boundary == RockBoundary::fixed)
         return "let waves leave the rock: delete  boundary = \"fixed\"  in [foundation]" + then;
     return "the rock radiates already: see whether smaller elements and steps still give it (docs/fe-contact.md, A dam "
@@ -34,14 +35,14 @@ std::string hops(const RunOutFigures& figures)
 
 std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& f)
 {
-    const std::string more =
-        std::isfinite(f.thrust_over_friction)
-            ? fmt::format("does {:.3g} times the work that friction takes", f.thrust_over_friction)
-            : "meets no friction";
-    return fmt::format("Self-excited, walked >= {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
-                       "would stand, FS {:.3g}; it slips while little presses on the base, so the static thrust {} and pays "
-                       "for the vibration{}. No slip can be given: {}.",
-                       1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, hops(f), remedy(scene));
+    const std::string more = std::isfinite(f.thrust_over_friction)
+                                 ? fmt::format("does {:.3g} times the work that friction takes", f.thrust_over_friction)
+                                 : "meets no friction";
+    return fmt::format(
+        "Self-excited, walked >= {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
+        "would stand, FS {:.3g}; it slips while little presses on the base, so the static thrust {} and pays "
+        "for the vibration{}. No slip can be given: {}.",
+        1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, hops(f), remedy(scene));
 }
 
 std::string walked_sentence(double slip, const RunOutFigures& f)

@@ -22,8 +22,8 @@ double SlideProbe::sliding_factor(const ContactLaw& law) const
     for (Index k = 0; k < planes_.count(); ++k) {
         const Index first = planes_.first(k), pairs = planes_[k].pairs();
         const BaseResultant& r = balances_[static_cast<std::size_t>(k)];
-        const double resistance = law.friction.segment(first, pairs).minCoeff() * r.normal_force +
-                                  law.cohesion.segment(first, pairs).sum();
+        const double resistance =
+            law.friction.segment(first, pairs).minCoeff() * r.normal_force + law.cohesion.segment(first, pairs).sum();
         if (std::abs(r.shear_force) > 1e-12 * r.normal_force) // of order N': round-off is no thrust
             least = std::min(least, resistance / std::abs(r.shear_force));
     }

@@ -7,10 +7,10 @@ namespace damslip::fe2d {
 
 namespace {
 
-constexpr double unloaded_below = 0.05;  ///< of the static N' [-]
-constexpr double indicator_time = 1.0;   ///< before each row of the history [s]
-constexpr std::size_t windows = 3;       ///< that have to go on alike
-constexpr double walked_share = 0.1;     ///< of the slip [-]
+constexpr double unloaded_below = 0.05; ///< of the static N' [-]
+constexpr double indicator_time = 1.0;  ///< before each row of the history [s]
+constexpr std::size_t windows = 3;      ///< that have to go on alike
+constexpr double walked_share = 0.1;    ///< of the slip [-]
 constexpr int walked_hops = 3;
 constexpr double round_off = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
 
@@ -112,8 +112,8 @@ RunOutFigures SlideWatch::figures() const
     if (figures.hops > 1) figures.hop_frequency = (figures.hops - 1) / (last_hop_ - first_hop_);
     const Tally& from = self_excited_ ? *(&edges_.back() - windows) : edges_.front();
     figures.thrust_over_friction = chi(from, now);
-    figures.energy_kept = now.thrust_work - from.thrust_work - (now.friction - from.friction) -
-                          (now.other_losses - from.other_losses);
+    figures.energy_kept =
+        now.thrust_work - from.thrust_work - (now.friction - from.friction) - (now.other_losses - from.other_losses);
     if (now.time > from.time) figures.unloaded_share = (now.unloaded - from.unloaded) / (now.time - from.time);
     return figures;
 }

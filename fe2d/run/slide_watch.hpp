@@ -32,7 +32,7 @@ struct SlideInstant {
         std::numeric_limits<double>::quiet_NaN(); ///< D_damp + D_rad + D_num [J/m]; NaN: there is no ledger
     double normal_force = 0.0;                    ///< N' of the base, compression positive [N/m]
     bool open = false;                            ///< every pair of the base
-    double sliding_factor = 0.0;                  ///< static FS with the strength of this instant, least of all planes [-]
+    double sliding_factor = 0.0; ///< static FS with the strength of this instant, least of all planes [-]
 };
 
 /// Length of the windows after the record: max(1 s, 5/f₁), five periods of the dam at least [s].
@@ -56,9 +56,9 @@ struct SlideHistory {
 
 /// How a dam slid, with the ground moving and at rest.
 struct RunOutFigures {
-    double slip_shaking = 0.0; ///< while the ground moved [m]
-    double slip_at_rest = 0.0; ///< with the ground at rest [m]
-    int hops = 0;              ///< in the run-out: times that every pair of the base came to be open
+    double slip_shaking = 0.0;  ///< while the ground moved [m]
+    double slip_at_rest = 0.0;  ///< with the ground at rest [m]
+    int hops = 0;               ///< in the run-out: times that every pair of the base came to be open
     double hop_frequency = 0.0; ///< from the first of them to the last [Hz]; 0: fewer than two
     double rate = 0.0;          ///< of the slip in the last second [m/s]
 
@@ -84,7 +84,7 @@ public:
     /// @param window  gives slide_window() of the dam; asked once, when the first second after the record has passed
     SlideWatch(const SlideLimits& limits, std::function<double()> window);
 
-    void add(const SlideInstant& now);     ///< after a step; the start first
+    void add(const SlideInstant& now);         ///< after a step; the start first
     void add_row(SlideHistory& history) const; ///< for the present instant
     bool self_excited() const { return self_excited_; }
     RunOutFigures figures() const;
@@ -100,9 +100,9 @@ private:
 
     SlideLimits limits_;
     std::function<double()> find_window_;
-    double window_ = 0.0; ///< [s]; 0: not asked for yet
-    std::deque<Tally> second_;  ///< the last one, the present instant at its end
-    std::vector<Tally> edges_;  ///< of the windows, the record's end first
+    double window_ = 0.0;      ///< [s]; 0: not asked for yet
+    std::deque<Tally> second_; ///< the last one, the present instant at its end
+    std::vector<Tally> edges_; ///< of the windows, the record's end first
     int hops_shaking_ = 0;
     double first_hop_ = 0.0, last_hop_ = 0.0; ///< of the run-out [s]
     bool self_excited_ = false;

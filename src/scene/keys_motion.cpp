@@ -38,7 +38,8 @@ std::vector<KeyGroup> motion_groups()
          number("scale", none, Range::at_least(0), "1", "factor on this record, on top of motion.scale", "1.2",
                 at(&R::scale))}));
     groups.push_back(group(
-        "sliding", "Rigid-block integration; the run-out, after which a run by finite elements ends, too.", &Scene::sliding,
+        "sliding", "Rigid-block integration; the run-out, after which a run by finite elements ends, too.",
+        &Scene::sliding,
         {word("scheme", "exact",
               "of the rigid block: exact (events located) or slammer (the trapezoid scheme of SLAMMER)", "\"slammer\"",
               choice(&SlidingOptions::scheme,
@@ -54,10 +55,11 @@ std::vector<KeyGroup> motion_groups()
          word("two_way", "true", "false: no upstream sliding", "false", at(&SlidingOptions::two_way)),
          number("run_out_max", seconds, Range::between(0, 600), "60", "integration after the record's end at most",
                 "60", at(&SlidingOptions::run_out_max)),
-         number("steady_rate_change", none, Range::half_open(0, 1), "0.1",
-                "finite elements: share by which the rate of sliding falls at most from one window of the run-out to the "
-                "next where the dam goes on by itself (status self-excited); a judgement",
-                "0.1", at(&SlidingOptions::steady_rate_change))}));
+         number(
+             "steady_rate_change", none, Range::half_open(0, 1), "0.1",
+             "finite elements: share by which the rate of sliding falls at most from one window of the run-out to the "
+             "next where the dam goes on by itself (status self-excited); a judgement",
+             "0.1", at(&SlidingOptions::steady_rate_change))}));
     return groups;
 }
 

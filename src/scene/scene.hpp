@@ -241,9 +241,9 @@ struct FlexibleMass {
 struct SlidingOptions {
     SlidingScheme scheme = SlidingScheme::exact;
     LiftOff lift_off = LiftOff::no_friction;
-    bool two_way = true;       ///< upstream sliding allowed
-    double run_out_max = 60.0; ///< integration after the record's end at most [s]; 0: none
-    double steady_rate_change = 0.1; ///< FE: share by which a steady rate of sliding falls from window to window at most [-]
+    bool two_way = true;             ///< upstream sliding allowed
+    double run_out_max = 60.0;       ///< integration after the record's end at most [s]; 0: none
+    double steady_rate_change = 0.1; ///< FE: a steady rate of sliding falls by less from window to window [-]
 };
 
 enum class CombinationKind { usual, unusual, extreme, post_seismic };

@@ -288,7 +288,8 @@ TEST(SelfExcited, the_same_dam_is_named_by_the_reduced_run)
     const ReducedResult few = ReducedRun(full_dying, dying, options, 100).run(shaking());
     const RunResult whole = full_dying.run(shaking());
     const std::size_t row = whole.history.time.size() - 101; // the last second
-    const double work = whole.stages.back().resultant.shear_force * (whole.history.slip.back() - whole.history.slip[row]);
+    const double work =
+        whole.stages.back().resultant.shear_force * (whole.history.slip.back() - whole.history.slip[row]);
     const double friction = whole.history.energy.back().friction - whole.history.energy[row].friction;
     EXPECT_NEAR(whole.history.slide.thrust_over_friction.back(), work / friction, 1e-9 * work / friction);
     EXPECT_NEAR(few.history.slide.thrust_over_friction.back(), work / friction, 0.05 * work / friction);
@@ -397,8 +398,8 @@ TEST(SelfExcited, a_sweep_counts_it_by_name_and_resumes_with_it)
         return nlohmann::json::parse(in, nullptr, false)["rows"];
     };
     for (const char* file : {"rows.json", "rows.json.journal"}) std::filesystem::remove(folder / file);
-    std::vector<std::string> command{"sweep",      scene,      "--method", "fe",
-                                     "--friction", "0.70,1.2", "--json",   "--out", (folder / "rows.json").string()};
+    std::vector<std::string> command{
+        "sweep", scene, "--method", "fe", "--friction", "0.70,1.2", "--json", "--out", (folder / "rows.json").string()};
     const ProgramAnswer answer = answer_of(command);
     EXPECT_EQ(answer.code, exit_no_answer) << answer.talk;
     EXPECT_NE(answer.talk.find("1 self-excited"), std::string::npos) << answer.talk;

@@ -20,10 +20,10 @@ struct FeSlip {
     Status status = Status::interrupted;                                ///< interrupted: not a result
     std::optional<double> slip, max_slip, slip_error, truncation_error; ///< [m]
     std::optional<double> critical_friction;                            ///< least mu of static equilibrium [-]
-    std::optional<double> lift_slip; ///< largest |slip| of the lift joints on the way [m]; none: no joint
-    std::optional<double> walked;    ///< of a dam that goes on by itself, at least [m]
+    std::optional<double> lift_slip;            ///< largest |slip| of the lift joints on the way [m]; none: no joint
+    std::optional<double> walked;               ///< of a dam that goes on by itself, at least [m]
     std::optional<fe2d::RunOutFigures> run_out; ///< none: it was not shaken
-    SlipHistory history;             ///< of sweeps of few rows
+    SlipHistory history;                        ///< of sweeps of few rows
 };
 
 /// Counts of the FE runs of this process that do not depend on the number of threads, and processor seconds.

@@ -31,12 +31,23 @@ std::string head_of(const SweepIdentity& i, const Shard& shard)
 
 /// The numbers of a row, in the order of its line; the status stands among them.
 using R = RowResults;
-constexpr std::optional<double> R::*numbers[] = {
-    &R::slip,           &R::max_slip,         &R::upstream_slip,     &R::slip_low,
-    &R::slip_high,      &R::slip_error,       &R::truncation_error,  &R::critical_friction,
-    &R::lift_slip,      &R::walked,           &R::thrust_over_friction, &R::hops,
-    &R::hop_frequency,  &R::unloaded_share,   &R::end_rate,          &R::slip_shaking,
-    &R::slip_at_rest};
+constexpr std::optional<double> R::*numbers[] = {&R::slip,
+                                                 &R::max_slip,
+                                                 &R::upstream_slip,
+                                                 &R::slip_low,
+                                                 &R::slip_high,
+                                                 &R::slip_error,
+                                                 &R::truncation_error,
+                                                 &R::critical_friction,
+                                                 &R::lift_slip,
+                                                 &R::walked,
+                                                 &R::thrust_over_friction,
+                                                 &R::hops,
+                                                 &R::hop_frequency,
+                                                 &R::unloaded_share,
+                                                 &R::end_rate,
+                                                 &R::slip_shaking,
+                                                 &R::slip_at_rest};
 constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
 
 nlohmann::json cells_of(const RowResults& results)

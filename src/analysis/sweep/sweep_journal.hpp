@@ -21,9 +21,9 @@ struct RowResults {
     std::optional<double> walked;               ///< at least, by a dam that goes on by itself [m]
     std::optional<double> thrust_over_friction; ///< [-]
     std::optional<double> hops;
-    std::optional<double> hop_frequency; ///< [Hz]
-    std::optional<double> unloaded_share; ///< [-]
-    std::optional<double> end_rate;       ///< [m/s]
+    std::optional<double> hop_frequency;              ///< [Hz]
+    std::optional<double> unloaded_share;             ///< [-]
+    std::optional<double> end_rate;                   ///< [m/s]
     std::optional<double> slip_shaking, slip_at_rest; ///< [m]
 
     friend bool operator==(const RowResults&, const RowResults&) = default;

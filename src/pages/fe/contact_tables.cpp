@@ -231,7 +231,7 @@ Table answer_part(const Table& run_table)
     Table whole = run_table;
     write_walked_slips(whole);
     Table t = with_columns(whole, {"record", "polarity", "status", "slip_mm", "slip_error_mm", "mesh_error_mm",
-                                       "total_error_mm", "error_parts", "max_slip_m", "slip_rigid_mm", "verdict"});
+                                   "total_error_mm", "error_parts", "max_slip_m", "slip_rigid_mm", "verdict"});
     t.notes.assign(run_table.notes.begin(), run_table.notes.end() - 1);
     return t;
 }
@@ -380,7 +380,8 @@ Table run_out_table(const std::vector<ContactRun>& runs)
          {{"sliding_factor", "FS at rest", "–", 4}, figure(&F::sliding_factor)}},
         runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
         {"slip while the ground moved, and with it at rest; χ: work of the static thrust on the slip over that of "
-         "friction (1/FS where N' stays as it is; 1 or more with FS > 1: it slides by itself); ΔE: what the dam kept of "
+         "friction (1/FS where N' stays as it is; 1 or more with FS > 1: it slides by itself); ΔE: what the dam kept "
+         "of "
          "it; hops: times that the whole base was open; unloaded: share of the time with N' below 5 % of its static "
          "value. Of the run-out; where sliding is self-excited χ, ΔE and unloaded of its last three windows."});
 }

@@ -15,8 +15,7 @@ namespace damslip::pages {
 Page begin_fe_page(const FePageFrame& in)
 {
     const std::optional<std::string> first = in.slides ? base_note(in.scene) : std::nullopt;
-    Page page =
-        begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""));
+    Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""));
     page.warnings = record_warnings(in.records);
     page.sections.push_back(
         {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});

@@ -242,7 +242,8 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
 
     const std::optional<double>& allowable = in_.scene.criteria.allowable_slip;
     const Table table = contact_run_table(runs, allowable);
-    Section slip{"Slip", {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs))},
+    Section slip{"Slip",
+                 {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs))},
                  Fold::open};
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
