@@ -295,6 +295,16 @@ TEST(SelfExcited, the_same_dam_is_named_by_the_reduced_run)
     EXPECT_NEAR(few.history.slide.thrust_over_friction.back(), work / friction, 0.05 * work / friction);
 }
 
+TEST(SelfExcited, the_same_dam_is_named_by_explicit_steps)
+{
+    Scene scene = walking_dam();
+    scene.time.scheme = TimeScheme::central_difference;
+    const RunResult run = EarthquakeRun(scene, options_of(scene)).run(shaking());
+    EXPECT_EQ(run.status, Status::self_excited) << run.message;
+    EXPECT_GE(run.run_out.thrust_over_friction, 1.0);
+    EXPECT_EQ(run.history.slide.rate.size(), run.history.time.size());
+}
+
 TEST(SelfExcited, chosen_steps_stop_as_soon_as_two_agree)
 {
     Scene scene = walking_dam();
