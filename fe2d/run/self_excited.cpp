@@ -16,8 +16,9 @@ std::string remedy(const Scene& scene)
     const std::string then = fmt::format(", then  damslip fe {}  with the options of this run", scene.file.string());
     if (!scene.foundation) return "give [foundation] so that the rock radiates" + then;
     if (!rock_has_mass(scene))
-        return "let the rock radiate: delete  mass = \"massless\"  in [foundation], or write  mass = \"with-mass\"" +
-               then;
+        return fmt::format("let the rock radiate: delete  mass = \"massless\"  in [foundation], or run  damslip fe {} "
+                           "--rock radiating  with the options of this run",
+                           scene.file.string());
     if (scene.foundation->boundary == RockBoundary::fixed)
         return "let waves leave the rock: delete  boundary = \"fixed\"  in [foundation]" + then;
     return "the rock radiates already: see whether smaller elements and steps still give it (docs/fe-contact.md, A dam "

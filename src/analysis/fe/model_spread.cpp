@@ -4,11 +4,19 @@
 #include "scene/rock_mass.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace damslip {
 
 namespace {
+
+/// "+70 %"
+std::string change_words(double share)
+{
+    const double percent = std::round(100.0 * share);
+    return percent == 0.0 ? "within 1 %" : fmt::format("{:+.0f} %", percent);
+}
 
 struct Other {
     std::string what;
@@ -86,7 +94,7 @@ std::string spread_line(const std::vector<ModelChoice>& spread, const std::vecto
         if (!other)
             there += word(choice.status);
         else if (slip && *slip > 0.0)
-            there += fmt::format("{:.4g} mm ({:+.0f} %)", *other / units::mm, 100.0 * (*other / *slip - 1.0));
+            there += fmt::format("{:.4g} mm ({})", *other / units::mm, change_words(*other / *slip - 1.0));
         else
             there += fmt::format("{:.4g} mm", *other / units::mm);
     }
