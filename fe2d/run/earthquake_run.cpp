@@ -3,11 +3,10 @@
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
-#include "fe2d/material/elastic.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/rock/rock_of_scene.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "scene/rock_mass.hpp"
-#include "scene/section.hpp"
 #include "scene/water.hpp"
 
 #include <fmt/format.h>
@@ -136,18 +135,10 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
 std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
 {
     if (!rock_radiates(scene_)) return {};
-    const Mesh& mesh = model_->mesh;
-    RadiatingRockInput input;
-    input.rock = elastic_material(scene_.foundation->material, scene_, "foundation");
-    input.rock.density = radiating_density(*scene_.foundation);
-    input.heel = heel(scene_.section);
-    input.toe = toe(scene_.section);
-    for (const int node : structure_->slides_far() ? mesh.contact.rock_line : mesh.contact.rock_nodes)
-        input.surface.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
-    input.highest_frequency =
-        2.0 * std::numbers::pi * scene_.foundation->wave_frequency.value_or(options_.wave_frequency);
-    input.box_size = scene_.foundation->wave_box;
-    radiating_ = std::make_unique<const RadiatingRock>(radiating_rock(input, RockStore(options_.rock_cache)));
+    const ContactPlane& contact = model_->mesh.contact;
+    radiating_ = std::make_unique<const RadiatingRock>(
+        radiating_rock_of(scene_, model_->mesh, structure_->slides_far() ? contact.rock_line : contact.rock_nodes,
+                          options_.wave_frequency, options_.rock_cache));
     const Plane& plane = structure_->plane();
     return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
 }

@@ -28,21 +28,6 @@ fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelO
                     : fe2d::damping_of(scene, model, motion).constants;
 }
 
-/// Up to which waves in the rock matter: where the records have their energy, and not below what landings and the modes of usual
-/// dams ask for [Hz].
-double wave_frequency(const Ready& ready)
-{
-    constexpr double least = 25.0, share = 0.99;
-    double highest = least;
-    for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair);
-        for (const std::vector<double>* accel : {&motion.accel_h, &motion.accel_v})
-            if (!accel->empty())
-                highest = std::max(highest, records::frequency_below(*accel, motion.dt, share));
-    }
-    return highest;
-}
-
 /// Files of records that were read elsewhere, or made, so that the plan knows their components.
 std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
 {
@@ -67,6 +52,19 @@ RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
     return make_rigid_model(scene, seepage->profile_of(scene), crack);
 }
 
+double Ready::wave_frequency() const
+{
+    constexpr double least = 25.0, share = 0.99;
+    double highest = least;
+    for (const RecordPair& pair : records()) {
+        const GroundMotion shaking = motion(pair);
+        for (const std::vector<double>* accel : {&shaking.accel_h, &shaking.accel_v})
+            if (!accel->empty())
+                highest = std::max(highest, records::frequency_below(*accel, shaking.dt, share));
+    }
+    return highest;
+}
+
 fe2d::ModelOptions Ready::model_options() const
 {
     fe2d::ModelOptions options;
@@ -87,7 +85,7 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
     options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
-    if (rock_radiates(scene)) options.wave_frequency = wave_frequency(*this);
+    if (rock_radiates(scene)) options.wave_frequency = wave_frequency();
     options.rock_cache = cache_folder();
     options.stop = watch.stop();
     options.progress = [&watch](const fe2d::RunProgress&) {

@@ -39,6 +39,10 @@ struct Ready {
     /// @throws InputError, NotConverged  of the seepage
     RigidModel rigid_model(std::optional<CrackRule> crack = std::nullopt) const;
 
+    /// Up to which waves in radiating rock matter: where the records have their energy, and not below what landings and the
+    /// modes of usual dams ask for [Hz].
+    double wave_frequency() const;
+
     /// For models of the dam on a bonded base.
     fe2d::ModelOptions model_options() const;
 

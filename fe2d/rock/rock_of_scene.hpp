@@ -1,0 +1,17 @@
+#pragma once
+
+#include "fe2d/mesh/mesh.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
+
+#include <filesystem>
+
+namespace damslip::fe2d {
+
+/// The radiating rock of a scene, reduced to nodes on its surface; rows (x, y) by these.
+/// @param nodes  of the mesh, upstream to downstream: those that the dam faces, or may come to face
+/// @param wave_frequency  up to which waves are to be right where the scene has none [Hz]
+/// @param cache  folder of reduced rock (RockStore); empty: none
+RadiatingRock radiating_rock_of(const Scene& scene, const Mesh& mesh, const std::vector<int>& nodes,
+                                double wave_frequency, const std::filesystem::path& cache);
+
+} // namespace damslip::fe2d
