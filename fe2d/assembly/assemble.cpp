@@ -100,6 +100,15 @@ SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materi
     });
 }
 
+SparseMatrix dam_stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials)
+{
+    const Eigen::Matrix3d d = plane_strain_matrix(materials.dam);
+    return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {
+        if (element.region != Region::dam) return {};
+        return elastic_stiffness(corners, element.size(), d, materials.kind, extra_nodes(element));
+    });
+}
+
 SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind)
 {
     return assemble(mesh, dofs, [&](const Element& element, const Corners& corners) -> ElementMatrix {

@@ -45,6 +45,8 @@ Materials materials_of(const Scene& scene);
 Materials without_rock_density(Materials materials);
 
 SparseMatrix stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials); ///< K [N/m per m]
+/// The same of the dam's elements alone.
+SparseMatrix dam_stiffness_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials);
 SparseMatrix mass_matrix(const Mesh& mesh, const DofMap& dofs, const Materials& materials, MassKind kind); ///< M [kg/m]
 
 /// M r for a rigid translation r = `direction` of every node, the fixed ones included [kg/m]: the ground acceleration

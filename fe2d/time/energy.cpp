@@ -44,17 +44,20 @@ EnergyLedger::EnergyLedger(const State& start)
 }
 
 void EnergyLedger::add_step(const State& before, const State& after, const StepConstants& constants,
-                            const InterfaceWork& work)
+                            const InterfaceWork& work, const Energy& base)
 {
     const Eigen::VectorXd step = after.displacement - before.displacement;
-    energy_.kinetic = 0.5 * after.velocity.dot(after.momentum);
-    energy_.strain = 0.5 * after.displacement.dot(after.stiffness_force);
-    energy_.damping += 0.5 * step.dot(before.damping_force + after.damping_force) - work.dashpots;
+    energy_.kinetic = 0.5 * after.velocity.dot(after.momentum) + base.kinetic;
+    energy_.strain = 0.5 * after.displacement.dot(after.stiffness_force) + base.strain;
+    energy_.damping +=
+        0.5 * step.dot(before.damping_force + after.damping_force) - work.dashpots + base.damping - base_.damping;
     energy_.external += 0.5 * step.dot(before.load + after.load);
-    energy_.numerical += numerical_dissipation(before, after, constants) + work.numerical;
+    energy_.numerical +=
+        numerical_dissipation(before, after, constants) + work.numerical + base.numerical - base_.numerical;
     energy_.friction += work.friction;
-    energy_.radiated += work.radiated + work.dashpots;
+    energy_.radiated += work.radiated + work.dashpots + base.radiated - base_.radiated;
     energy_.contact_normal += work.normal;
+    base_ = base;
     scale_ = std::max(scale_, energy_.scale());
 }
 

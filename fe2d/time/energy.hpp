@@ -51,15 +51,17 @@ public:
     explicit EnergyLedger(const State& start);
 
     /// Adds the step from `before` to `after`. The scheme and step are those the step was made with.
+    /// @param base  energies of the body that the interface forces come from (MovingBase): their work is in it then, and
+    ///              `work` has none
     void add_step(const State& before, const State& after, const StepConstants& constants,
-                  const InterfaceWork& work = {});
+                  const InterfaceWork& work = {}, const Energy& base = {});
 
     const Energy& energy() const { return energy_; }
     double imbalance() const { return energy_.imbalance(start_); } ///< [J/m]
     double largest_scale() const { return scale_; }                ///< largest term of any step so far [J/m]
 
 private:
-    Energy start_, energy_;
+    Energy start_, energy_, base_;
     double scale_ = 0.0;
 };
 

@@ -33,6 +33,10 @@ void check(const TiedProblem& problem)
         refuse_explicit("time.scheme = \"central-difference\" with acoustic water.",
                         "no acoustic water: its coupling with the dam is not diagonal, so no step would be explicit",
                         "use  scheme = \"hht\"  in [time], or  model = \"added-mass\"  in [reservoir]");
+    if (problem.options.moving_base)
+        refuse_explicit("time.scheme = \"central-difference\" with rock that lets waves out.",
+                        "rock whose every unknown has mass: a part of what is reduced has none",
+                        "use  scheme = \"hht\"  in [time], or  boundary = \"fixed\"  in [foundation]");
     if (problem.other_damping() > 1e-9)
         refuse_explicit(
             "time.scheme = \"central-difference\" with damping that is neither mass- nor stiffness-proportional.",

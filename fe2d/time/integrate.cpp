@@ -2,6 +2,7 @@
 
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/face_coupling.hpp"
+#include "fe2d/time/base_coupling.hpp"
 #include "fe2d/time/coupled_energy.hpp"
 #include "fe2d/time/tied_problem.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace damslip::fe2d {
 
@@ -55,7 +57,10 @@ public:
 
 private:
     bool prepare();
+    void let_base_move();
     void add_water();
+    void step(const StepOperator& step, const State& before, const VectorXd& load, State& after);
+    void enter(const State& before, const State& after, const StepConstants& constants, EnergyLedger& ledger) const;
     State start(const VectorXd& load) const;
     HistoryRow row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const;
     double dashpot_work(const State& before, const State& after) const;
@@ -66,6 +71,7 @@ private:
     std::int64_t steps_;
     std::optional<WaterPart> water_;
     std::optional<LinearIntegrator> integrator_;
+    std::optional<BaseCoupling> base_; ///< where it moves
     History history_;
     HistoryWriter writer_;
 };
@@ -84,11 +90,30 @@ bool Run::prepare()
 {
     if (!problem_.prepare()) return false;
     const LinearSystem& system = problem_.structure.system;
+    if (options_.moving_base) let_base_move();
     if (options_.water) add_water();
     if (!integrator_) integrator_.emplace(system, options_.scheme, options_.solver);
-    if (!options_.scheme.unconditionally_stable()) check_step(options_.scheme, dt_, highest_frequency(system));
-    problem_.structure.solver = integrator_->step_operator(dt_).report();
+    if (!options_.scheme.unconditionally_stable())
+        check_step(options_.scheme, dt_,
+                   options_.moving_base ? std::numeric_limits<double>::infinity() : highest_frequency(system));
+    const StepOperator& step = integrator_->step_operator(dt_);
+    problem_.structure.solver = step.report();
+    if (problem_.structure.solver.ok() && options_.moving_base) {
+        base_.emplace(options_.moving_base(step.constants(), options_.damping.constants.stiffness), step,
+                      unknowns_of_base(problem_.model), integrator_->system().size());
+        history_.unknowns += base_->base().unknowns();
+        if (!base_->ok()) problem_.structure.solver.status = SolverStatus::not_positive_definite;
+    }
     return problem_.structure.solver.ok();
+}
+
+/// From the statics on condensed rock to the dam alone: what held its base stays as a load.
+void Run::let_base_move()
+{
+    assert(options_.rock == RockTreatment::condensed && problem_.structure.rock);
+    problem_.structure.system = dam_on_free_base(problem_.model, options_.damping.constants);
+    const VectorXd internal = problem_.structure.system.stiffness * problem_.start;
+    for (const Eigen::Index k : unknowns_of_base(problem_.model)) problem_.load.still[k] = internal[k];
 }
 
 /// The system grows by the water; loads get its rows.
@@ -130,6 +155,28 @@ double Run::dashpot_work(const State& before, const State& after) const
     return 0.5 * (after.displacement - before.displacement).head(n).dot(dashpots * velocity);
 }
 
+void Run::step(const StepOperator& step, const State& before, const VectorXd& load, State& after)
+{
+    const FreeStep free = integrator_->free_step(step, before, load);
+    if (base_)
+        integrator_->finish_step(step, before, load, free, base_->step(free), after);
+    else
+        integrator_->finish_step(step, before, load, free, after);
+}
+
+/// The step in the ledger.
+void Run::enter(const State& before, const State& after, const StepConstants& constants, EnergyLedger& ledger) const
+{
+    InterfaceWork work = water_ ? water_->energy.work(before, after) : InterfaceWork{};
+    work.dashpots = dashpot_work(before, after);
+    if (base_) work.numerical += base_->numerical_work();
+    const Energy base = base_ ? base_->base().energy() : Energy{};
+    if (water_)
+        ledger.add_step(water_->energy.view(before), water_->energy.view(after), constants, work, base);
+    else
+        ledger.add_step(before, after, constants, work, base);
+}
+
 HistoryRow Run::row(const State& state, const GroundState& ground, const EnergyLedger& ledger) const
 {
     const Eigen::Index n = problem_.structure.system.size(), x = problem_.crest_x, y = problem_.crest_y;
@@ -167,15 +214,9 @@ History Run::go()
         const double time = dt_ * static_cast<double>(n);
         const GroundState ground = problem_.ground.at(time);
         problem_.load.evaluate(ground, load);
-        const FreeStep free = integrator_->free_step(step, before, load);
-        integrator_->finish_step(step, before, load, free, after);
+        this->step(step, before, load, after);
         after.time = time; // not summed up
-        InterfaceWork work = water_ ? water_->energy.work(before, after) : InterfaceWork{};
-        work.dashpots = dashpot_work(before, after);
-        if (water_)
-            ledger.add_step(water_->energy.view(before), water_->energy.view(after), step.constants(), work);
-        else
-            ledger.add_step(before, after, step.constants(), work);
+        enter(before, after, step.constants(), ledger);
         if (!std::isfinite(ledger.imbalance())) {
             history_.status = TiedRunStatus::diverged;
             history_.status_text = fmt::format("not finite after step {} at {:.4g} s", n, time);

@@ -4,11 +4,13 @@
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/time/history.hpp"
+#include "fe2d/time/moving_base.hpp"
 #include "fe2d/time/run_progress.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/record.hpp"
 
 #include <functional>
+#include <memory>
 
 namespace damslip::fe2d {
 
@@ -24,6 +26,9 @@ struct TiedRunOptions {
     double free_vibration = 0.0;                ///< time after the motion's end without ground acceleration [s], >= 0
     int keep_every = 1; ///< steps per kept row of the history, >= 1; peaks and energies see every step
     RockTreatment rock = RockTreatment::condensed;
+    /// Makes the body that the dam is tied to in the earthquake, for the constants of the step and b_K, with the unknowns of
+    /// unknowns_of_base(); the model's rock, massless and condensed, is the one of the statics then. Empty: that one moves.
+    std::function<std::unique_ptr<MovingBase>(const StepConstants&, double)> moving_base;
     const FluidModel* water =
         nullptr; ///< acoustic water on the upstream face, at rest at the start; null: none. The model then has
                  ///< no added mass
@@ -34,7 +39,9 @@ struct TiedRunOptions {
 /// Linear earthquake run of a dam tied to its base, from static equilibrium at rest.
 ///
 /// The start is K u₀ = R_static, so nothing moves before the ground does. Motion relative to the ground; massless rock is
-/// condensed exactly; rock with free edges moves relative to the free field (held_edges.hpp). Every step is entered in the energy ledger.
+/// condensed exactly; rock with free edges and a moving base move relative to the free field (held_edges.hpp). Every step
+/// is entered in the energy ledger. What holds the base at rest is a constant load on a dam whose base moves: its work is in
+/// `external`, and the energies of the base count from rest.
 /// @param model  with Base::tied
 /// @throws InputError when dt is no whole part of the motion's step, or unstable for the scheme.
 ///         Everything else that can go wrong is in History::status.

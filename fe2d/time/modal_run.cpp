@@ -292,6 +292,7 @@ std::string modal_obstacle(const TiedRunOptions& options)
     if (options.water)
         return "acoustic water: it radiates and is not damped like the dam, so real modes do not separate the "
                "equations";
+    if (options.moving_base) return "rock that lets waves out: real modes do not separate the equations";
     if (options.damping.mass == MassDamping::total && options.damping.constants.mass != 0.0)
         return "mass damping of the total velocity: its load, a_M times the ground's velocity, is not linear between "
                "samples";

@@ -115,6 +115,27 @@ StructureSystem structure_system(const Model& model, const RayleighConstants& da
     return structure;
 }
 
+LinearSystem dam_on_free_base(const Model& model, const RayleighConstants& damping)
+{
+    assert(!model.rock_has_mass());
+    const Index n = dam_dof_count(model.mesh, model.dofs);
+    LinearSystem system;
+    system.mass = upper_left(model.moving_mass(), n);
+    system.stiffness = upper_left(dam_stiffness_matrix(model.mesh, model.dofs, model.materials), n);
+    system.damping = damping.mass * upper_left(model.dam_mass(), n);
+    system.damping += damping.stiffness * system.stiffness;
+    return system;
+}
+
+std::vector<Index> unknowns_of_base(const Model& model)
+{
+    assert(model.mesh.has_rock() && model.mesh.contact.matching);
+    std::vector<Index> unknowns;
+    for (const int node : model.mesh.contact.dam_nodes)
+        for (const int component : {0, 1}) unknowns.push_back(model.dofs(node, component));
+    return unknowns;
+}
+
 std::vector<ModalMass> modal_masses(const NaturalModes& modes)
 {
     std::vector<ModalMass> masses;

@@ -37,6 +37,14 @@ struct StructureSystem {
 StructureSystem structure_system(const Model& model, const RayleighConstants& damping,
                                  RockTreatment rock = RockTreatment::condensed);
 
+/// The same of the dam alone with a free base: what lies below it is a body of its own (MovingBase). Its unknowns are
+/// those of a model with massless rock whose rock is condensed.
+LinearSystem dam_on_free_base(const Model& model, const RayleighConstants& damping);
+
+/// Unknowns of the base, (x, y) by node, heel to toe.
+/// @pre a tied base on rock
+std::vector<Eigen::Index> unknowns_of_base(const Model& model);
+
 /// Damping of a scene: modes of the model for the frequencies, the horizontal motion for modified Rayleigh.
 DampingChoice damping_of(const Scene& scene, const Model& model, const GroundMotion& motion);
 

@@ -61,7 +61,7 @@ TEST(FeRockMassRun, TheCommandWritesAllItsFiles)
         std::filesystem::temp_directory_path() / ("damslip_rock_mass_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "pulse.csv") << "time_s,accel_m_s2\n0,0\n0.1,8\n0.2,-8\n0.3,0\n0.4,0\n";
-    for (const char* boundary : {"fixed", "viscous"})
+    for (const char* boundary : {"fixed", "viscous", "absorbing"})
         for (const char* base : {"contact", "tied"}) {
             std::ofstream(folder / "dam.toml")
                 << "[section]\nheight_m = 20\nbase_m = 16\ncrest_m = 4\n[dam]\ndensity_kg_m3 = 2400\nyoung_modulus_GPa "

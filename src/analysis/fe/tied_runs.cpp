@@ -2,8 +2,11 @@
 
 #include "analysis/prepare/rock_water.hpp"
 #include "analysis/prepare/tied_scheme.hpp"
+#include "core/cache_folder.hpp"
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
+#include "fe2d/rock/rock_base.hpp"
+#include "fe2d/rock/rock_of_scene.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/explicit_run.hpp"
 #include "fe2d/time/integrate.hpp"
@@ -12,6 +15,8 @@
 #include "scene/rock_mass.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <numbers>
 
 namespace damslip {
 
@@ -41,6 +46,16 @@ fe2d::ModelOptions model_options(const Ready& ready)
     return options;
 }
 
+std::string rock_note(const fe2d::RadiatingRock& radiating)
+{
+    const fe2d::ReductionReport& report = radiating.rock.report;
+    return fmt::format(
+        "radiating rock: {} modes of a box of {} unknowns, waves up to {:.3g} Hz, error of the reduction "
+        "{:.2g} %{}",
+        report.modes, report.unknowns, radiating.resolved / (2.0 * std::numbers::pi), 100.0 * report.error,
+        report.passed() ? "" : fmt::format(", more than the {:.2g} % wanted", 100.0 * report.wanted));
+}
+
 } // namespace
 
 TiedModels::TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : still(fe2d::build_model(scene, options))
@@ -58,6 +73,9 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     const Scene& scene = ready.scene;
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
         water_ = fe2d::build_fluid(scene);
+    if (rock_radiates(scene))
+        radiating_ = fe2d::radiating_rock_of(scene, model().mesh, model().mesh.contact.rock_nodes,
+                                             ready.wave_frequency(), cache_folder());
     fe2d::StaticLoads loads = fe2d::static_loads(scene, model());
     if (scene.stages.pore_pressure != PorePressure::none)
         loads.impounding.push_back({"water in the rock", rock_water_load(scene, model()), Eigen::Vector2d::Zero()});
@@ -98,6 +116,12 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
     options.static_load = start_.load;
     options.start_displacement = start_.displacement;
     if (!statics_.stages.empty()) options.static_resultant = statics_.stages.back().resultant;
+    if (radiating_) {
+        options.moving_base = [this](const fe2d::StepConstants& constants, double stiffness_damping) {
+            return fe2d::rock_base(radiating_->rock, constants, stiffness_damping);
+        };
+        run.notes.push_back(rock_note(*radiating_));
+    }
     watch_.begin(motion.name, 1000);
     options.progress = [&](const fe2d::RunProgress& p) {
         watch_.at(1000.0 * static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps)));

@@ -3,6 +3,7 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/held_edges.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/statics/static_solution.hpp"
 #include "fe2d/time/history.hpp"
 
@@ -38,6 +39,7 @@ public:
 
     const fe2d::Model& model() const { return models_.still; }
     const fe2d::FluidModel* water() const { return water_ ? &*water_ : nullptr; } ///< acoustic; null: none
+    const fe2d::RadiatingRock* radiating() const { return radiating_ ? &*radiating_ : nullptr; } ///< null: other rock
     const fe2d::StaticSolution& statics() const { return statics_; }
 
     using TakeRun = std::function<void(TiedRun& run)>; ///< told each run as soon as it is there
@@ -51,6 +53,7 @@ private:
     int polarity_;
     TiedModels models_;
     std::optional<fe2d::FluidModel> water_;
+    std::optional<fe2d::RadiatingRock> radiating_; ///< none: the rock of the models moves
     fe2d::StaticSolution statics_;
     fe2d::HeldStart start_;
 };

@@ -10,8 +10,15 @@ namespace damslip {
 namespace {
 
 constexpr const char* auto_key = "time.scheme = \"auto\": ";
-constexpr const char* rock_obstacle =
-    "a dashpot on every node of the rock's edges: real modes do not separate the equations";
+
+/// Rock whose damping no real modes separate; empty: none.
+std::string rock_obstacle(const Scene& scene)
+{
+    if (rock_radiates(scene)) return "rock that lets waves out: real modes do not separate the equations";
+    if (rock_edges_are_viscous(scene))
+        return "a dashpot on every node of the rock's edges: real modes do not separate the equations";
+    return {};
+}
 
 } // namespace
 
@@ -19,8 +26,8 @@ TiedScheme tied_scheme(const Scene& scene, const GroundMotion& motion, const fe2
 {
     const TimeOptions& time = scene.time;
     if (time.scheme != TimeScheme::automatic) return {time.scheme, {}};
-    if (rock_edges_are_viscous(scene))
-        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, rock_obstacle)};
+    if (const std::string obstacle = rock_obstacle(scene); !obstacle.empty())
+        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, obstacle)};
     if (const std::string obstacle = fe2d::modal_obstacle(options); !obstacle.empty())
         return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, obstacle)};
     const double steps = motion.dt / options.dt.value_or(motion.dt) * static_cast<double>(motion.accel_h.size() - 1);
@@ -37,7 +44,8 @@ std::string time_scheme_note(const Scene& scene)
 {
     switch (scene.time.scheme) {
     case TimeScheme::automatic:
-        if (rock_edges_are_viscous(scene)) return fmt::format("{}HHT; {}", auto_key, rock_obstacle);
+        if (const std::string obstacle = rock_obstacle(scene); !obstacle.empty())
+            return fmt::format("{}HHT; {}", auto_key, obstacle);
         return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic
                    ? "time.scheme = \"auto\": HHT; with acoustic water real modes do not separate the equations"
                    : fmt::format(
