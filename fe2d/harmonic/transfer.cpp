@@ -3,29 +3,69 @@
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/face_coupling.hpp"
 #include "fe2d/harmonic/harmonic_solver.hpp"
+#include "fe2d/time/structure_system.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <numbers>
 
 namespace damslip::fe2d {
 
-std::vector<TransferPoint> transfer_functions(const Model& model, const StructureSystem& structure,
-                                              const FluidModel* water, const std::vector<double>& frequencies)
+namespace {
+
+/// F(ω)⁻¹ of the rock [N/m²]; empty without.
+Eigen::MatrixXcd dynamic_stiffness(const RockBelow* below, double frequency)
 {
-    const Eigen::Index n = structure.system.size();
+    if (!below) return {};
+    const Eigen::Index n = below->rock.interface();
+    return below->rock.response(frequency, below->stiffness_damping, Eigen::MatrixXd::Identity(n, n)).inverse();
+}
+
+/// Displacement of the crest's upstream end in x beyond the rigid motion that fits the base's nodes best.
+std::complex<double> deflection(const Model& model, const Eigen::VectorXcd& z)
+{
+    const int crest = model.mesh.crest.back();
+    const std::complex<double> of_crest = z[model.dofs(crest, 0)];
+    if (!model.mesh.has_rock()) return of_crest;
+    const std::vector<int>& base = model.mesh.contact.dam_nodes;
+    const auto n = static_cast<Eigen::Index>(base.size());
+    Eigen::MatrixXcd rigid = Eigen::MatrixXcd::Zero(2 * n, 3); // x, y, rotation from x to y about the crest
+    Eigen::VectorXcd motion(2 * n);
+    const Point about = model.mesh.nodes[static_cast<std::size_t>(crest)];
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const int node = base[static_cast<std::size_t>(i)];
+        const Point at = model.mesh.nodes[static_cast<std::size_t>(node)];
+        rigid(2 * i, 0) = rigid(2 * i + 1, 1) = 1.0;
+        rigid(2 * i, 2) = about.y - at.y;
+        rigid(2 * i + 1, 2) = at.x - about.x;
+        for (const int c : {0, 1}) motion[2 * i + c] = z[model.dofs(node, c)];
+    }
+    return of_crest - Eigen::VectorXcd(rigid.colPivHouseholderQr().solve(motion))[0];
+}
+
+} // namespace
+
+std::vector<TransferPoint> transfer_functions(const Model& model, const LinearSystem& structure,
+                                              const FluidModel* water, const std::vector<double>& frequencies,
+                                              const RockBelow* rock)
+{
+    const Eigen::Index n = structure.size();
     CoupledSystem system;
     if (water) {
         const SparseMatrix coupling =
             face_coupling(model.mesh, model.dofs, water->reservoir, water->dofs, water->unknowns());
-        system = couple(structure.system.mass, structure.system.damping, structure.system.stiffness,
-                        SparseMatrix(coupling.topRows(n)), *water);
+        system =
+            couple(structure.mass, structure.damping, structure.stiffness, SparseMatrix(coupling.topRows(n)), *water);
     } else {
-        system.mass = structure.system.mass;
-        system.damping = structure.system.damping;
-        system.stiffness = structure.system.stiffness;
+        system.mass = structure.mass;
+        system.damping = structure.damping;
+        system.stiffness = structure.stiffness;
         system.structure_unknowns = n;
         system.velocity_x = Eigen::VectorXd::Zero(n);
     }
-    HarmonicSolver solver(system.mass, system.damping, system.stiffness);
+    HarmonicSolver solver(system.mass, system.damping, system.stiffness,
+                          rock ? unknowns_of_base(model) : std::vector<Eigen::Index>());
     const int crest = model.dofs(model.mesh.crest.back(), 0);
     std::vector<TransferPoint> points;
     for (const double frequency : frequencies) {
@@ -33,12 +73,13 @@ std::vector<TransferPoint> transfer_functions(const Model& model, const Structur
         point.frequency = frequency;
         const double w = 2.0 * std::numbers::pi * frequency;
         const std::complex<double> rate(0.0, w);
-        point.regular = solver.factorise(w);
+        point.regular = solver.factorise(w, dynamic_stiffness(rock, w));
         if (point.regular) {
             Eigen::VectorXcd load = system.velocity_x.cast<std::complex<double>>() / rate;
             load.head(n) -= model.inertia_x.head(n);
             const Eigen::VectorXcd z = solver.solve(load);
             point.crest = 1.0 - w * w * z[crest];
+            point.deflection = -w * w * deflection(model, z);
             if (water)
                 point.water_force =
                     system.scale * rate *

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "fe2d/fluid/fluid_model.hpp"
-#include "fe2d/time/structure_system.hpp"
+#include "fe2d/model/model.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/time/linear_system.hpp"
 
 #include <complex>
 #include <vector>
@@ -13,14 +15,26 @@ struct TransferPoint {
     double frequency = 0.0;     ///< [Hz]
     std::complex<double> crest; ///< absolute acceleration of the crest's upstream end in x, per ground acceleration [-]
     std::complex<double>
+        deflection; ///< what of `crest` the dam's own deformation makes, beyond the ground's motion and
+                    ///< the rigid one of the base [-]; on a rigid base crest - 1
+    std::complex<double>
         water_force;     ///< on the dam in x, beyond the static one [N/m per m/s²]; 0 without acoustic water
     bool regular = true; ///< false: an undamped resonance, no value
 };
 
-/// @param structure    structure_system of the model
+/// Radiating rock below the dam: its dynamic stiffness, the inverse of ReducedRock::response(), stands on the unknowns of
+/// the base.
+struct RockBelow {
+    const ReducedRock& rock;        ///< rows as unknowns_of_base()
+    double stiffness_damping = 0.0; ///< b_K [s]
+};
+
+/// @param structure    of the model: structure_system(), or dam_on_free_base() where `rock` is below it
 /// @param water        acoustic water, or null; the model then has no added mass
 /// @param frequencies  > 0 [Hz]
-std::vector<TransferPoint> transfer_functions(const Model& model, const StructureSystem& structure,
-                                              const FluidModel* water, const std::vector<double>& frequencies);
+/// @param rock         radiating rock, or null: what the structure stands on is part of it
+std::vector<TransferPoint> transfer_functions(const Model& model, const LinearSystem& structure,
+                                              const FluidModel* water, const std::vector<double>& frequencies,
+                                              const RockBelow* rock = nullptr);
 
 } // namespace damslip::fe2d

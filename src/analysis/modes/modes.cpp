@@ -1,7 +1,10 @@
 #include "analysis/modes/modes.hpp"
 
+#include "core/cache_folder.hpp"
 #include "fe2d/damping/rayleigh.hpp"
+#include "fe2d/rock/rock_of_scene.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/water.hpp"
@@ -54,15 +57,33 @@ std::optional<DampingOfModes> damping_of_modes(const Scene& scene, double total_
     return d;
 }
 
-/// Damped by Rayleigh's constants, where the scene damps at all.
-std::vector<fe2d::TransferPoint> transfer_of(const ModesResult& m)
+/// On the rock of the scene, as in tied runs; damped by Rayleigh's constants, where the scene damps at all.
+void find_transfer(const Ready& ready, ModesResult& m)
 {
     fe2d::RayleighConstants damping{};
     if (m.damping && m.scene.damping.method != DampingMethod::none) damping = m.damping->rayleigh;
+    const fe2d::FluidModel* water = m.water ? &*m.water : nullptr;
     std::vector<double> frequencies;
     for (int k = 1; k <= 200; ++k) frequencies.push_back(0.1 * k);
-    return fe2d::transfer_functions(m.model, fe2d::structure_system(m.model, damping), m.water ? &*m.water : nullptr,
-                                    frequencies);
+    if (rock_radiates(m.scene)) {
+        const fe2d::Mesh& mesh = m.model.mesh;
+        m.radiating =
+            fe2d::radiating_rock_of(m.scene, mesh, mesh.contact.rock_nodes, ready.wave_frequency(), cache_folder());
+        const fe2d::RockBelow rock{m.radiating->rock, damping.stiffness};
+        m.transfer =
+            fe2d::transfer_functions(m.model, fe2d::dam_on_free_base(m.model, damping), water, frequencies, &rock);
+        return;
+    }
+    const auto on = [&](const fe2d::Model& model) {
+        return fe2d::transfer_functions(model, fe2d::structure_system(model, damping).system, water, frequencies);
+    };
+    if (!rock_is_boxed(m.scene)) {
+        m.transfer = on(m.model);
+        return;
+    }
+    fe2d::ModelOptions moving = ready.model_options();
+    if (rock_edges_are_viscous(m.scene)) moving.edges = fe2d::RockEdges::free;
+    m.transfer = on(fe2d::build_model(m.scene, moving));
 }
 
 } // namespace
@@ -102,7 +123,7 @@ ModesResult compute_modes(const Ready& ready, const ModesOptions& options)
         m.modes = fe2d::natural_modes(m.model, options.count);
     }
     m.damping = damping_of_modes(m.scene, total_mass, m.modes, ready.records());
-    if (options.transfer) m.transfer = transfer_of(m);
+    if (options.transfer) find_transfer(ready, m);
     return m;
 }
 

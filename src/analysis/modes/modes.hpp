@@ -7,6 +7,7 @@
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/transfer.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 
 /// What `modes` computes, as data; pages/modes shows it.
 namespace damslip {
@@ -23,19 +24,20 @@ struct DampingOfModes {
     std::vector<OfRecord> modified;
 };
 
-/// Modes of dam and rock on a tied base, with added mass or with acoustic water.
+/// Modes of dam and massless rock on a tied base, with added mass or with acoustic water.
 struct ModesResult {
     Scene scene;   ///< as the plan calls for it, reservoir.model and added_mass.period decided
     int count = 0; ///< modes asked for
     std::optional<ReservoirChoice> choice;
     std::optional<DamPeriod> period;
     fe2d::Model model;
-    std::optional<fe2d::FluidModel> water;     ///< acoustic
-    std::optional<fe2d::CoupledModes> coupled; ///< with acoustic water, up to coupled_modes_to
-    std::vector<Eigen::Index> leading;         ///< of the coupled ones those that move the dam
-    fe2d::NaturalModes modes;                  ///< without acoustic water; with it the leading ones, without shapes
-    std::optional<DampingOfModes> damping;     ///< none: no modes, or no damping
-    std::vector<fe2d::TransferPoint> transfer; ///< 0.1 ... 20 Hz; empty: not asked for
+    std::optional<fe2d::FluidModel> water;        ///< acoustic
+    std::optional<fe2d::CoupledModes> coupled;    ///< with acoustic water, up to coupled_modes_to
+    std::vector<Eigen::Index> leading;            ///< of the coupled ones those that move the dam
+    fe2d::NaturalModes modes;                     ///< without acoustic water; with it the leading ones, without shapes
+    std::optional<DampingOfModes> damping;        ///< none: no modes, or no damping
+    std::vector<fe2d::TransferPoint> transfer;    ///< 0.1 ... 20 Hz, on the rock of the scene; empty: not asked for
+    std::optional<fe2d::RadiatingRock> radiating; ///< of the transfer functions; none: other rock
 
     bool complete() const; ///< every mode that was asked for was found
 };
@@ -43,7 +45,7 @@ struct ModesResult {
 inline constexpr double coupled_modes_to = 20.0; ///< [Hz]
 
 struct ModesOptions {
-    int count = 10; ///< modes; with acoustic water all up to coupled_modes_to
+    int count = 10;        ///< modes; with acoustic water all up to coupled_modes_to
     bool transfer = false; ///< transfer functions, too
 };
 

@@ -122,6 +122,12 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
         notes.push_back(
             "foundation.mass = \"with-mass\": modes are those of the dam on massless rock, from which Rayleigh's "
             "constants come too; rock with mass has the modes of its box, or, where waves leave, none");
+    if (!m.transfer.empty() && rock_has_mass(m.scene)) notes.push_back("transfer functions: on " + rock_words(m.scene));
+    if (m.radiating && m.radiating->resolved < two_pi * m.transfer.back().frequency)
+        notes.push_back(
+            fmt::format("transfer functions above {:.3g} Hz are not resolved: there the reduced rock hardly "
+                        "radiates (foundation.wave_frequency_Hz)",
+                        m.radiating->resolved / two_pi));
     if (m.coupled && m.coupled->status != fe2d::CoupledModesStatus::ok)
         notes.push_back("not all coupled modes were found: " + m.coupled->solver.text());
     if (m.water) {
