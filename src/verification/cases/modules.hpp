@@ -31,5 +31,6 @@ void add_fe_sliding_cases(Registry& registry);
 void add_fe_joint_cases(Registry& registry);
 void add_fe_rock_cases(Registry& registry);
 void add_fe_radiating_cases(Registry& registry);
+void add_fe_radiating_tied_cases(Registry& registry);
 
 } // namespace damslip::verification

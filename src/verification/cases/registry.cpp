@@ -47,6 +47,7 @@ Registry all_cases()
     add_fe_joint_cases(registry);
     add_fe_rock_cases(registry);
     add_fe_radiating_cases(registry);
+    add_fe_radiating_tied_cases(registry);
     add_fe_wave_contact_cases(registry);
     add_fe_sliding_cases(registry);
     add_fe_pairing_cases(registry);
