@@ -41,7 +41,7 @@ TEST(RockMassInput, ViscousEdgesNeedMassAndALevelBase)
         rock_message(massless + viscous),
         "dam.toml:9:1: error: foundation.boundary = \"viscous\" with foundation.mass = \"massless\": no waves travel "
         "there.\n"
-        "  expected: mass = \"with-mass\" for viscous edges, boundary = \"fixed\" for massless rock\n"
+        "  expected: mass = \"with-mass\" for viscous edges, no boundary for massless rock\n"
         "  fix:      write  mass = \"with-mass\"  in [foundation], or delete boundary");
     EXPECT_EQ(rock_message(heavy + viscous), "(accepted)");
     EXPECT_EQ(rock_message(heavy + viscous, "", "45, -3"),
