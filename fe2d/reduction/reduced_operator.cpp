@@ -28,8 +28,8 @@ void ReducedSystem::add_rock(const ReducedRock& rock)
 {
     const Index dam = modes.count(), all = dam + rock.count();
     const auto longer = [&](VectorXd& vector) { vector.conservativeResizeLike(VectorXd::Zero(all)); };
-    for (VectorXd* vector : {&modes.omega2, &modes.crest, &modes.ground_x, &modes.ground_y, &modes.dam_x,
-                             &modes.dam_y, &modes.momentum})
+    for (VectorXd* vector :
+         {&modes.omega2, &modes.crest, &modes.ground_x, &modes.ground_y, &modes.dam_x, &modes.dam_y, &modes.momentum})
         longer(*vector);
     modes.omega2.tail(rock.count()) = rock.stiffness;
     modes.on_plane.conservativeResize(Eigen::NoChange, all);

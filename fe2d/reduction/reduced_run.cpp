@@ -96,10 +96,8 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     system_ = std::make_unique<ReducedSystem>(system_of(reference.first(kept)));
     if (!all) {
         coarse_system_ = std::make_unique<ReducedSystem>(coarse_.coarsened(*system_));
-        coarse_fewer_ = std::make_unique<ReducedSystem>(
-            coarse_.coarsened(system_of(reference.first(3 + wanted / 2))));
-        coarse_reference_ = std::make_unique<ReducedSystem>(
-            coarse_.coarsened(system_of(std::move(reference))));
+        coarse_fewer_ = std::make_unique<ReducedSystem>(coarse_.coarsened(system_of(reference.first(3 + wanted / 2))));
+        coarse_reference_ = std::make_unique<ReducedSystem>(coarse_.coarsened(system_of(std::move(reference))));
     }
     seconds_ = start.seconds();
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr double ratio = 1.25;       ///< of neighbouring bands
 constexpr double grid = 0x1p30;      ///< positions on it, per base length
 constexpr double reference = 3.8147; ///< a_max of the default box, 1.25^6
-constexpr const char* version = "1"; ///< to be raised with everything that changes what a reduction is
+constexpr const char* version = "2"; ///< to be raised with everything that changes what a reduction is
 
 /// E = ρ = B = 1, origin at mid-base.
 WaveBoxInput dimensionless(const RadiatingRockInput& input, double length)

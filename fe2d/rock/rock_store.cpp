@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view mark = "damslip rock 1\n";
 constexpr const char* ending = ".rock";
-constexpr std::size_t checksum = 64;         ///< characters of a SHA-256
+constexpr std::size_t checksum = 64;             ///< characters of a SHA-256
 constexpr std::uint64_t most_numbers = 1u << 20; ///< rows or columns that are believed
 static_assert(std::endian::native == std::endian::little, "the bytes of numbers are kept as they are in memory");
 

@@ -146,7 +146,7 @@ private:
         for (int i = left_; i <= right_; ++i) all.push_back(i);
         for (int j = 0; j + 1 < rows(); ++j) {
             const double height = depth_[static_cast<std::size_t>(j + 1)] - depth_[static_cast<std::size_t>(j)];
-            all = thinned(all, x_, height);
+            if (j > 0) all = thinned(all, x_, height); // nodes of the interface hang from none, however close they are
             of_band_.push_back(all);
         }
         all.clear();

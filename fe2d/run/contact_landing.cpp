@@ -49,8 +49,8 @@ ContactLanding::Change ContactLanding::change_by(StepRock::Jump of, const Contac
 }
 
 std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, JointSolver& solver,
-                                                  const ContactStates& before, const ContactLaw& law,
-                                                  StepRock& rock, StepDam& dam, StepState& state) const
+                                                  const ContactStates& before, const ContactLaw& law, StepRock& rock,
+                                                  StepDam& dam, StepState& state) const
 {
     ContactStates& states = state.contact.states;
     if (!solver.lands(before, states)) return std::nullopt;

@@ -32,8 +32,8 @@ private:
     Change change_by(StepRock::Jump of, const ContactSolution& jumps, const DynamicOperator& op, StepRock& rock) const;
     Eigen::VectorXd gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock_values,
                                const Eigen::VectorXd& tangential, const StepRock& rock) const;
-    void settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock,
-                StepDam& dam, StepState& state, LandingForces& forces) const;
+    void settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock, StepDam& dam,
+                StepState& state, LandingForces& forces) const;
 
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;

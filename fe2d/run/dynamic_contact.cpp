@@ -49,8 +49,8 @@ DynamicContact::DynamicContact(std::shared_ptr<StepOperators> operators, const S
                                const StaticState& start, const ContactMemory& memory, const Contact& joint,
                                const ContactOptions& options)
     : operators_(std::move(operators)), state_(at_rest(structure(), start, memory)),
-      dam_(*operators_, load.dam, state_), rock_(*operators_, load, state_),
-      stepper_(*operators_, joint, options), landing_(*operators_), ledger_(*operators_, joint, state_, dam_, rock_),
+      dam_(*operators_, load.dam, state_), rock_(*operators_, load, state_), stepper_(*operators_, joint, options),
+      landing_(*operators_), ledger_(*operators_, joint, state_, dam_, rock_),
       normal_force_(memory.force.head(structure().plane().pairs()).sum()),
       largest_slips_(structure().planes(), memory.slip)
 {

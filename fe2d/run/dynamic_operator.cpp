@@ -150,13 +150,11 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
 
 std::size_t DynamicOperator::bytes() const
 {
-    const std::size_t rock = rock_step_ ? static_cast<std::size_t>(rock_step_->inverse().size() +
-                                                                   rock_step_->modal_pull().size() +
-                                                                   rock_step_->compliance().size() +
-                                                                   rock_step_->rock().modes.size() +
-                                                                   rock_step_->rock().damping.size() +
-                                                                   rock_step_->rock().residual.size())
-                                        : 0;
+    const std::size_t rock =
+        rock_step_ ? static_cast<std::size_t>(rock_step_->inverse().size() + rock_step_->modal_pull().size() +
+                                              rock_step_->compliance().size() + rock_step_->rock().modes.size() +
+                                              rock_step_->rock().damping.size() + rock_step_->rock().residual.size())
+                   : 0;
     return factor_.bytes() + sizeof(double) * rock +
            sizeof(double) *
                static_cast<std::size_t>(interface_flexibility_.size() + pull_.size() + dam_flexibility_.size() +

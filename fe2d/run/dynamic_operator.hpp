@@ -61,7 +61,10 @@ public:
     const StepConstants& constants() const { return constants_; }
     const InterfaceFactor& factor() const { return factor_; }
     double rock_share() const { return rock_share_; } ///< W_r K_c of massless rock [-]
-    const RockStep* rock_step() const { return rock_step_ ? &*rock_step_ : nullptr; } ///< null: the rock does not radiate
+    const RockStep* rock_step() const
+    {
+        return rock_step_ ? &*rock_step_ : nullptr;
+    } ///< null: the rock does not radiate
 
     /// The contact problem before the dam has slid; the only one where it does not slide far.
     const StepContact& contact() const { return contact_; }

@@ -125,8 +125,7 @@ EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(sc
         if (explicit_steps)
             explicit_ = explicit_operators();
         else
-            operators_ =
-                std::make_shared<StepOperators>(in_motion(), damping_, scheme_of(scene_.time), let_radiate());
+            operators_ = std::make_shared<StepOperators>(in_motion(), damping_, scheme_of(scene_.time), let_radiate());
     }
     seconds_ = start.seconds();
 }

@@ -31,9 +31,9 @@ struct RunOptions {
     std::optional<RayleighConstants> damping; ///< in place of the scene's
     double wave_frequency = 25.0;     ///< up to which waves in radiating rock are right, where the scene has none [Hz]
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
-    int largest_halvings = 5;                 ///< of sub-steps that are chosen
-    double smallest_slip = 1e-6;              ///< errors below time.slip_tolerance of this do not matter [m]
-    double rest_time = 0.5;                   ///< the run-out ends when the dam has not slid for this long [s]
+    int largest_halvings = 5;         ///< of sub-steps that are chosen
+    double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
+    double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
     ContactOptions contact;
     PairSeries pair_series = PairSeries::none;
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
@@ -110,10 +110,13 @@ public:
     const ContactStructure& structure() const { return *structure_; }
     const LoadStages& stages() const { return stages_; } ///< static loads before the earthquake
     const RayleighConstants& damping() const { return damping_.constants; }
-    const RadiatingRock* radiating() const { return radiating_.get(); } ///< rows (x, y) by node; null: other rock, or none
+    const RadiatingRock* radiating() const
+    {
+        return radiating_.get();
+    } ///< rows (x, y) by node; null: other rock, or none
     /// The same with rows as the base's plane has them, as the steps take it.
     const ReducedRock* radiating_on_base() const { return operators_ ? operators_->radiating() : nullptr; }
-    double seconds() const { return seconds_; }                                ///< that making it ready took
+    double seconds() const { return seconds_; } ///< that making it ready took
     /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
     double window() const;
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far

@@ -14,8 +14,9 @@ constexpr double update_share = 0.01; ///< slip after which P is made anew, of t
 } // namespace
 
 StepRock::StepRock(const StepOperators& operators, const SplitLoad& load, const DynamicState& start)
-    : structure_(operators.structure()), stiffness_damping_(operators.damping().constants.stiffness),
-      surface_{{}, load.rock, load.joint}, trace_(structure_.trace(0.0))
+    : structure_(operators.structure()),
+      stiffness_damping_(operators.damping().constants.stiffness), surface_{{}, load.rock, load.joint},
+      trace_(structure_.trace(0.0))
 {
     rest_ = force_ = force_before_ = VectorXd::Zero(2 * structure_.rock_nodes());
     if (operators.radiating()) {

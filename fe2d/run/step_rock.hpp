@@ -51,7 +51,7 @@ public:
     void instant(const DynamicState& state, BodyInstant& now) const;
     double strain(const DynamicState& state) const;                           ///< [J/m]
     Eigen::VectorXd stiffness_step() const { return force_ - force_before_; } ///< K_c Δr [N/m]
-    const Eigen::VectorXd& load() const { return load_; }                     ///< f_r; since rest, of radiating rock [N/m]
+    const Eigen::VectorXd& load() const { return load_; } ///< f_r; since rest, of radiating rock [N/m]
     RockEnergy energy() const { return motion_ ? motion_->energy() : RockEnergy(); } ///< of radiating rock
 
 private:
@@ -59,10 +59,10 @@ private:
     Eigen::VectorXd opposite(const DynamicOperator::Free& dam, const Eigen::VectorXd& gap) const;
 
     const ContactStructure& structure_;
-    double stiffness_damping_; ///< b_K [s]
+    double stiffness_damping_;         ///< b_K [s]
     std::optional<RockMotion> motion_; ///< of radiating rock
     Eigen::VectorXd held_;             ///< K_c r at rest, which radiating rock bears all the time [N/m]
-    SplitLoad surface_;        ///< `rock` and `joint` of the static load
+    SplitLoad surface_;                ///< `rock` and `joint` of the static load
     Pairing::Matrix trace_;
     double trace_slip_ = 0.0; ///< slip it was made for [m]
     int place_ = 0;

@@ -33,13 +33,13 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     need_section(given, "damslip explain --ablate", "damslip explain SCENE gives the effects of the wedge");
     if (method == Method::finite_elements) say_base(given, streams);
     check_records(given, method);
-    const Ready ready = prepare(given, method, {.stop = streams.stop}); // the water is chosen once: no removal changes it
+    const Ready ready =
+        prepare(given, method, {.stop = streams.stop}); // the water is chosen once: no removal changes it
     const AblationPlan plan = make_ablations(ready.given, method, seepage_points(ready.given));
 
     TerminalWatch watch(streams);
     const AblationRuns runs = run_ablations(plan, ready.pairs, arguments.jobs, watch);
-    const Ablations ablations{plan, ready.records(), runs,
-                              ready.reservoir ? ready.reservoir->reason : std::string()};
+    const Ablations ablations{plan, ready.records(), runs, ready.reservoir ? ready.reservoir->reason : std::string()};
     streams.out << (streams.form == Form::json ? ablation_json(ablations, given, ready.plan).dump(2) + "\n"
                                                : ablation_text(ablations, ready.plan));
     if (!arguments.report.empty()) {

@@ -1,6 +1,5 @@
 #include "cli/fe_command.hpp"
 
-
 #include <fmt/format.h>
 #include <ostream>
 

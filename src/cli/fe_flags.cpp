@@ -21,9 +21,10 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->capture_default_str();
     sub.add_flag("!--no-mesh-error", a.mesh_error,
                  "leave out the run on elements of twice the size that tells what the mesh leaves open of the slip");
-    sub.add_flag("--spread", a.spread,
-                 "run the worst record on massless rock (or radiating, where the scene's has no mass) and with added mass in "
-                 "place of acoustic water, too: how far the models lie apart");
+    sub.add_flag(
+        "--spread", a.spread,
+        "run the worst record on massless rock (or radiating, where the scene's has no mass) and with added mass in "
+        "place of acoustic water, too: how far the models lie apart");
     CLI::Option* reduced =
         sub.add_flag("--reduced", a.reduced, "earthquake on few modes of the dam; slip with an error estimate")
             ->group("Reduced run");

@@ -46,7 +46,8 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list(
         "--method", a.method,
         "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
-        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-radiating, fe-massless, fe-reduced, and regressions by "
+        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-radiating, fe-massless, "
+        "fe-reduced, and regressions by "
         "id such as "
         "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));

@@ -25,7 +25,8 @@ void check_rock(const Scene& s, Findings& f)
 {
     if (!s.foundation) return;
     if (!rock_has_mass(s)) {
-        if (s.foundation->boundary == RockBoundary::viscous) // absorbing is the default, which massless rock leaves aside
+        if (s.foundation->boundary ==
+            RockBoundary::viscous) // absorbing is the default, which massless rock leaves aside
             f.wrong("foundation.boundary",
                     "foundation.boundary = \"viscous\" with foundation.mass = \"massless\": no waves travel there.",
                     "mass = \"with-mass\" for viscous edges, no boundary for massless rock",

@@ -198,18 +198,20 @@ std::vector<KeyGroup> base_groups()
                 [](void* o) -> Slot { return &static_cast<Foundation*>(o)->material.poisson_ratio; }),
          rock_density,
          word("mass", "with-mass",
-              "`with-mass`: the rock has inertia in FE runs and waves travel through it; `massless`: it only gives way and "
+              "`with-mass`: the rock has inertia in FE runs and waves travel through it; `massless`: it only gives way "
+              "and "
               "keeps all waves",
               "massless",
               choice(&Foundation::mass, {{"massless", RockMass::massless}, {"with-mass", RockMass::with_mass}})),
-         word("boundary", "absorbing",
-              "edges of rock with mass: `fixed` normal to themselves, the record moves the box, waves come back; "
-              "`viscous` dashpots, the record is the free surface's motion without the dam; `absorbing` the same, waves "
-              "leave a box of its own that is reduced to the base",
-              "viscous",
-              choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed},
-                                             {"viscous", RockBoundary::viscous},
-                                             {"absorbing", RockBoundary::absorbing}})),
+         word(
+             "boundary", "absorbing",
+             "edges of rock with mass: `fixed` normal to themselves, the record moves the box, waves come back; "
+             "`viscous` dashpots, the record is the free surface's motion without the dam; `absorbing` the same, waves "
+             "leave a box of its own that is reduced to the base",
+             "viscous",
+             choice(&Foundation::boundary, {{"fixed", RockBoundary::fixed},
+                                            {"viscous", RockBoundary::viscous},
+                                            {"absorbing", RockBoundary::absorbing}})),
          number("wave_box", none, Range::between(0.2, 5), "1",
                 "size of the box in which waves travel, over the automatic one (absorbing)", "1.4",
                 at(&Foundation::wave_box)),

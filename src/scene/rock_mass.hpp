@@ -10,7 +10,7 @@ namespace damslip {
 enum class RockKind {
     rigid,    ///< no [foundation]
     massless, ///< gives way and keeps all waves
-    boxed,    ///< with mass, in the rock box of the statics: all its unknowns stay in every step; fixed or viscous edges
+    boxed, ///< with mass, in the rock box of the statics: all its unknowns stay in every step; fixed or viscous edges
     radiating ///< with mass, waves leave: reduced to the base from a box of its own (fe2d/rock)
 };
 

@@ -38,15 +38,15 @@ enum class RockBoundary { fixed, viscous, absorbing };
 
 /// Flexible rock below the dam; without it the FE base is rigid.
 struct Foundation {
-    Material material;                           ///< its density is inertia only where `mass` says so
+    Material material;                               ///< its density is inertia only where `mass` says so
     RockMass mass = RockMass::with_mass;             ///< FE runs
     RockBoundary boundary = RockBoundary::absorbing; ///< of rock with mass; statics always stand on fixed edges
-    double width = 0.0;                          ///< of the box, centred on the base [m]
-    double depth = 0.0;                          ///< below the heel [m]
-    double permeability = 1e-4;                  ///< hydraulic conductivity [m/s]
+    double width = 0.0;                              ///< of the box, centred on the base [m]
+    double depth = 0.0;                              ///< below the heel [m]
+    double permeability = 1e-4;                      ///< hydraulic conductivity [m/s]
 
     // Of the box in which waves travel, with absorbing edges.
-    double wave_box = 1.0;                ///< its size over the automatic one [-]
+    double wave_box = 1.0;                     ///< its size over the automatic one [-]
     std::optional<double> wave_frequency = {}; ///< up to which waves are right [Hz]; default: by the records
 };
 

@@ -14,7 +14,8 @@ inline const std::vector<double> sizes{1.0, 2.0};
 
 inline constexpr const char* block_water = "westergaard-simplified"; ///< of the source's rigid block, (3-4)
 inline constexpr const char* source_method = "fe-goldgruber-2015";   ///< with the settings of the source
-inline constexpr const char* radiating_method = "fe-radiating";      ///< rock that radiates, beside the source's massless one
+inline constexpr const char* radiating_method =
+    "fe-radiating"; ///< rock that radiates, beside the source's massless one
 } // namespace chapter_4
 
 /// Where in the grid.

@@ -187,12 +187,13 @@ void rock_case(double friction, double rock_size)
                            Row{RockBoundary::absorbing, "cold", {}}, Row{RockBoundary::absorbing, "warm", cache}}) {
         scene.foundation->boundary = row.boundary;
         const Measured mass = measure(scene, motion, row.cache);
-        std::printf("%-22s %5.2f %5.1f %8s %6d %6d | %8.3f %8.3f | %8.3f %8.3f | %5.2f %5.2f | %5.2f | %9.2f mm %9.2f mm\n",
-                    "7000 unknowns", friction, rock_size, row.name, massless.moving_unknowns, mass.moving_unknowns,
-                    massless.set_up, massless.run, mass.set_up, mass.run, mass.run / massless.run,
-                    (mass.set_up + mass.run) / (massless.set_up + massless.run),
-                    static_cast<double>(mass.result.bytes) / static_cast<double>(massless.result.bytes),
-                    1e3 * massless.result.slip, 1e3 * mass.result.slip);
+        std::printf(
+            "%-22s %5.2f %5.1f %8s %6d %6d | %8.3f %8.3f | %8.3f %8.3f | %5.2f %5.2f | %5.2f | %9.2f mm %9.2f mm\n",
+            "7000 unknowns", friction, rock_size, row.name, massless.moving_unknowns, mass.moving_unknowns,
+            massless.set_up, massless.run, mass.set_up, mass.run, mass.run / massless.run,
+            (mass.set_up + mass.run) / (massless.set_up + massless.run),
+            static_cast<double>(mass.result.bytes) / static_cast<double>(massless.result.bytes),
+            1e3 * massless.result.slip, 1e3 * mass.result.slip);
     }
     std::filesystem::remove_all(cache);
 }

@@ -156,7 +156,7 @@ TEST(FeMovingBase, TransferFunctionsOfTheCommandAreOnTheRockOfTheScene)
         const std::string table{std::istreambuf_iterator<char>(file), {}};
         return std::pair{table.substr(table.find("\n0.1")), a.out};
     };
-    const auto massless = transfer(""), radiating = transfer("mass = \"with-mass\"\nboundary = \"absorbing\"\n"),
+    const auto massless = transfer("mass = \"massless\"\n"), radiating = transfer("mass = \"with-mass\"\nboundary = \"absorbing\"\n"),
                viscous = transfer("mass = \"with-mass\"\nboundary = \"viscous\"\n"),
                fixed = transfer("mass = \"with-mass\"\nboundary = \"fixed\"\n");
     EXPECT_NE(massless.first, radiating.first);

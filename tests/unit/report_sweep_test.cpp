@@ -132,7 +132,8 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
     // FE slips above 45 mm: only at μ = 0.8 and the higher level, where the three records give 51, 52 and 53 mm.
     EXPECT_NE(page.headline.sentence.find("3 of 24 slips by fe exceed the allowable 45 mm"), std::string::npos)
         << page.headline.sentence;
-    const std::string rigid_base = "rigid base: no wave leaves; an elastic dam may walk on it by itself."; // first of all
+    const std::string rigid_base =
+        "rigid base: no wave leaves; an elastic dam may walk on it by itself."; // first of all
     EXPECT_EQ(page.warnings, std::vector<std::string>{rigid_base});
 
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "verification/exact/half_plane.hpp"
-#include "verification/exact/strip_loads.hpp"
 #include "fe2d/model/edge_dashpots.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
+#include "verification/exact/half_plane.hpp"
+#include "verification/exact/strip_loads.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -47,7 +47,8 @@ Records record_of(const Ready& ready, const ContactRun& worst)
 
 ModelChoice run_other(const Other& other, const Ready& ready, const ContactRun& worst, Watch& watch)
 {
-    const Ready changed = prepare(other.scene, Method::finite_elements, record_of(ready, worst), {.stop = watch.stop()});
+    const Ready changed =
+        prepare(other.scene, Method::finite_elements, record_of(ready, worst), {.stop = watch.stop()});
     FeOptions options;
     options.polarity = worst.polarity * other.scene.motion.polarity.value_or(1);
     options.mesh_error = false;

@@ -9,10 +9,10 @@ namespace damslip {
 
 /// The worst run of a scene with one other choice of the model.
 struct ModelChoice {
-    std::string what;        ///< "massless rock", "added mass", "other polarity"
-    bool run = false;        ///< false: nobody asked for it
+    std::string what; ///< "massless rock", "added mass", "other polarity"
+    bool run = false; ///< false: nobody asked for it
     Status status = Status::not_resolved;
-    double max_slip = 0.0;   ///< [m], where the status has one
+    double max_slip = 0.0; ///< [m], where the status has one
 };
 
 /// How far choices of the model lie from the printed slip: massless rock for rock that radiates or the other way round, added

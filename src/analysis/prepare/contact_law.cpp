@@ -30,9 +30,10 @@ std::optional<std::string> base_note(const Scene& scene)
     case RockKind::rigid:
         return "rigid base: no wave leaves; an elastic dam may walk on it by itself";
     case RockKind::massless:
-        return fmt::format("massless rock keeps all waves: slips come out too large, often by half and more;  damslip fe "
-                           "{} --rock radiating  lets them leave",
-                           scene.file.empty() ? "SCENE" : scene.file.string());
+        return fmt::format(
+            "massless rock keeps all waves: slips come out too large, often by half and more;  damslip fe "
+            "{} --rock radiating  lets them leave",
+            scene.file.empty() ? "SCENE" : scene.file.string());
     case RockKind::boxed:
     case RockKind::radiating:
         break;

@@ -59,8 +59,7 @@ double Ready::wave_frequency() const
     for (const RecordPair& pair : records()) {
         const GroundMotion shaking = motion(pair);
         for (const std::vector<double>* accel : {&shaking.accel_h, &shaking.accel_v})
-            if (!accel->empty())
-                highest = std::max(highest, records::frequency_below(*accel, shaking.dt, share));
+            if (!accel->empty()) highest = std::max(highest, records::frequency_below(*accel, shaking.dt, share));
     }
     return highest;
 }

@@ -10,7 +10,11 @@ namespace damslip {
 std::optional<Diagnostic> why_not_reducible(const Scene& scene)
 {
     const auto not_with = [&scene](const std::string& what, const char* expected, const std::string& otherwise) {
-        return Diagnostic{scene.file.string(), 0, 0, "--reduced with " + what + ".", expected,
+        return Diagnostic{scene.file.string(),
+                          0,
+                          0,
+                          "--reduced with " + what + ".",
+                          expected,
                           "run without --reduced, or " + otherwise};
     };
     if (scene.contact.sliding == JointPath::finite)
@@ -31,9 +35,10 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
                         "implicitly",
                         "delete scheme in [time]");
     if (rock_is_boxed(scene))
-        return not_with(fmt::format("foundation.boundary = \"{}\"", rock_edges_are_viscous(scene) ? "viscous" : "fixed"),
-                        "boundary = \"absorbing\", rock that is reduced to the base as the dam is, or massless rock",
-                        "write  boundary = \"absorbing\"  in [foundation]");
+        return not_with(
+            fmt::format("foundation.boundary = \"{}\"", rock_edges_are_viscous(scene) ? "viscous" : "fixed"),
+            "boundary = \"absorbing\", rock that is reduced to the base as the dam is, or massless rock",
+            "write  boundary = \"absorbing\"  in [foundation]");
     if (scene.time.stepping == Stepping::adaptive)
         return not_with("time.stepping = \"adaptive\"",
                         "stepping = \"uniform\", sub-steps of a reduced run are all alike",

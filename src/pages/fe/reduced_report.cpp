@@ -142,7 +142,8 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
     answer.json["run_out"] = json_of(run_out);
     Table shown = table;
     write_walked_slips(shown);
-    answer.text += "  " + rock_line(in.scene, in.full) + "\n\n" + texts({stages, shown, run_out}) + "\n" + headline_text(headline);
+    answer.text +=
+        "  " + rock_line(in.scene, in.full) + "\n\n" + texts({stages, shown, run_out}) + "\n" + headline_text(headline);
     end_fe_answer(in.messages, answer);
     return answer;
 }

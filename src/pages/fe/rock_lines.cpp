@@ -82,9 +82,10 @@ std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::Eart
     if (!rock) return messages;
     const fe2d::ReductionReport& report = rock->rock.report;
     if (!report.passed())
-        messages.push_back(fmt::format("radiating rock: its reduction errs by {:.2g} % at a frequency in between, {:.2g} % "
-                                       "are wanted; a smaller foundation.wave_frequency_Hz needs fewer modes",
-                                       100.0 * report.error, 100.0 * report.wanted));
+        messages.push_back(
+            fmt::format("radiating rock: its reduction errs by {:.2g} % at a frequency in between, {:.2g} % "
+                        "are wanted; a smaller foundation.wave_frequency_Hz needs fewer modes",
+                        100.0 * report.error, 100.0 * report.wanted));
     if (const double angle = base_inclination(scene.section); angle != 0.0) {
         const double drop = std::abs(toe(scene.section).y - heel(scene.section).y), strong = 5.0;
         const Material& material = scene.foundation->material;

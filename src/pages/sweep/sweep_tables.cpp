@@ -148,8 +148,7 @@ nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const T
     auto j = json_header("sweep", given);
     j["rows"] = json_of(rows);
     std::vector<std::string> notes;
-    if (const std::optional<std::string> note = base_note(given); note && outcome.fe)
-        notes.push_back(*note + ".");
+    if (const std::optional<std::string> note = base_note(given); note && outcome.fe) notes.push_back(*note + ".");
     for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
     j["notes"] = notes;
     if (outcome.fe) {

@@ -162,9 +162,9 @@ std::vector<Check> reduced_beside_whole_rock()
         double imbalance = 0.0;
     };
     const auto run = [&](const fe2d::ReducedRock& rock) {
-        fe2d::DynamicContact dynamics =
-            dam.dynamics(fe2d::hht(-0.05), std::make_shared<const fe2d::ReducedRock>(
-                                               rock.on_plane(dam.plane().normal, dam.plane().tangent)));
+        fe2d::DynamicContact dynamics = dam.dynamics(
+            fe2d::hht(-0.05),
+            std::make_shared<const fe2d::ReducedRock>(rock.on_plane(dam.plane().normal, dam.plane().tangent)));
         const auto steps = static_cast<Index>(motion.accel_h.size());
         Run result{VectorXd::Zero(steps), VectorXd::Zero(steps)};
         const VectorXd weights = dam.weights(), start = dynamics.state().contact.slip;
@@ -211,14 +211,13 @@ std::vector<Check> with_everything()
         change(scene);
         return slide(scene, motion);
     };
-    const Slide far = variant([](Scene& s) { s.contact.sliding = JointPath::finite; }),
-                unequal = variant([](Scene& s) { s.mesh.rock_contact_size = 1.7; }),
-                tight_lift = variant([](Scene& s) {
-                    LiftJoint lift;
-                    lift.elevation = 30.0;
-                    lift.strength.friction = 5.0;
-                    s.lift_joints = {lift};
-                });
+    const Slide far = variant([](Scene&s) { s.contact.sliding = JointPath::finite; }),
+                unequal = variant([](Scene&s) { s.mesh.rock_contact_size = 1.7; }), tight_lift = variant([](Scene&s) {
+                                                                                        LiftJoint lift;
+                                                                                        lift.elevation = 30.0;
+                                                                                        lift.strength.friction = 5.0;
+                                                                                        s.lift_joints = {lift};
+                                                                                    });
     Scene acoustic = usual();
     acoustic.reservoir->model = ReservoirModel::acoustic;
     const Slide beside_water = slide(acoustic, motion);
@@ -228,17 +227,16 @@ std::vector<Check> with_everything()
     const fe2d::RunOptions options = fe2d::test::options_of(few);
     const fe2d::EarthquakeRun full(few, options);
     const fe2d::ReducedResult reduced = fe2d::ReducedRun(full, few, options, 60).run(motion);
-    return {{"finite sliding: slip beside that of small sliding", "m", plain.slip, far.slip, 0.02, Measure::relative},
-            {"unequal sides: slip beside that of equal ones", "m", plain.slip, unequal.slip, 0.03, Measure::relative},
-            {"lift joint that holds: slip beside that without", "m", plain.slip, tight_lift.slip, 0.03,
-             Measure::relative},
-            {"acoustic water: slip", "m", 0.0, beside_water.slip, 0.0, Measure::lower_bound},
-            {"60 modes of the dam: slip beside that of all", "m", plain.slip, reduced.slip, 0.03, Measure::relative},
-            {"finite sliding: energy that does not close", "-", 1e-10, far.imbalance, 0.0, Measure::upper_bound},
-            {"unequal sides: energy that does not close", "-", 1e-10, unequal.imbalance, 0.0, Measure::upper_bound},
-            {"lift joint: energy that does not close", "-", 1e-10, tight_lift.imbalance, 0.0, Measure::upper_bound},
-            {"acoustic water: energy that does not close", "-", 1e-10, beside_water.imbalance, 0.0,
-             Measure::upper_bound}};
+    return {
+        {"finite sliding: slip beside that of small sliding", "m", plain.slip, far.slip, 0.02, Measure::relative},
+        {"unequal sides: slip beside that of equal ones", "m", plain.slip, unequal.slip, 0.03, Measure::relative},
+        {"lift joint that holds: slip beside that without", "m", plain.slip, tight_lift.slip, 0.03, Measure::relative},
+        {"acoustic water: slip", "m", 0.0, beside_water.slip, 0.0, Measure::lower_bound},
+        {"60 modes of the dam: slip beside that of all", "m", plain.slip, reduced.slip, 0.03, Measure::relative},
+        {"finite sliding: energy that does not close", "-", 1e-10, far.imbalance, 0.0, Measure::upper_bound},
+        {"unequal sides: energy that does not close", "-", 1e-10, unequal.imbalance, 0.0, Measure::upper_bound},
+        {"lift joint: energy that does not close", "-", 1e-10, tight_lift.imbalance, 0.0, Measure::upper_bound},
+        {"acoustic water: energy that does not close", "-", 1e-10, beside_water.imbalance, 0.0, Measure::upper_bound}};
 }
 
 } // namespace
@@ -254,26 +252,26 @@ void add_fe_radiating_cases(Registry& registry)
          strip_beside_half_plane});
     registry.push_back({"fe2d.radiating.size-of-the-box",
                         "The reference dam slides the same in boxes of waves 0.7 and 1.4 times the automatic one.",
-                        "boxes of another size", "2 %: what the sponge sends back",
-                        size_of_the_wave_box});
-    registry.push_back(
-        {"fe2d.radiating.large-box",
-         "It slides as on all unknowns of a box of 1200 m x 400 m with dashpots on its edges.",
-         "another box, other edges, another formulation of the step (fe2d.rock)",
-         "such a box errs by 3 to 12 % in its flexibility at 2 ... 20 Hz, and its statics are those of another box, which "
-         "move the slip by 2 %: 5 %; the energy that leaves, larger where more is shaken, 10 %",
-         beside_a_large_box});
-    registry.push_back(
-        {"fe2d.radiating.reduction",
-         "A dam slides on reduced rock as on all modes of the same box, and the energy of both closes.",
-         "all modes of the box: no reduction", "the gate of the reduction's flexibility is 2 %: 0.5 % of slip and crest",
-         reduced_beside_whole_rock});
+                        "boxes of another size", "2 %: what the sponge sends back", size_of_the_wave_box});
+    registry.push_back({"fe2d.radiating.large-box",
+                        "It slides as on all unknowns of a box of 1200 m x 400 m with dashpots on its edges.",
+                        "another box, other edges, another formulation of the step (fe2d.rock)",
+                        "such a box errs by 3 to 12 % in its flexibility at 2 ... 20 Hz, and its statics are those of "
+                        "another box, which "
+                        "move the slip by 2 %: 5 %; the energy that leaves, larger where more is shaken, 10 %",
+                        beside_a_large_box});
+    registry.push_back({"fe2d.radiating.reduction",
+                        "A dam slides on reduced rock as on all modes of the same box, and the energy of both closes.",
+                        "all modes of the box: no reduction",
+                        "the gate of the reduction's flexibility is 2 %: 0.5 % of slip and crest",
+                        reduced_beside_whole_rock});
     registry.push_back({"fe2d.radiating.ground-at-rest", "With a record of zeros nothing moves on radiating rock.",
                         "the static state is the origin of the rock's motion",
                         "round-off of displacements of some cm over 500 steps", ground_at_rest});
     registry.push_back(
         {"fe2d.radiating.everywhere",
-         "Radiating rock goes along with finite sliding, unequal sides, lift joints, acoustic water and few modes of the "
+         "Radiating rock goes along with finite sliding, unequal sides, lift joints, acoustic water and few modes of "
+         "the "
          "dam.",
          "the same dam with small sliding, equal sides, no joint, all modes",
          "slips of centimetres follow the surface of the rock: 2 %; another spacing of the rock's nodes 3 %; a joint "
