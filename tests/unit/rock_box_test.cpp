@@ -1,4 +1,6 @@
 #include "fe2d/rock/frequency_solver.hpp"
+#include "fe2d/rock/rock_of_scene.hpp"
+#include "fe_scenes.hpp"
 #include "rock_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -152,6 +154,28 @@ TEST(WaveBox, AnswersForSoftAndStiffRock)
             EXPECT_LT(std::abs(u(1, 1) / plane.vertical(w) - 1.0), gate) << modulus << " Pa, " << hertz << " Hz";
         }
     }
+}
+
+// Soft rock below a wide dam would ask for a box of a hundred waves: it is right up to a lower frequency instead.
+TEST(RockOfScene, SoftRockIsRightUpToALowerFrequency)
+{
+    Scene scene = fe2d::test::reference_dam_on_rock();
+    scene.foundation->mass = RockMass::with_mass;
+    scene.foundation->material.young_modulus = 1e8;
+    std::vector<int> nodes;
+    Mesh mesh;
+    for (int i = 0; i <= 12; ++i) {
+        nodes.push_back(i);
+        mesh.nodes.push_back({45.0 * i / 12.0, 0.0});
+    }
+    const ElasticMaterial rock{2650.0, 1e8, 0.2};
+    const double most = 12.0 * elastic_waves(rock).s / 45.0;
+    const RadiatingRock soft = radiating_rock_of(scene, mesh, nodes, 25.0, "");
+    EXPECT_LT(soft.resolved, most);
+    EXPECT_GT(soft.resolved, 0.9 * most);
+    EXPECT_TRUE(soft.rock.report.passed());
+    scene.foundation->material.young_modulus = 30e9;
+    EXPECT_GT(radiating_rock_of(scene, mesh, nodes, 25.0, "").resolved, 2.0 * pi * 25.0);
 }
 
 } // namespace damslip::rock_tests

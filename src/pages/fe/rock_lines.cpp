@@ -86,6 +86,12 @@ std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::Eart
             fmt::format("radiating rock: its reduction errs by {:.2g} % at a frequency in between, {:.2g} % "
                         "are wanted; a smaller foundation.wave_frequency_Hz needs fewer modes",
                         100.0 * report.error, 100.0 * report.wanted));
+    const double wanted = scene.foundation->wave_frequency.value_or(25.0);
+    if (hertz(rock->resolved) < 0.999 * wanted)
+        messages.push_back(
+            fmt::format("soft rock: waves in it are right to {:.3g} Hz, {:g} Hz are wanted; above, damping "
+                        "alone takes energy from it",
+                        hertz(rock->resolved), wanted));
     if (const double angle = base_inclination(scene.section); angle != 0.0) {
         const double drop = std::abs(toe(scene.section).y - heel(scene.section).y), strong = 5.0;
         const Material& material = scene.foundation->material;
