@@ -13,7 +13,7 @@ namespace damslip::fe2d {
 
 namespace {
 
-// Largest a_max = ω B/c_s: the box and its modes grow with it, 0.7 s at 4.8, some 5 s at 11.6 (rock of 3 GPa below 45 m for 25 Hz),
+// Largest a_max = ω B/c_s: the box and its modes grow with it, 0.7 s at 3.8, 3.4 s at 11.6 (rock of 3 GPa below 45 m for 25 Hz),
 // minutes at 30. Softer rock answers rightly up to a lower frequency, which the answer says.
 constexpr double largest_automatic = 11.6, largest_asked_for = 25.0;
 
