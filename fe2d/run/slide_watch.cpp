@@ -12,7 +12,7 @@ constexpr double indicator_time = 1.0;  ///< before each row of the history [s]
 constexpr std::size_t windows = 3;      ///< that have to go on alike
 constexpr double walked_share = 0.1;    ///< of the slip [-]
 constexpr int walked_hops = 3;
-constexpr double round_off = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
+constexpr double smallest_change = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
 
 } // namespace
 
@@ -50,16 +50,16 @@ void SlideWatch::add(const SlideInstant& now)
         }
     }
     second_.push_back(next);
-    while (second_.size() > 2 && second_[1].time <= now.time - indicator_time + round_off) second_.pop_front();
-    if (now.time < limits_.record_end - round_off) return;
+    while (second_.size() > 2 && second_[1].time <= now.time - indicator_time + smallest_change) second_.pop_front();
+    if (now.time < limits_.record_end - smallest_change) return;
     if (edges_.empty()) {
         edges_.push_back(next);
         hops_shaking_ = next.hops;
         return;
     }
-    if (now.time < edges_.front().time + slide_window(0.0) - round_off) return;
+    if (now.time < edges_.front().time + slide_window(0.0) - smallest_change) return;
     if (window_ == 0.0) window_ = find_window_();
-    if (now.time < window_end() - round_off) return;
+    if (now.time < window_end() - smallest_change) return;
     edges_.push_back(next);
     self_excited_ = goes_on();
 }
@@ -67,7 +67,7 @@ void SlideWatch::add(const SlideInstant& now)
 double SlideWatch::chi(const Tally& from, const Tally& to) const
 {
     const double friction = to.friction - from.friction;
-    if (friction <= round_off * limits_.static_normal_force) return std::numeric_limits<double>::quiet_NaN();
+    if (friction <= smallest_change * limits_.static_normal_force) return std::numeric_limits<double>::quiet_NaN();
     return (to.thrust_work - from.thrust_work) / friction;
 }
 
@@ -82,7 +82,7 @@ bool SlideWatch::goes_on() const
         before = power;
     }
     const double work = last->thrust_work - first->thrust_work, friction = last->friction - first->friction;
-    if (work <= round_off * limits_.static_normal_force) return false; // no thrust: nothing pays
+    if (work <= smallest_change * limits_.static_normal_force) return false; // no thrust: nothing pays
     return work >= friction || work - friction - (last->other_losses - first->other_losses) >= 0.0;
 }
 
