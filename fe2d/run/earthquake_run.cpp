@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace damslip::fe2d {
 
@@ -135,9 +136,22 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
 {
     if (!rock_radiates(scene_)) return {};
     const ContactPlane& contact = model_->mesh.contact;
-    radiating_ = std::make_unique<const RadiatingRock>(
-        radiating_rock_of(scene_, model_->mesh, structure_->slides_far() ? contact.rock_line : contact.rock_nodes,
-                          options_.wave_frequency, options_.rock_cache));
+    try {
+        radiating_ = std::make_unique<const RadiatingRock>(
+            radiating_rock_of(scene_, model_->mesh, structure_->slides_far() ? contact.rock_line : contact.rock_nodes,
+                              options_.wave_frequency, options_.rock_cache));
+    } catch (const std::runtime_error& error) {
+        usable_ = false;
+        why_not_ = fmt::format("Radiating rock: {}. Check [foundation], or write  mass = \"massless\".", error.what());
+        return {};
+    }
+    if (const ReductionReport& report = radiating_->rock.report;
+        !report.passed()) { // no slip on rock that is not right
+        usable_ = false;
+        why_not_ = fmt::format("The radiating rock's reduction errs by {:.2g} %, {:.2g} % are allowed: give a smaller "
+                               "foundation.wave_frequency_Hz.",
+                               100.0 * report.error, 100.0 * report.wanted);
+    }
     const Plane& plane = structure_->plane();
     return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
 }

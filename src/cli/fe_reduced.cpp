@@ -3,6 +3,7 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "pages/fe/reduced_report.hpp"
+#include "pages/fe/rock_lines.hpp"
 
 namespace damslip::cli {
 
@@ -15,7 +16,8 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams&
     const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
         if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
     });
-    const std::vector<std::string> messages = reduced_messages(ready.scene, runs);
+    std::vector<std::string> messages = reduced_messages(ready.scene, runs);
+    for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
     const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
                                 all.uplift(), runs,       messages};
     const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes

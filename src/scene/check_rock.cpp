@@ -40,7 +40,7 @@ void check_rock(const Scene& s, Findings& f)
     if (!(s.foundation->material.density > 0.0))
         f.wrong("foundation.mass", "foundation.mass = \"with-mass\" with foundation.density_kg_m3 = 0.",
                 "the density of the rock: 2500 ... 2900 kg/m3 is usual",
-                "write  density_kg_m3 = 2650  in [foundation]");
+                "write  density_kg_m3 = 2650  in [foundation], or  mass = \"massless\"  for rock without inertia");
     if (s.contact.sliding == JointPath::finite)
         f.wrong("foundation.mass", "foundation.mass = \"with-mass\" with contact.sliding = \"finite\".",
                 "contact.sliding = \"small\": the rock's nodes stay opposite the dam's",

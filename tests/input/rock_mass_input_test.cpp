@@ -30,7 +30,8 @@ TEST(RockMassInput, NeedsADensity)
     EXPECT_EQ(rock_message("mass = \"with-mass\"\n" + fixed),
               "dam.toml:8:1: error: foundation.mass = \"with-mass\" with foundation.density_kg_m3 = 0.\n"
               "  expected: the density of the rock: 2500 ... 2900 kg/m3 is usual\n"
-              "  fix:      write  density_kg_m3 = 2650  in [foundation]");
+              "  fix:      write  density_kg_m3 = 2650  in [foundation], or  mass = \"massless\"  for rock without "
+              "inertia");
     EXPECT_EQ(rock_message(heavy + fixed), "(accepted)");
     EXPECT_EQ(rock_message("density_kg_m3 = 2650\n" + massless), "(accepted)"); // weight only
 }
