@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <random>
 #include <set>
 #include <sys/wait.h>
@@ -90,6 +91,43 @@ TEST_F(SweepScene, LiftJointsHaveAColumn)
     EXPECT_EQ(lift["largest_slip_mm"].get<double>(), 1e3 * rows[1]["lift_joint_slip_m"].get<double>());
     const Answer none = sweep(one);
     EXPECT_TRUE(nlohmann::json::parse(none.out)["rows"][1]["lift_joint_slip_m"].is_null());
+}
+
+// Of the method, whatever the scene says; in the comparison, too. What knows no rock has none.
+TEST_F(SweepScene, EveryFeRowNamesItsRock)
+{
+    const std::string methods = "rigid,jibson-1998,fe,fe-reduced,fe-massless,fe-radiating,fe-goldgruber-2015";
+    const auto rocks = [&](const std::string& foundation) {
+        write("rock.toml", content("block.toml") + foundation);
+        const Answer a = answer_of({"sweep", path("rock.toml"), "--method", methods, "--json"});
+        EXPECT_EQ(a.code, 0) << a.talk;
+        const auto j = nlohmann::json::parse(a.out);
+        std::map<std::string, nlohmann::json> names;
+        for (const auto& row : j["rows"]) names[row["method"]] = row["rock"];
+        for (const auto& row : j["comparison"]) EXPECT_EQ(row["rock"], names[row["method"]]) << row["method"];
+        EXPECT_EQ(j["comparison"].size(), 5u);
+        return names;
+    };
+    const std::string massless = "massless rock, which keeps all waves", radiating = "radiating rock";
+    std::map<std::string, nlohmann::json> names = rocks("[foundation]\nyoung_modulus_GPa = 2500\n");
+    EXPECT_TRUE(names["rigid"].is_null());
+    EXPECT_TRUE(names["jibson-1998"].is_null());
+    EXPECT_EQ(names["fe"], radiating);
+    EXPECT_EQ(names["fe-reduced"], radiating);
+    EXPECT_EQ(names["fe-massless"], massless);
+    EXPECT_EQ(names["fe-radiating"], radiating);
+    EXPECT_EQ(names["fe-goldgruber-2015"], massless);
+    names = rocks("[foundation]\nyoung_modulus_GPa = 2500\nmass = \"massless\"\n");
+    EXPECT_EQ(names["fe"], massless);
+    EXPECT_EQ(names["fe-radiating"], radiating);
+    for (const auto& [method, rock] : rocks("")) {
+        if (method.starts_with("fe")) EXPECT_EQ(rock, "rigid base") << method;
+    }
+
+    // Words with a comma stand between quotes.
+    write("rock.toml", content("block.toml") + "[foundation]\nyoung_modulus_GPa = 2500\nmass = \"massless\"\n");
+    const Answer csv = answer_of({"sweep", path("rock.toml"), "--method", "fe"});
+    EXPECT_NE(csv.out.find(",\"" + massless + "\"\n"), std::string::npos) << csv.out;
 }
 
 TEST_F(SweepScene, PartsPutTogetherAreTheWhole)

@@ -1,9 +1,22 @@
 #include "analysis/sweep/sweep_grid.hpp"
 
 #include "core/parallel.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/with_friction.hpp"
 
 namespace damslip {
+
+namespace {
+
+/// What a run of the method stands on: the scene's rock, or what its law puts in place of it.
+std::string rock_of(const Scene& scene, const SweepMethod& method)
+{
+    if (method.kind != SweepKind::finite_elements) return "";
+    const Scene here = with_law(scene, method.law, {});
+    return rock_words(called_for(make_effect_plan(here, Method::finite_elements), here));
+}
+
+} // namespace
 
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
 {
@@ -29,6 +42,7 @@ Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, cons
         options.seepage = seepage[at.size];
         grid.models[i] = prepare(std::move(here), Method::rigid_block, records, options).rigid_model();
     });
+    for (const SweepMethod& method : axes.method) grid.rocks.push_back(rock_of(scene, method));
     for (const RecordPair& pair : *records) {
         grid.records.push_back(pair.files.name);
         for (const double scale : axes.scale) {

@@ -32,6 +32,13 @@ Cell remark(const SweepLine& l)
     return fe && l.results.slip && !l.results.slip_error ? Cell(no_error_estimate) : Cell();
 }
 
+/// Empty of methods that know no rock.
+Cell rock(const Grid& grid, const GridIndex& at)
+{
+    const std::string& words = grid.rocks[at.method];
+    return words.empty() ? Cell() : Cell(words);
+}
+
 std::vector<ColumnOf<SweepLine>> columns()
 {
     using L = SweepLine;
@@ -73,7 +80,8 @@ std::vector<ColumnOf<SweepLine>> columns()
         {{"unloaded_share", "unloaded", "–", 3}, given(&R::unloaded_share)},
         {{"end_rate_m_s", "rate at end", "m/s", 3}, given(&R::end_rate)},
         {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
-        {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)}};
+        {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
+        {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
 }
 
 } // namespace
@@ -120,7 +128,8 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
          {{"largest_rigid_mm", "rigid largest", "mm", 5}, in_mm(&C::largest_rigid)},
          {{"largest_slip_error_mm", "± step", "mm", 2}, error},
          {{"without_slip", "not compared"},
-          [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }}},
+          [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }},
+         {{"rock", "rock"}, [&](const C& c) { return rock(grid, c.at); }}},
         compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
          "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
