@@ -39,6 +39,8 @@ TEST(HardCases, ThirtyAtLeastAndFewMayEndInAStatus)
     const std::set<std::string> may{"hard.friction.one-percent-below",
                                     "hard.friction.zero-with-water",
                                     "hard.record.nan",
+                                    "hard.self-excited.rigid-base",
+                                    "hard.self-excited.stiff-massless-rock",
                                     "hard.time.ten-times-too-large",
                                     "hard.time.explicit-above-limit",
                                     "hard.time.central-difference-above-limit"};

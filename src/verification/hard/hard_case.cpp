@@ -22,6 +22,7 @@ HardCases all_hard_cases()
     add_record_cases(cases);
     add_water_cases(cases);
     add_law_cases(cases);
+    add_self_excited_cases(cases);
     return cases;
 }
 

@@ -48,5 +48,6 @@ void add_time_cases(HardCases& cases);
 void add_record_cases(HardCases& cases);
 void add_water_cases(HardCases& cases);
 void add_law_cases(HardCases& cases);
+void add_self_excited_cases(HardCases& cases);
 
 } // namespace damslip::hard
