@@ -81,7 +81,7 @@ void add_self_excited_cases(HardCases& cases)
                          .run = std::move(run)});
     };
     walking("hard.self-excited.rigid-base",
-            "no wave leaves: the dam hops on by its thrust with the ground at rest, for metres, though it would stand",
+            "no wave leaves: with the ground at rest the dam goes on by its thrust, though it would stand",
             [] { return walks(dam_on_rigid_base()); });
     walking("hard.self-excited.stiff-massless-rock",
             "rock of 60 GPa that gives way but keeps every wave: the walk comes from the rock's model alone",
