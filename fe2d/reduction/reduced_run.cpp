@@ -81,7 +81,7 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
                "the nodes of dam and rock do not face each other along the base, as a reduced run needs them to.",
                "the same nodes on both sides",
                "let dam and rock share the curve from heel to toe, or run without --reduced");
-    if (!full.structure().regular() || full.structure().slides_far() || full.structure().water() ||
+    if (!full.why_not().empty() || full.structure().slides_far() || full.structure().water() ||
         full.in_motion().rock_moves())
         return;
     const int wanted = std::max(modes, 1);
@@ -227,14 +227,15 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.seconds.modes = seconds_;
     if (!system_) {
         result.message =
-            full_.structure().slides_far()
+            !full_.why_not().empty() ? full_.why_not()
+            : full_.structure().slides_far()
                 ? "A reduced run needs small sliding: each dam node stays opposite its rock node."
             : full_.in_motion().rock_moves()
                 ? "A reduced run has no unknowns of a rock box: rock that radiates or is massless, not "
                   "foundation.boundary = \"fixed\" or \"viscous\"."
             : full_.structure().water()
                 ? "A reduced run has modes of the dam alone: water as added mass or hydrostatic, not acoustic."
-                : "The stiffness of dam or rock could not be factorised, or the dam's modes did not converge.";
+                : "The dam's modes did not converge.";
         return result;
     }
     result.modes = static_cast<int>(system_->dam_modes) - 3;

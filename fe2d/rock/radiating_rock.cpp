@@ -83,7 +83,9 @@ RadiatingRock radiating_rock(const RadiatingRockInput& input, const RockStore& s
     if (rock) {
         result.origin = RockOrigin::kept;
     } else {
-        const std::string bytes = to_bytes(reduce_rock(box, make_wave_box(box), input.reduction), key);
+        const WaveBox whole = make_wave_box(box);
+        if (input.reducing) input.reducing(2 * whole.nodes);
+        const std::string bytes = to_bytes(reduce_rock(box, whole, input.reduction), key);
         if (!store.folder().empty() && !store.keep(key, bytes)) result.origin = RockOrigin::not_kept;
         rock = from_bytes(bytes, key);
         assert(rock);

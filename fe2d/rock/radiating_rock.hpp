@@ -3,6 +3,8 @@
 #include "fe2d/rock/reduce_rock.hpp"
 #include "fe2d/rock/rock_store.hpp"
 
+#include <functional>
+
 namespace damslip::fe2d {
 
 /// The rock of one scene.
@@ -13,6 +15,7 @@ struct RadiatingRockInput {
     double highest_frequency = 0.0; ///< ω up to which waves are to be right [rad/s]
     double box_size = 1.0;          ///< of the box, over the automatic one: wave_box_shape() [-]
     ReductionOptions reduction;
+    std::function<void(int unknowns)> reducing; ///< told the size of a box before it is reduced; empty: nobody is told
 };
 
 enum class RockOrigin {

@@ -20,7 +20,8 @@ constexpr double largest_automatic = 11.6, largest_asked_for = 25.0;
 } // namespace
 
 RadiatingRock radiating_rock_of(const Scene& scene, const Mesh& mesh, const std::vector<int>& nodes,
-                                double wave_frequency, const std::filesystem::path& cache)
+                                double wave_frequency, const std::filesystem::path& cache,
+                                const std::function<void(int unknowns)>& reducing)
 {
     assert(scene.foundation);
     RadiatingRockInput input;
@@ -35,6 +36,7 @@ RadiatingRock radiating_rock_of(const Scene& scene, const Mesh& mesh, const std:
         std::min(2.0 * std::numbers::pi * scene.foundation->wave_frequency.value_or(wave_frequency),
                  largest * elastic_waves(input.rock).s / base);
     input.box_size = scene.foundation->wave_box;
+    input.reducing = reducing;
     return radiating_rock(input, RockStore(cache));
 }
 

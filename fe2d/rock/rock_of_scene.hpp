@@ -11,7 +11,9 @@ namespace damslip::fe2d {
 /// @param nodes  of the mesh, upstream to downstream: those that the dam faces, or may come to face
 /// @param wave_frequency  up to which waves are to be right where the scene has none [Hz]
 /// @param cache  folder of reduced rock (RockStore); empty: none
+/// @param reducing  as RadiatingRockInput::reducing
 RadiatingRock radiating_rock_of(const Scene& scene, const Mesh& mesh, const std::vector<int>& nodes,
-                                double wave_frequency, const std::filesystem::path& cache);
+                                double wave_frequency, const std::filesystem::path& cache,
+                                const std::function<void(int unknowns)>& reducing = {});
 
 } // namespace damslip::fe2d

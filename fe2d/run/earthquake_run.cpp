@@ -139,7 +139,7 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
     try {
         radiating_ = std::make_unique<const RadiatingRock>(
             radiating_rock_of(scene_, model_->mesh, structure_->slides_far() ? contact.rock_line : contact.rock_nodes,
-                              options_.wave_frequency, options_.rock_cache));
+                              options_.wave_frequency, options_.rock_cache, options_.reducing_rock));
     } catch (const std::runtime_error& error) {
         usable_ = false;
         why_not_ = fmt::format("Radiating rock: {}. Check [foundation], or write  mass = \"massless\".", error.what());

@@ -40,6 +40,7 @@ struct RunOptions {
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
     StopAsked stop; ///< asked between the parts of the set-up
+    std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: nobody is told
 };
 
 /// Seconds of each part.
@@ -116,7 +117,8 @@ public:
     } ///< rows (x, y) by node; null: other rock, or none
     /// The same with rows as the base's plane has them, as the steps take it.
     const ReducedRock* radiating_on_base() const { return operators_ ? operators_->radiating() : nullptr; }
-    double seconds() const { return seconds_; } ///< that making it ready took
+    const std::string& why_not() const { return why_not_; } ///< no run has an answer: one sentence; empty: they may
+    double seconds() const { return seconds_; }             ///< that making it ready took
     /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
     double window() const;
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
@@ -183,7 +185,7 @@ private:
     LoadStages stages_;
     RunDamping damping_;
     bool usable_ = false;
-    std::string why_not_;
+    std::string why_not_; ///< of what is not usable
     double seconds_ = 0.0;
     mutable std::once_flag window_found_;
     mutable double window_ = 0.0; ///< see window() [s]

@@ -1,10 +1,16 @@
 // The reduced run against the full one.
+#include "core/file.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
+#include "scene/rock_mass.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
 
 namespace {
 
@@ -119,6 +125,51 @@ TEST(FeReduction, kept_and_residual_flexibility_add_up)
     // The shift of 1e-3 of the first ω² leaves a share of 1e-3 ω_1²/ω_13² of the residual, about 1e-4.
     EXPECT_LT((some.residual - cut.residual).norm(), 3e-4 * cut.residual.norm());
     EXPECT_LT((some.residual_crest - cut.residual_crest).norm(), 3e-4 * cut.residual_crest.norm());
+}
+
+/// Between the mark and the numbers of a file of RockStore: its length in 8 bytes, then the key, which begins "2 nu".
+std::string key_of_file(const std::string& bytes)
+{
+    const std::size_t at = bytes.find(" nu ") - 1;
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at - sizeof size, sizeof size);
+    return bytes.substr(at, size);
+}
+
+// A reduction that missed its gate, as a store may hold one: full and reduced runs give no slip and say the same of it.
+TEST(FeReduction, rock_that_missed_its_gate_gives_no_slip)
+{
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("damslip-gate-" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    Scene scene = with_radiating_rock(small_dam(0.75));
+    scene.time.substeps = 0;
+    RunOptions options = options_of(scene);
+    options.rock_cache = folder;
+    const GroundMotion motion = sines(1.5, 2.0);
+    {
+        const EarthquakeRun full(scene, options);
+        EXPECT_EQ(full.why_not(), "");
+        EXPECT_EQ(ReducedRun(full, scene, options).run(motion).status, Status::at_rest);
+    }
+    const fs::path file = fs::directory_iterator(folder)->path();
+    const std::string bytes = read_file(file), key = key_of_file(bytes);
+    std::optional<ReducedRock> rock = from_bytes(bytes, key);
+    ASSERT_TRUE(rock);
+    rock->report.error = 0.05;
+    write_file(file, to_bytes(*rock, key));
+
+    const EarthquakeRun full(scene, options);
+    ASSERT_EQ(full.radiating()->origin, RockOrigin::kept);
+    const RunResult run = full.run(motion);
+    const ReducedResult reduced = ReducedRun(full, scene, options).run(motion);
+    EXPECT_EQ(run.status, Status::not_resolved);
+    EXPECT_EQ(run.message, "The radiating rock's reduction errs by 5 %, 2 % are allowed: give a smaller "
+                           "foundation.wave_frequency_Hz.");
+    EXPECT_EQ(reduced.status, run.status);
+    EXPECT_EQ(reduced.message, run.message);
+    EXPECT_FALSE(reported(reduced.status, reduced.slip).has_value());
+    fs::remove_all(folder);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <thread>
+#include <vector>
 #include <unistd.h>
 
 namespace damslip::rock_tests {
@@ -79,8 +80,12 @@ TEST(RockStore, ColdWarmAndWithoutGiveTheSameBits)
 {
     const Folder folder;
     const RockStore store(folder.path);
-    const RadiatingRock without = radiating_rock(quick_input(), no_store), cold = radiating_rock(quick_input(), store),
-                        warm = radiating_rock(quick_input(), store);
+    std::vector<int> told; // unknowns of the boxes that are reduced
+    RadiatingRockInput input = quick_input();
+    input.reducing = [&](int unknowns) { told.push_back(unknowns); };
+    const RadiatingRock without = radiating_rock(quick_input(), no_store), cold = radiating_rock(input, store),
+                        warm = radiating_rock(input, store);
+    EXPECT_EQ(told, std::vector<int>{cold.rock.report.unknowns}); // nothing is said of what is found
     EXPECT_EQ(without.origin, RockOrigin::made);
     EXPECT_EQ(cold.origin, RockOrigin::made);
     EXPECT_EQ(warm.origin, RockOrigin::kept);

@@ -47,6 +47,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
 {
     watch.begin("fe", static_cast<double>(whole()));
     watch.phase("set-up");
+    options_.reducing_rock = tell_of_large_box(watch);
     const fe2d::RunOptions plain = options_;
     if (options.pair_histories) options_.pair_series = fe2d::PairSeries::every_step;
     options_.progress = [this](const fe2d::RunProgress& p) {
@@ -114,6 +115,7 @@ ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& wa
     check_reducible(ready.scene);
     watch.begin("fe --reduced", static_cast<double>(whole()));
     watch.phase("set-up");
+    options_.reducing_rock = tell_of_large_box(watch);
     full_.emplace(ready.scene, options_);
     model_.emplace(*full_, ready.scene, options_, modes_);
     rigid_ = ready.rigid_model();

@@ -1,6 +1,7 @@
 #include "analysis/fe/fe_meter.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -36,6 +37,16 @@ void FeMeter::show()
     double done = done_;
     for (const auto& [thread, group] : under_way_) done += group.runs * group.share;
     watch_.at(done);
+}
+
+std::function<void(int unknowns)> tell_of_large_box(Watch& watch)
+{
+    constexpr int large = 20000; // boxes of 25 Hz have 9 000 to 14 000 and take 1 to 4 s
+    return [&watch](int unknowns) {
+        if (unknowns >= large)
+            watch.phase(fmt::format("the box of waves, {} unknowns, is reduced to the base (foundation.wave_frequency_Hz)",
+                                    unknowns));
+    };
 }
 
 } // namespace damslip

@@ -3,6 +3,7 @@
 #include "core/watch.hpp"
 #include "fe2d/time/run_progress.hpp"
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -31,5 +32,9 @@ private:
     std::map<std::thread::id, Group> under_way_;
     double done_ = 0.0;
 };
+
+/// RunOptions::reducing_rock of a run that is watched: names the phase where the box of waves is so large that its reduction
+/// takes a good part of a minute. @param watch  outlives it; a part of it has begun
+std::function<void(int unknowns)> tell_of_large_box(Watch& watch);
 
 } // namespace damslip

@@ -1,5 +1,6 @@
 #include "analysis/fe/mesh_error.hpp"
 
+#include "analysis/fe/fe_meter.hpp"
 #include "analysis/fe/mesh_scale.hpp"
 #include "core/input_error.hpp"
 
@@ -22,7 +23,7 @@ void no_answer(Status status, const std::string& message, MeshError& result)
 
 } // namespace
 
-CoarserMesh::CoarserMesh(const Ready& ready, bool wanted, Answer progress, const Watch& watch, int modes)
+CoarserMesh::CoarserMesh(const Ready& ready, bool wanted, Answer progress, Watch& watch, int modes)
     : ready_(ready), wanted_(wanted), progress_(std::move(progress)), watch_(watch), modes_(modes)
 {
 }
@@ -62,6 +63,7 @@ bool CoarserMesh::make(MeshError& result, bool reduced)
         try {
             fe2d::RunOptions options = coarse.run_options(watch_);
             options.progress = progress_;
+            options.reducing_rock = tell_of_large_box(watch_);
             full_ = std::make_unique<const fe2d::EarthquakeRun>(coarse.scene, options);
             if (reduced) reduced_ = std::make_unique<const fe2d::ReducedRun>(*full_, coarse.scene, options, modes_);
         } catch (const Interrupted& stopped) { // the run it was for is finished: its slip is kept

@@ -40,7 +40,7 @@ public:
     /// @param ready, watch  outlive this; stopped in its set-up, the error is not known
     /// @param wanted  false: every run has MeshCheck::left_out
     /// @param progress  of the runs on it @param modes  of reduced runs
-    CoarserMesh(const Ready& ready, bool wanted, Answer progress, const Watch& watch, int modes = fe2d::default_modes);
+    CoarserMesh(const Ready& ready, bool wanted, Answer progress, Watch& watch, int modes = fe2d::default_modes);
 
     /// @param run  of `model` with this motion
     MeshError error_of(const fe2d::EarthquakeRun& model, const fe2d::RunResult& run, const GroundMotion& motion);
@@ -53,7 +53,7 @@ private:
     const Ready& ready_;
     bool wanted_;
     Answer progress_;
-    const Watch& watch_;
+    Watch& watch_;
     int modes_;
     std::mutex mutex_;
     std::string why_not_; ///< the coarser mesh cannot be made

@@ -165,6 +165,7 @@ private:
                 meter_.step(p);
                 return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
             };
+            model.options.reducing_rock = tell_of_large_box(watch_);
             model.full = std::make_unique<fe2d::EarthquakeRun>(model.scene, model.options);
             ++counts.set_ups;
             counts.set_up_seconds += model.full->seconds();

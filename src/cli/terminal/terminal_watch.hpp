@@ -17,7 +17,10 @@ public:
     bool stop_asked() const override { return interrupt_.interrupted(); }
     void results_at_hand() override { interrupt_.results_at_hand(); }
     void begin(const std::string& label, double total) override { progress_.emplace(streams_, label, total); }
-    void phase(const std::string& what) override { progress_->phase(what); }
+    void phase(const std::string& what) override
+    {
+        if (progress_) progress_->phase(what);
+    }
     void at(double done) override { progress_->at(done); }
     void end() override { progress_.reset(); }
 

@@ -14,6 +14,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace damslip::pages {
 
 namespace {
@@ -70,10 +73,25 @@ std::vector<std::string> base_notes(const Scene& scene)
     return notes;
 }
 
+std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
+{
+    const auto by_itself = [](const ContactRun& r) { return r.fe.status == Status::self_excited; };
+    const auto first = std::find_if(runs.begin(), runs.end(), by_itself);
+    const ContactRun* told = first == runs.end() ? nullptr : by_itself(worst_of(runs)) ? &worst_of(runs) : &*first;
+    std::vector<std::string> sentences;
+    for (const ContactRun& r : runs)
+        sentences.push_back(by_itself(r) && &r != told ? fmt::format("Self-excited, too: walked >= {:.4g} mm.",
+                                                                     1e3 * std::abs(r.fe.slip))
+                                                       : r.fe.message);
+    return sentences;
+}
+
 void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages)
 {
-    for (const ContactRun& r : runs) {
-        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + r.fe.message);
+    const std::vector<std::string> sentences = run_sentences(runs);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const ContactRun& r = runs[i];
+        if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + sentences[i]);
         if (has_slip(r) && r.fe.run_out.walked())
             messages.push_back(r.label() + ": " + fe2d::walked_sentence(r.fe.slip, r.fe.run_out));
     }

@@ -110,13 +110,14 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
 std::string remarks(const std::vector<ContactRun>& runs)
 {
     std::string out;
-    for (const ContactRun& r : runs) {
-        const ContactRun* before = &r == runs.data() ? nullptr : &r - 1; // the stages are common to both polarities
+    const std::vector<std::string> sentences = run_sentences(runs);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const ContactRun &r = runs[i], *before = i == 0 ? nullptr : &runs[i - 1]; // polarities have their stages in common
         if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
         if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
-        const bool said = before && before->fe.status == r.fe.status && before->fe.message == r.fe.message;
-        if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + r.fe.message;
+        const bool said = before && before->fe.status == r.fe.status && sentences[i - 1] == sentences[i];
+        if (r.fe.status != Status::at_rest && !worst && !said) out += " " + r.label() + ": " + sentences[i];
     }
     return out;
 }

@@ -56,6 +56,9 @@ FePageFrame contact_frame(const FeReport::Input& input);
 /// @param of_rock  warnings on the rock
 /// What is to be known first, the rigid base before all; then what is unusual in the scene.
 std::vector<std::string> base_notes(const Scene& scene);
+/// What each run has to say of itself, in their order. Why a dam goes on by itself, and what ends it, is said of one run, the
+/// worst where it is one of them, else the first; the others say how far they walked.
+std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs);
 /// What became of runs that did not come to rest, or only after they had walked.
 void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages);
 
