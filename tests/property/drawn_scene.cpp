@@ -37,7 +37,7 @@ Drawn draw(std::uint32_t seed, Rock rock)
                  crest = base * draw.between(0.15, 0.5), batter = draw.chance(0.5) ? 0.0 : 0.1 * base;
     scene.section.polygon = {{0, 0}, {base, 0}, {batter + crest, height}, {batter, height}};
     scene.dam = {draw.between(2200, 2600), 1e9 * draw.between(15, 35), 0.2};
-    if (rock == Rock::flexible)
+    if (rock != Rock::rigid)
         scene.foundation = Foundation{.material = {0.0, 1e9 * draw.between(10, 40), 0.25},
                                       .mass = RockMass::massless,
                                       .width = 4 * base,
@@ -58,6 +58,12 @@ Drawn draw(std::uint32_t seed, Rock rock)
     drawn.motion.dt = 0.01;
     drawn.motion.accel_h = pulses(draw, 120, 5.0);
     drawn.motion.accel_v = pulses(draw, 120, 3.0);
+    if (rock == Rock::radiating) {
+        scene.foundation->mass = RockMass::with_mass;
+        scene.foundation->boundary = RockBoundary::absorbing;
+        scene.foundation->wave_frequency = draw.between(10.0, 25.0); // a frequency, which scaled() knows of
+        if (draw.chance(0.5)) scene.foundation->material.density = draw.between(2300.0, 2900.0);
+    }
     return drawn;
 }
 
@@ -72,6 +78,7 @@ Drawn scaled(const Drawn& drawn, double length)
         s.foundation->material.young_modulus = *s.foundation->material.young_modulus * length;
         s.foundation->width *= length;
         s.foundation->depth *= length;
+        if (s.foundation->wave_frequency) s.foundation->wave_frequency = *s.foundation->wave_frequency / time;
     }
     s.reservoir->level *= length;
     s.reservoir->bulk_modulus *= length;

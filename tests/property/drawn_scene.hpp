@@ -7,7 +7,14 @@
 /// Scenes and motions the property tests draw.
 namespace damslip::property {
 
-enum class Rock { rigid, flexible };
+enum class Rock { rigid, flexible, radiating };
+
+/// Of tests that try them all: rigid and flexible by turns, radiating from a seed on.
+constexpr Rock rock_of(std::uint32_t seed, std::uint32_t first_radiating)
+{
+    if (seed >= first_radiating) return Rock::radiating;
+    return seed % 2 ? Rock::rigid : Rock::flexible;
+}
 
 struct Drawn {
     Scene scene;         ///< stands statically with a little friction to spare; fixed steps, no run-out limit in sight

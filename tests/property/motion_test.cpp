@@ -1,6 +1,7 @@
 // What the slip of a scene owes to its record: finer samples on the same lines, the other sign, none at all.
 #include "drawn_scene.hpp"
 #include "fe2d/run/stages.hpp"
+#include "scene/rock_mass.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
@@ -36,9 +37,9 @@ TEST(Subdivision, RigidSlipDoesNotKnowTheSamples)
 // Half the record's step by `substeps` or by samples in between: the same steps with the same ground, the same bits.
 TEST(Subdivision, ElasticSlipAtEqualStepsIsTheSame)
 {
-    for (std::uint32_t seed = 101; seed <= 105; ++seed) {
+    for (std::uint32_t seed = 101; seed <= 107; ++seed) {
         SCOPED_TRACE(seed);
-        Drawn d = draw(seed, seed % 2 ? Rock::rigid : Rock::flexible);
+        Drawn d = draw(seed, rock_of(seed, 106));
         const fe2d::RunResult fine = fe_run(d.scene, subdivided(d.motion, 2));
         d.scene.time.substeps = 1;
         const fe2d::RunResult halves = fe_run(d.scene, d.motion);
@@ -53,9 +54,9 @@ TEST(Subdivision, ElasticSlipAtEqualStepsIsTheSame)
 TEST(Mirror, TheOtherPolarityGivesTheMirroredSlip)
 {
     int slid = 0;
-    for (std::uint32_t seed = 201; seed <= 206; ++seed) {
+    for (std::uint32_t seed = 201; seed <= 208; ++seed) {
         SCOPED_TRACE(seed);
-        Drawn d = draw(seed, seed % 2 ? Rock::rigid : Rock::flexible);
+        Drawn d = draw(seed, rock_of(seed, 207));
         Scene& scene = d.scene;
         scene.reservoir.reset();
         scene.tailwater.reset();
@@ -70,15 +71,19 @@ TEST(Mirror, TheOtherPolarityGivesTheMirroredSlip)
         const sliding::SlideResult rigid = sliding::slide(d.motion, block);
         EXPECT_EQ(sliding::slide(other, block).slip, -rigid.slip);
 
-        // Meshes and sums run from heel to toe, so the round-off differs: 1e-9, see scaling_test.cpp.
         const fe2d::RunResult own = fe_run(scene, d.motion), mirrored = fe_run(scene, other);
+        // Meshes and sums run from heel to toe, so the round-off differs: 1e-9, see scaling_test.cpp. Lines of the box of waves
+        // are thinned out from the left, so its compliance mirrors to 2e-5 only, far within the 2 % of its gate; measured:
+        // 4e-6 of the slip, 3e-5 of N'.
+        const bool box = rock_radiates(scene);
+        const double slip_tolerance = (box ? 1e-4 : 1e-9) * own.max_slip,
+                     force_tolerance = (box ? 1e-3 : 1e-8) * own.history.normal_force[0];
         const std::size_t last = d.motion.accel_h.size() - 1;
         slid += own.max_slip > 1e-4;
         for (std::size_t k = 0; k <= last; ++k) {
-            ASSERT_NEAR(mirrored.history.slip[k], -own.history.slip[k], 1e-9 * own.max_slip) << k;
-            ASSERT_NEAR(mirrored.history.slip_heel[k], -own.history.slip_toe[k], 1e-9 * own.max_slip) << k;
-            ASSERT_NEAR(mirrored.history.normal_force[k], own.history.normal_force[k],
-                        1e-8 * own.history.normal_force[0]);
+            ASSERT_NEAR(mirrored.history.slip[k], -own.history.slip[k], slip_tolerance) << k;
+            ASSERT_NEAR(mirrored.history.slip_heel[k], -own.history.slip_toe[k], slip_tolerance) << k;
+            ASSERT_NEAR(mirrored.history.normal_force[k], own.history.normal_force[k], force_tolerance);
         }
     }
     EXPECT_GE(slid, 3);
@@ -89,9 +94,9 @@ TEST(Mirror, TheOtherPolarityGivesTheMirroredSlip)
 // 1e-3 m x 1e-16 x 1e2 steps.
 TEST(ZeroRecord, NothingDrifts)
 {
-    for (std::uint32_t seed = 301; seed <= 308; ++seed) {
+    for (std::uint32_t seed = 301; seed <= 310; ++seed) {
         SCOPED_TRACE(seed);
-        Drawn d = draw(seed, seed % 2 ? Rock::rigid : Rock::flexible);
+        Drawn d = draw(seed, rock_of(seed, 309));
         d.scene.contact.friction = 1.001 * sliding::critical_friction(sliding::make_rigid_block(d.scene));
         const GroundMotion silence = times(d.motion, 0.0);
         const fe2d::RunResult run = fe_run(d.scene, silence);

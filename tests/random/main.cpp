@@ -1,5 +1,5 @@
-// random_scenes [--mutated] FIRST COUNT [FOLDER]: scenes of the seeds FIRST, FIRST + 1, ...; each is drawn (random_scene.hpp,
-// or a shipped example made worse, mutated_scene.hpp), written, run and checked (check_run.hpp, check_promise.hpp). What a scene breaks is printed and its files stay in FOLDER/SEED (default: a folder of the system's for scratch files). The
+// random_scenes [--mutated | --radiating] FIRST COUNT [FOLDER]: scenes of the seeds FIRST, FIRST + 1, ...; each is drawn
+// (random_scene.hpp, with --radiating no rock massless; or a shipped example made worse, mutated_scene.hpp), written, run and checked (check_run.hpp, check_promise.hpp). What a scene breaks is printed and its files stay in FOLDER/SEED (default: a folder of the system's for scratch files). The
 // folder of the scene under way is there while it runs, so a crash leaves it too.
 //
 // Environment: DAMSLIP_RANDOM_TALK says how each ended, DAMSLIP_RANDOM_KEEP keeps all files, DAMSLIP_RANDOM_SECONDS is the
@@ -19,13 +19,14 @@
 int main(int argc, char** argv)
 {
     using namespace damslip::random;
-    const bool mutated = argc > 1 && std::strcmp(argv[1], "--mutated") == 0;
-    if (mutated) {
+    const bool mutated = argc > 1 && std::strcmp(argv[1], "--mutated") == 0,
+               radiating = argc > 1 && std::strcmp(argv[1], "--radiating") == 0;
+    if (mutated || radiating) {
         ++argv;
         --argc;
     }
     if (argc < 3) {
-        std::fprintf(stderr, "random_scenes [--mutated] FIRST COUNT [FOLDER]\n");
+        std::fprintf(stderr, "random_scenes [--mutated | --radiating] FIRST COUNT [FOLDER]\n");
         return 2;
     }
     const auto first = static_cast<std::uint32_t>(std::atol(argv[1])),
@@ -43,7 +44,9 @@ int main(int argc, char** argv)
     for (std::uint32_t seed = first; seed < first + count; ++seed) {
         std::filesystem::remove_all(folder / std::to_string(seed));
         Draw draw = seeded(seed);
-        const SceneFiles files = mutated ? mutated_scene(draw) : random_scene(draw);
+        const SceneFiles files = mutated     ? mutated_scene(draw)
+                                 : radiating ? random_scene(draw, 1.0)
+                                             : random_scene(draw);
         const std::filesystem::path scene = write(files, folder / std::to_string(seed));
         ::alarm(limit); // ends the program: the seed is the folder left behind
         const auto start = std::chrono::steady_clock::now();

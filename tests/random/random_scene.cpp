@@ -18,6 +18,7 @@ struct Writer {
     std::string text;
     double base = 0.0, height = 0.0; ///< of the section [m]
     double level = 0.0;              ///< of the reservoir, 0: none [m]
+    double rock_modulus = 0.0;       ///< 0: no rock [GPa]
     bool rock = false, curtain = false, drains = false, joints = false;
     std::string rock_by_name; ///< keys of [foundation] for what nothing was drawn of; written last, see random_scene()
 
@@ -177,7 +178,8 @@ void add_rock(Writer& w)
     w.rock = draw.chance(0.5);
     if (w.rock) {
         w.table("foundation");
-        w.key("young_modulus_GPa", draw.chance(0.7) ? draw.between(5, 50) : draw.log_between(1e-3, 1e5));
+        w.rock_modulus = draw.chance(0.7) ? draw.between(5, 50) : draw.log_between(1e-3, 1e5);
+        w.key("young_modulus_GPa", w.rock_modulus);
         if (draw.chance(0.4)) w.key("poisson_ratio", draw.word({"0", "0.2", "0.3", "0.49", "0.499"}));
         if (draw.chance(0.5)) w.key("width_m", draw.between(2.0, 8.0) * w.base);
         if (draw.chance(0.5)) w.key("depth_m", draw.between(0.5, 3.0) * w.base);
@@ -387,6 +389,31 @@ void add_breadth(Writer& w)
     }
 }
 
+/// Keys of rock that radiates, for rock that nothing was drawn of. Boxed rock is add_breadth()'s.
+std::string radiating_rock(const Writer& w)
+{
+    Draw& draw = w.draw;
+    std::string keys;
+    const auto key = [&](double probability, const char* name, const std::string& value) {
+        if (draw.chance(probability)) keys += fmt::format("{} = {}\n", name, value);
+    };
+    const auto number = [&](double low, double high) { return fmt::format("{}", draw.between(low, high)); };
+    key(0.6, "mass", "\"with-mass\"");
+    key(0.5, "boundary", "\"absorbing\"");
+    if (!w.has("density_kg_m3 = 2500\n")) key(0.5, "density_kg_m3", number(2000, 3000));
+    key(0.3, "wave_box", number(0.5, 1.6));
+    // Shortest waves of 0.8 to 6 lengths of the base: boxes that are reduced in seconds at most.
+    const double shear_wave_speed = std::sqrt(1e9 * w.rock_modulus / (2.4 * 2650.0));
+    const double hertz = draw.log_between(1.0 / 6, 1.2) * shear_wave_speed / w.base;
+    key(0.3, "wave_frequency_Hz", fmt::format("{:.4g}", std::clamp(hertz, 1.0, 200.0)));
+    if (draw.chance(0.04)) { // one of them becomes what no one should write
+        const std::string wrong = draw.word({"-1", "0", "nan", "inf", "1e300", "\"word\"", "true"});
+        const std::size_t at = keys.rfind(" = ");
+        if (at != std::string::npos) keys.replace(at + 3, keys.size() - at - 4, wrong);
+    }
+    return keys;
+}
+
 /// One value of the text, taken at random, becomes what no one should write.
 void spoil(SceneFiles& files, Draw& draw)
 {
@@ -401,7 +428,7 @@ void spoil(SceneFiles& files, Draw& draw)
 
 } // namespace
 
-SceneFiles random_scene(Draw& draw)
+SceneFiles random_scene(Draw& draw, double radiating)
 {
     Writer w{draw, {}};
     add_section(w);
@@ -419,9 +446,11 @@ SceneFiles random_scene(Draw& draw)
     random_motion(draw, files);
     w.text += "[[motion.record]]\nname = \"drawn\"\nhorizontal = \"horizontal.csv\"\n";
     if (!files.vertical.empty()) w.text += "vertical = \"vertical.csv\"\n";
-    files.scene = std::move(w.text);
+    files.scene = w.text;
     if (draw.chance(1.0 / 12)) spoil(files, draw);
-    const std::string head = "[foundation]\n"; // after all draws: a seed keeps its scene, and the value that it spoils
+    // After all draws: a seed keeps its scene, and the value that it spoils.
+    if (w.rock && w.rock_by_name.starts_with("mass") && draw.chance(radiating)) w.rock_by_name = radiating_rock(w);
+    const std::string head = "[foundation]\n";
     if (w.rock) files.scene.insert(files.scene.find(head) + head.size(), w.rock_by_name);
     return files;
 }

@@ -18,7 +18,8 @@ struct SceneFiles {
 /// A dam or block of 1 ... 80 m with a mesh of some ten to a hundred elements, any of the keys that a run can meet, and a
 /// motion of a few pulses. Most are such that they can be run; values at the ends of their ranges are common, some
 /// scenes contradict themselves, and one in twelve has a value that is wrong on purpose.
-SceneFiles random_scene(Draw& draw);
+/// @param radiating  share that radiates of the rock that would be massless; the others keep their scene whatever it is [-]
+SceneFiles random_scene(Draw& draw, double radiating = 0.3);
 
 /// Writes scene.toml and its records. @returns the scene file
 std::filesystem::path write(const SceneFiles& files, const std::filesystem::path& folder);
