@@ -116,6 +116,9 @@ TEST(Audit, A5_reduced_runs_take_both_polarities)
     ASSERT_EQ(both.code, 0) << both.j;
     ASSERT_EQ(both.j["runs"].size(), 2u);
     EXPECT_EQ(both.run(1)["polarity"], -1);
+    EXPECT_GT(both.run()["steps"].get<int>(), 100);
+    EXPECT_GT(both.run()["dt_s"].get<double>(), 0.0);
+    EXPECT_GT(both.run()["seconds"].get<double>(), 0.0);
     const double modes = both.run()["truncation_error_mm"], step = both.run()["slip_error_mm"],
                  mesh = both.run()["mesh_error_mm"];
     EXPECT_NEAR(both.run()["total_error_mm"].get<double>(), modes + step + mesh, 1e-12 * (modes + step + mesh));
@@ -388,8 +391,8 @@ TEST(SelfExcited, both_polarities_walk_and_the_remedy_is_said_once)
               "made up: what happened. made up: Self-excited, too: walked >= 2250 mm.");
     std::vector<std::string> messages;
     pages::add_run_messages(runs, messages);
-    EXPECT_EQ(messages, (std::vector<std::string>{"made up: what happened.",
-                                                  "made up: Self-excited, too: walked >= 2250 mm."}));
+    EXPECT_EQ(messages,
+              (std::vector<std::string>{"made up: what happened.", "made up: Self-excited, too: walked >= 2250 mm."}));
     // With a slip beside them the first of those that walk says it.
     runs.insert(runs.begin(), made_up_run(Status::at_rest, 0.02, 0.001));
     const std::string sentence = fe_headline(scene, runs).sentence;

@@ -149,7 +149,13 @@ ContactRun as_contact_run(const ReducedRecord& r)
     run.fe.slip = r.result.slip;
     run.fe.max_slip = r.result.max_slip;
     run.fe.slip_error = r.result.truncation_error + r.result.step_error;
+    run.fe.halvings = r.result.halvings;
+    run.fe.dt = r.result.dt;
     run.fe.end_time = r.result.end_time;
+    run.fe.counts = r.result.counts;
+    run.fe.seconds.statics = r.result.seconds.statics;
+    run.fe.seconds.dynamics = r.result.seconds.dynamics;
+    run.fe.seconds.contact = r.result.seconds.contact;
     run.fe.run_out = r.result.run_out;
     fe2d::RunHistory& h = run.fe.history;
     h.time = r.result.history.time;
