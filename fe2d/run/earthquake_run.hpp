@@ -39,7 +39,7 @@ struct RunOptions {
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
-    StopAsked stop; ///< asked between the parts of the set-up
+    StopAsked stop;                                  ///< asked between the parts of the set-up
     std::function<void(int unknowns)> reducing_rock; ///< RadiatingRockInput::reducing; empty: nobody is told
 };
 

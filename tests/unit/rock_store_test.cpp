@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <optional>
 #include <thread>
-#include <vector>
 #include <unistd.h>
+#include <vector>
 
 namespace damslip::rock_tests {
 

@@ -44,8 +44,8 @@ std::function<void(int unknowns)> tell_of_large_box(Watch& watch)
     constexpr int large = 20000; // boxes of 25 Hz have 9 000 to 14 000 and take 1 to 4 s
     return [&watch](int unknowns) {
         if (unknowns >= large)
-            watch.phase(fmt::format("the box of waves, {} unknowns, is reduced to the base (foundation.wave_frequency_Hz)",
-                                    unknowns));
+            watch.phase(fmt::format(
+                "the box of waves, {} unknowns, is reduced to the base (foundation.wave_frequency_Hz)", unknowns));
     };
 }
 

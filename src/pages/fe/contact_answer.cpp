@@ -80,9 +80,9 @@ std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
     const ContactRun* told = first == runs.end() ? nullptr : by_itself(worst_of(runs)) ? &worst_of(runs) : &*first;
     std::vector<std::string> sentences;
     for (const ContactRun& r : runs)
-        sentences.push_back(by_itself(r) && &r != told ? fmt::format("Self-excited, too: walked >= {:.4g} mm.",
-                                                                     1e3 * std::abs(r.fe.slip))
-                                                       : r.fe.message);
+        sentences.push_back(by_itself(r) && &r != told
+                                ? fmt::format("Self-excited, too: walked >= {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
+                                : r.fe.message);
     return sentences;
 }
 

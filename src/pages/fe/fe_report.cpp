@@ -112,7 +112,8 @@ std::string remarks(const std::vector<ContactRun>& runs)
     std::string out;
     const std::vector<std::string> sentences = run_sentences(runs);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const ContactRun &r = runs[i], *before = i == 0 ? nullptr : &runs[i - 1]; // polarities have their stages in common
+        const ContactRun &r = runs[i],
+                         *before = i == 0 ? nullptr : &runs[i - 1]; // polarities have their stages in common
         if (falls_after(r)) out += " After the earthquake it does not stand: " + r.fe.after.text();
         if (open_after(r)) out += " The state after the earthquake is not resolved: " + r.fe.after.text();
         const bool worst = &r == &worst_of(runs) && !reported(r.fe.status, r.fe.max_slip);
