@@ -32,6 +32,12 @@ struct Record {
     } ///< [s]
 };
 
+/// One record of a sequence.
+struct MotionEvent {
+    std::string name;
+    std::size_t first = 0; ///< its first sample in the motion
+};
+
 /// Ground acceleration of one run: a_h positive upstream (drives the dam downstream), a_v positive up, on one time grid.
 struct GroundMotion {
     std::string name;
@@ -39,6 +45,18 @@ struct GroundMotion {
     std::vector<double> accel_h;    ///< [m/s^2], positive upstream
     std::vector<double> accel_v;    ///< [m/s^2], positive up; empty: no vertical motion. Else as long as accel_h
     std::vector<std::string> notes; ///< what was changed to make it: zero sample prepended, padding, resampling
+
+    /// Of a sequence, the first at sample 0: each event begins when all has come to rest after the one before. What shakes
+    /// meets zero samples between them, one at least, for `pause` from the moment of rest on. Empty: one record.
+    std::vector<MotionEvent> events = {};
+    double pause = 0.0; ///< [s]
+
+    bool is_sequence() const { return events.size() > 1; }
+    /// Its last sample.
+    std::size_t last_of(std::size_t event) const
+    {
+        return event + 1 < events.size() ? events[event + 1].first - 1 : accel_h.size() - 1;
+    }
 };
 
 } // namespace damslip

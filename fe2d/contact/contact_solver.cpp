@@ -112,7 +112,7 @@ bool ContactSolver::newton(const ContactProblem& problem, ContactSolution& solut
 }
 
 bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report,
-                               double tolerance)
+                               double tolerance, std::vector<Index>* opened)
 {
     const Index m = problem.law.pairs();
     Visited visited;
@@ -127,7 +127,9 @@ bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& s
             worst = i;
         }
         if (worst < 0) return true;
-        solution.states[static_cast<std::size_t>(worst)] = next_state(problem, solution, worst, tolerance);
+        ContactState& state = solution.states[static_cast<std::size_t>(worst)];
+        state = next_state(problem, solution, worst, tolerance);
+        if (opened && state == ContactState::open) opened->push_back(worst);
     }
     return false;
 }
@@ -180,7 +182,36 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
         report.path = report.residual <= largest_residual ? ContactPath::lemke : ContactPath::unresolved;
         return report;
     }
+    if (break_one_by_one(problem, solution, report, tolerance)) return report;
     return finish(ContactPath::unresolved);
+}
+
+/// The same where V is singular, as in statics: the search for states goes round because some pair with cohesion is pulled open
+/// by it when shut and shuts without it. Each time round such a pair has broken; without its cohesion the search goes on.
+bool ContactSolver::break_one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report,
+                                     double tolerance)
+{
+    const Index m = problem.law.pairs();
+    if (problem.law.separation != JointOpening::allowed || !(problem.law.cohesion.maxCoeff() > 0.0)) return false;
+    ContactLaw left = problem.law;
+    const ContactProblem broken{problem.stiffness, problem.stuck_force, left};
+    const ContactStates stuck(static_cast<std::size_t>(m), ContactState::stick);
+    for (Index round = 0; round <= m; ++round) {
+        solution.states = stuck;
+        std::vector<Index> opened;
+        if (newton(broken, solution, report, tolerance) ||
+            (solution.states = stuck, one_by_one(broken, solution, report, tolerance, &opened))) {
+            report.residual = complementarity_residual(broken, solution) / problem.stuck_force.cwiseAbs().maxCoeff();
+            report.path = ContactPath::worst_violator;
+            return report.residual <= largest_residual;
+        }
+        Index breaks = -1; // the last that opened with cohesion
+        for (const Index pair : opened)
+            if (left.cohesion[pair] > 0.0) breaks = pair;
+        if (breaks < 0) return false;
+        left.cohesion[breaks] = 0.0;
+    }
+    return false;
 }
 
 bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution)

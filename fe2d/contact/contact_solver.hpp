@@ -3,6 +3,7 @@
 #include "fe2d/contact/released_system.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -23,7 +24,8 @@ enum class Landing {
 
 /// How contact problems are solved; the law itself is the scene's Contact.
 struct ContactOptions {
-    Landing landing = Landing::at_rest; ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
+    Landing landing =
+        Landing::at_rest;         ///< of rigid sticking and hard contact; elastic laws bring gaps to rest themselves
     double tolerance = 1e-11;     ///< violations below this share of the largest stuck force are round-off [-]
     int newton_iterations = 15;   ///< 1 ... ; more only when the states cycle, which is detected
     int switches_per_pair = 8;    ///< limit of the one-at-a-time search
@@ -66,11 +68,18 @@ public:
     /// @param solution  jumps of all gaps and impulses; on entry the states
     bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
 
+    /// The owner of V has changed V_kk. @param by  [N/m²]
+    void diagonal_changed(Eigen::Index unknown, double by) { system_.diagonal_changed(unknown, by); }
+
     const ReleasedSystem& system() const { return system_; }
 
 private:
     bool newton(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
-    bool one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance);
+    /// @param opened  gets the pairs that were set open on the way, in order; null: not asked for
+    bool one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report, double tolerance,
+                    std::vector<Eigen::Index>* opened = nullptr);
+    bool break_one_by_one(const ContactProblem& problem, ContactSolution& solution, ContactReport& report,
+                          double tolerance);
     bool evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report);
 
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;

@@ -24,6 +24,7 @@ public:
     JointSolver& operator=(const JointSolver&) = delete;
 
     const Eigen::MatrixXd& stiffness() const { return *stiffness_; } ///< V of rigid sticking
+    const std::shared_ptr<const Eigen::MatrixXd>& shared_stiffness() const { return stiffness_; }
 
     /// @param stuck_force  λ⁰ of a gap that stays as it is, elastic part included [N/m]
     /// @param elastic      elastic part of the tangential gaps, at the start and at the end, m values [m]; zero where

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double smallest_pivot = 1e-11;
+constexpr double smallest_pivot_share = 1e-11;
 
 /// I w - M z - 1 z0 = q with the unknowns w: 0 ... n-1, z: n ... 2n-1, z0: 2n.
 class Tableau {
@@ -37,7 +37,7 @@ public:
         Index row = -1;
         double smallest = HUGE_VAL;
         for (Index i = 0; i < n_; ++i) {
-            if (body_(i, entering) <= smallest_pivot) continue;
+            if (body_(i, entering) <= smallest_pivot_share) continue;
             const double ratio = std::max(0.0, value_[i]) / body_(i, entering);
             const double slack = 1e-13 * (1.0 + std::abs(smallest));
             const bool better = row < 0 || ratio < smallest - slack;
@@ -106,7 +106,7 @@ bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, in
     const double force = problem.stuck_force.cwiseAbs().maxCoeff();
     const Eigen::LDLT<MatrixXd> factor(problem.stiffness);
     const VectorXd pivot = factor.vectorD();
-    if (!(force > 0.0) || !(pivot.minCoeff() > smallest_pivot * pivot.maxCoeff())) return false;
+    if (!(force > 0.0) || !(pivot.minCoeff() > smallest_pivot_share * pivot.maxCoeff())) return false;
     MatrixXd w = factor.solve(MatrixXd::Identity(2 * m, 2 * m));
     const double scale = w.diagonal().mean(); // [m²/N]; forces in units of `force`, displacements of scale * force
     w = (0.5 / scale * (w + w.transpose())).eval();

@@ -163,6 +163,26 @@ bool ReleasedSystem::change(Index unknown, const Row& row)
     return true;
 }
 
+void ReleasedSystem::diagonal_changed(Index unknown, double by)
+{
+    // A released normal row stands alone, and a shut pair's normal column takes no part: only the entry itself changes.
+    const Index place = place_[static_cast<std::size_t>(unknown)];
+    if (place < 0 || !regular_) return;
+    const auto size = static_cast<Index>(unknowns_.size());
+    const auto inverse = inverse_.topLeftCorner(size, size);
+    const double pivot = 1.0 + by * inverse(place, place);
+    if (!(std::abs(pivot) > smallest_pivot)) {
+        clear(); // nothing released: the next set() starts from there
+        rows_.assign(rows_.size(), {});
+        return;
+    }
+    column_ = inverse.col(place) * (by / pivot);
+    const Eigen::RowVectorXd line = inverse.row(place);
+    inverse_.topLeftCorner(size, size).noalias() -= column_ * line;
+    ++updates_;
+    ++updates_since_rebuild_;
+}
+
 void ReleasedSystem::clear()
 {
     unknowns_.clear();

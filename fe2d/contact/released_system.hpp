@@ -21,6 +21,9 @@ public:
     /// @returns false when the rows are not met to round-off, even after a fresh factorisation.
     bool solve(const ContactLaw& law, const Eigen::VectorXd& stuck_force, ContactSolution& solution);
 
+    /// V_kk has grown by so much [N/m²]: the system follows at the price of one rank-one update.
+    void diagonal_changed(Eigen::Index unknown, double by);
+
     int updates() const { return updates_; }   ///< rank-one updates so far
     int rebuilds() const { return rebuilds_; } ///< inverses made from scratch so far
 

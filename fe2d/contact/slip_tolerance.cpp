@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int newton_steps = 30;
-constexpr int renewals = 60;
+constexpr int slip_newton_steps = 30;
+constexpr int slip_renewals = 60;
 constexpr double residual_tolerance = 1e-10; ///< of the residual, relative to the largest stuck force
 constexpr double edge = 1e-10;               ///< of |e| against γ_e: states do not change within it
 constexpr double least_strength = 1e-6;      ///< of a pair whose stiffness is held, relative to the largest one
@@ -112,7 +112,7 @@ bool SlipTolerance::newton(const Step& step, Iterate& it, ContactReport& report)
 {
     const Index m = step.law.pairs();
     ContactStates next_states(it.states);
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < slip_newton_steps; ++k) {
         ++report.iterations;
         if (!linear_solution(step, it)) {
             report.mechanism = true;
@@ -136,7 +136,7 @@ bool SlipTolerance::renewed_stiffness(const Step& step, Iterate& it, ContactRepo
         strength = strength.cwiseMax(least_strength * largest);
         return largest > 0.0;
     };
-    for (int k = 0; k < renewals && renew(); ++k) {
+    for (int k = 0; k < slip_renewals && renew(); ++k) {
         if (k > 0 && (strength - last).cwiseAbs().maxCoeff() <= renewal_change * strength.maxCoeff()) return true;
         if (k > 10) strength = (0.5 * (strength + last)).eval(); // damped where two sets of pairs take turns
         last = strength;

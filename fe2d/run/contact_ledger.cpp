@@ -20,6 +20,7 @@ ContactLedger::ContactLedger(const StepOperators& operators, const Contact& join
     }
     stored_ = stored(start.contact.opening);
     energy_.strain = dam.strain() + rock.strain(start) + stored_;
+    if (start.contact.laws.active()) note_laws(start.contact.laws.energy());
     start_ = energy_;
     gather(start, dam, rock, forces_);
     before_ = before2_ = forces_;
@@ -64,6 +65,28 @@ void ContactLedger::add_move(const Pairing::Matrix& change, const StepState& sta
     if (rock.water_in_joint().size() > 0) load_jump_ -= change.transpose() * rock.water_in_joint();
     before_.rock.force -= change.transpose() * across(before_);
     rock.instant(state, forces_.rock);
+}
+
+/// What the laws of the joint store and spend. Where their force is not linear over the step the trapezoid of its work
+/// misses some of it: that is the scheme's.
+/// @returns their mean force of the step, 2m [N/m]
+VectorXd ContactLedger::add_laws(const StepState& state, const VectorXd& gap_step)
+{
+    const JointEnergy now = state.contact.laws.energy();
+    const VectorXd force = 0.5 * (state.law_force_before + state.contact.laws.force());
+    energy_.numerical -= force.dot(gap_step) + now.taken() - of_laws_.taken();
+    note_laws(now);
+    return force;
+}
+
+void ContactLedger::note_laws(const JointEnergy& now)
+{
+    of_laws_ = now;
+    energy_.joint_stored = now.stored;
+    energy_.bond_fracture = now.bond_fracture;
+    energy_.anchor_plastic = now.anchor_plastic;
+    energy_.anchor_loss = now.anchor_loss;
+    energy_.joint_water = now.water;
 }
 
 void ContactLedger::add(const StepConstants& c, const StepState& state, const StepChange& step, const StepDam& dam,
@@ -116,7 +139,8 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
         e.damping +=
             0.5 * slip_work(forces_.slip_rate + before_.slip_rate, forces_.mean_velocity + before_.mean_velocity);
     e.external += du.dot(dam.load()) + dr.dot(rock.load()) + 0.5 * du.dot(forces_.dam.ground + before_.dam.ground);
-    const VectorXd force = 0.5 * (state.force_before + state.contact.force);
+    VectorXd force = 0.5 * (state.force_before + state.contact.force);
+    if (state.contact.laws.active()) force -= add_laws(state, step.gap);
     e.contact_normal += force.head(m).dot(step.gap.head(m)) + to_soft_contact; // of it, what is not in `strain`
     if (structure_.slides_far()) {
         e.contact_normal += 0.5 * (1.0 + alpha) * dr.dot(load_jump_);
@@ -154,7 +178,8 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
         water_ledger_->add(c, water_before2_, water_before_, water_, e);
     }
     scale_ = std::max({scale_, e.kinetic, std::abs(e.damping), std::abs(e.friction), std::abs(e.external),
-                       std::abs(e.contact_normal), std::abs(e.numerical), std::abs(e.radiated)});
+                       std::abs(e.contact_normal), std::abs(e.numerical), std::abs(e.radiated), e.joint_stored,
+                       e.bond_fracture, e.anchor_plastic, e.anchor_loss, std::abs(e.joint_water)});
 }
 
 void ContactLedger::add_landing(LandingForces forces, const StepState& state, const StepDam& dam, const StepRock& rock)
@@ -172,7 +197,8 @@ void ContactLedger::add_landing(LandingForces forces, const StepState& state, co
         energy_.kinetic += water_ledger_->flow(now);
         water_ = std::move(now);
     }
-    energy_.numerical += before_landing - energy_.kinetic - energy_.strain;
+    energy_.impact += landed_->impact;
+    energy_.numerical += before_landing - energy_.kinetic - energy_.strain - landed_->impact;
     gather(state, dam, rock, forces_);
 }
 

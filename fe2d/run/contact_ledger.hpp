@@ -15,6 +15,7 @@ namespace damslip::fe2d {
 struct LandingForces {
     Eigen::VectorXd dam, rock;                ///< C δv [N/m]; after a flight with M δa
     Eigen::VectorXd slip_rate, mean_velocity; ///< of the slip damping, by plane
+    double impact = 0.0;                      ///< kinetic energy that the impulses of a rebound took [J/m]
 };
 
 /// Work ledger of the implicit steps: EnergyLedger with its products arranged for dam and rock joined by contact. K Δu,
@@ -50,6 +51,8 @@ private:
     void gather(const StepState& state, const StepDam& dam, const StepRock& rock, Forces& forces) const;
     Eigen::VectorXd across(const Forces& forces) const;
     double stored(const Eigen::VectorXd& opening) const;
+    Eigen::VectorXd add_laws(const StepState& state, const Eigen::VectorXd& gap_step);
+    void note_laws(const JointEnergy& now);
     WaterLedger::Instant water_instant(const StepState& state, const StepDam& dam) const;
 
     const ContactStructure& structure_;
@@ -58,6 +61,7 @@ private:
     Contact joint_;
     Energy energy_, start_;
     double scale_ = 0.0;
+    JointEnergy of_laws_; ///< as far as they are counted in `energy_`
     RockEnergy of_rock_;  ///< that radiates, as far as it is counted in `energy_`
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     Forces forces_, before_, before2_;

@@ -32,6 +32,7 @@ const StepContact& ContactStepper::contact_at(const StepRock& rock)
         if (own) problem.own = op_->contact_at(rock.trace());
         problem.solver = std::make_unique<JointSolver>((own ? problem.own : op_->contact()).stiffness,
                                                        structure_.planes().area(), joint_, options_);
+        problem.with_laws.reset();
     }
     return own ? problem.own : op_->contact();
 }
@@ -71,10 +72,25 @@ ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& stat
     solution_.states = memory.states;
     solution_.force = memory.force;
     elastic_ = memory.elastic;
-    const ContactReport report = solver.solve(stuck_, law, elastic_, solution_);
+    const ContactReport report =
+        memory.laws.active() ? solve_laws(law, state) : solver.solve(stuck_, law, elastic_, solution_);
     counts.contact_seconds += before_contact.seconds();
     counts.contact_iterations += report.iterations;
     return report;
+}
+
+/// The same with laws beside hard contact and friction.
+ContactReport ContactStepper::solve_laws(const ContactLaw& law, const StepState& state)
+{
+    PairProblem& problem = problems_[op_];
+    if (!problem.with_laws)
+        problem.with_laws = std::make_unique<JointLawSolver>(problem.solver->shared_stiffness(), options_);
+    const StepConstants& c = op_->constants();
+    const ContactMemory& memory = state.contact;
+    laws_ = memory.laws;
+    JointStart start{c.dt,          memory.opening, memory.slip,
+                     memory.states, c.a1,           -c.a4 * state.rate_t - c.a5 * state.accel_t};
+    return laws_.solve(*problem.with_laws, stuck_, start, law, solution_);
 }
 
 /// The gaps' step and what the backward pass needs.
@@ -107,11 +123,16 @@ const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock
     state.rock += change_.rock;
     ContactMemory& memory = state.contact;
     state.force_before = memory.force;
+    if (laws_.active()) state.law_force_before = memory.laws.force();
     memory.force = solution_.force;
     memory.states = solution_.states;
     memory.opening = solution_.displacement.head(m);
     memory.slip += solution_.displacement.tail(m);
     memory.elastic = elastic_;
+    if (laws_.active()) {
+        laws_.end();
+        std::swap(memory.laws, laws_);
+    }
     state.time += c.dt;
     state.ground = ground;
     return change_;

@@ -43,8 +43,10 @@ private:
         StepContact own; ///< where the dam has slid; else that of the operator
         int place = 0;   ///< StepRock::place() it was made for
         std::unique_ptr<JointSolver> solver;
+        std::unique_ptr<JointLawSolver> with_laws; ///< null: none needed so far
     };
     const StepContact& contact_at(const StepRock& rock);
+    ContactReport solve_laws(const ContactLaw& law, const StepState& state);
 
     StepOperators& operators_;
     const ContactStructure& structure_;
@@ -59,6 +61,7 @@ private:
     Eigen::VectorXd known_, stuck_, tilde_;
     ContactSolution solution_;
     Eigen::VectorXd elastic_; ///< elastic part of the tangential gaps [m]
+    JointLaws laws_;          ///< of the step; those of the state change in end()
     StepChange change_;
 };
 

@@ -1,5 +1,7 @@
 #include "fe2d/run/dynamic_contact.hpp"
 
+#include "fe2d/contact/joint_water.hpp"
+
 #include <algorithm>
 
 namespace damslip::fe2d {
@@ -50,7 +52,7 @@ DynamicContact::DynamicContact(std::shared_ptr<StepOperators> operators, const S
                                const ContactOptions& options)
     : operators_(std::move(operators)), state_(at_rest(structure(), start, memory)),
       dam_(*operators_, load.dam, state_), rock_(*operators_, load, state_), stepper_(*operators_, joint, options),
-      landing_(*operators_), ledger_(*operators_, joint, state_, dam_, rock_),
+      landing_(*operators_, joint.restitution), ledger_(*operators_, joint, state_, dam_, rock_),
       normal_force_(memory.force.head(structure().plane().pairs()).sum()),
       largest_slips_(structure().planes(), memory.slip)
 {
@@ -59,6 +61,12 @@ DynamicContact::DynamicContact(std::shared_ptr<StepOperators> operators, const S
 bool DynamicContact::within_reach() const
 {
     return !structure().slides_far() || structure().pairing().reaches(rock_.slip(state_));
+}
+
+void DynamicContact::set_wave_pressure(double pressure)
+{
+    for (const auto& law : state_.contact.laws.all())
+        if (auto* water = dynamic_cast<CrackWater*>(law.get())) water->set_wave_pressure(pressure);
 }
 
 void DynamicContact::begin(double dt, const GroundAcceleration& ground)
@@ -77,11 +85,12 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
 {
     const DynamicOperator& op = stepper_.op();
     const ContactStates states_before = state_.contact.states;
+    const auto approach = landing_.approach(state_, rock_, op.constants().dt);
     const StepChange& change = stepper_.end(ground, rock_, state_);
     dam_.end_step(op.constants(), state_);
     rock_.end_step(state_);
     ledger_.add(op.constants(), state_, change, dam_, rock_);
-    if (auto forces = landing_.land(op, stepper_.solver(), states_before, law, rock_, dam_, state_)) {
+    if (auto forces = landing_.land(op, stepper_.solver(), states_before, law, rock_, dam_, state_, approach)) {
         ledger_.add_landing(std::move(*forces), state_, dam_, rock_);
         ++counts_.landings;
     }

@@ -41,6 +41,9 @@ public:
     /// advance() of each lane, with the same bits, in common passes over the factor.
     static void advance(std::span<Lane> lanes, double dt, const GroundAcceleration& ground);
 
+    /// Of the reservoir's waves at the upstream end of the base, for water that flows along it, until the next call [Pa].
+    void set_wave_pressure(double pressure);
+
     const DynamicState& state() const override { return state_; }
     /// False where the dam would leave the meshed plane: the step was not made (ContactStructure::slides_far()).
     bool within_reach() const;

@@ -1,5 +1,7 @@
+#include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/slide_probe.hpp"
 
 #include "core/stopwatch.hpp"
@@ -61,6 +63,7 @@ void EarthquakeRun::stand(Lane& lane) const
     StaticContact contact_statics(statics_, scene_.contact, options_.contact);
     result.zero_displacement = zero_displacement(contact_statics, lane.strength);
     result.stages = statics(contact_statics, lane.strength, lane.memory);
+    if (result.stages.back().status == StageStatus::ok && options_.start) go_on(contact_statics, lane);
     if (result.stages.back().status == StageStatus::ok) {
         lane.start = contact_statics.displacements(split(stages_.loads.size() - 1), lane.memory);
     } else {
@@ -68,6 +71,19 @@ void EarthquakeRun::stand(Lane& lane) const
         result.message = result.stages.back().text();
     }
     result.seconds.statics = clock.seconds();
+}
+
+/// The joints as an earthquake before has left them, in equilibrium under the static loads.
+void EarthquakeRun::go_on(StaticContact& statics, Lane& lane) const
+{
+    const RunState& from = *options_.start;
+    lane.memory.force = from.force;
+    lane.memory.opening = from.opening;
+    lane.memory.slip = from.slip;
+    lane.memory.states = from.states;
+    lane.strength.restore(from);
+    lane.result.stages.push_back(solve_stage(statics, *structure_, "as it was left", split(stages_.loads.size() - 1),
+                                             lane.strength, lane.memory));
 }
 
 /// Where the static stages leave the dam, and the loads that go on.
@@ -136,31 +152,40 @@ StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
 std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const
 {
+    if (motion.is_sequence() && lanes.size() > 1) return shake_in_turn(motion, halvings, lanes);
     if (explicit_) return shake_explicitly(motion, halvings, lanes);
     const Stopwatch clock;
-    const double dt = scene_.time.dt.value_or(motion.dt),
-                 duration = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
+    const double dt = scene_.time.dt.value_or(motion.dt);
     const bool adaptive =
         scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !lanes.front()->steps.has_value();
     const int parts = adaptive ? 1 : 1 << halvings;
     const double step = dt / parts;
-    const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
+    PlayedGround ground(motion, damping_.mass, damping_.constants.mass);
     std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
     for (const Lane* lane : lanes) {
         const Rest at_rest = rest(*lane);
         DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series,
-                                                slide_watch(*lane, duration)));
+                                                slide_watch(*lane, ground.end())));
         RunResult& result = passes.back()->result;
         result.dt = step;
         result.halvings = halvings;
         result.status = Status::sliding_at_end;
+        result.events.clear(); // of a coarser pass
     }
 
-    const auto record_steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
-    const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
-    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
+    std::optional<HeelWaves> waves;
+    if (scene_.uplift && scene_.uplift->water.opening == OpeningWater::reynolds &&
+        scene_.uplift->water.wet_end == WetEndPressure::with_waves)
+        waves.emplace(scene_, in_motion(), water_.get(), options_.added_mass);
+
+    const auto steps_to = [dt](double time) { return static_cast<long>(std::ceil(time / dt - 1e-9)); };
+    const long run_out = steps_to(scene_.sliding.run_out_max), rest_steps = steps_to(options_.rest_time);
+    const long shown_steps = steps_to(ground.samples_end());
+    long record_steps = steps_to(ground.end()), all_steps = record_steps + run_out;
+    long at_rest_since = -1; // step, of a sequence with more to come; -1: it moves
+    if (ground.event()) passes.front()->result.events.push_back({ground.event()->name, 0.0, ground.end(), 0.0, 0.0});
     std::vector<DynamicContact::Lane> under_way;
     const auto any = [&] { return std::any_of(passes.begin(), passes.end(), [](const auto& p) { return p->going; }); };
     for (long n = 0; n < all_steps && any(); ++n) {
@@ -169,6 +194,9 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
             for (const auto& pass : passes)
                 if (pass->going && pass->dynamics.within_reach())
                     under_way.push_back({&pass->dynamics, &pass->strength.law(), {}});
+            if (waves)
+                for (const DynamicContact::Lane& lane : under_way)
+                    lane.run->set_wave_pressure(waves->pressure(lane.run->state()));
             const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
             DynamicContact::advance(under_way, step, ground.at(time));
             for (const auto& pass : passes)
@@ -177,7 +205,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
                     pass->look();
                 }
         }
-        const bool stopped = options_.progress && options_.progress(progress_of(*lanes.front(), halvings, record_steps,
+        const bool stopped = options_.progress && options_.progress(progress_of(*lanes.front(), halvings, shown_steps,
                                                                                 n + 1, dt)) == RunAnswer::stop;
         for (const auto& pass : passes) {
             if (!pass->going) continue;
@@ -189,9 +217,21 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
                 pass->end(Status::left_plane);
             else if (diverges(pass->dynamics))
                 pass->end(Status::diverged);
-            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
-                pass->end(Status::at_rest);
-            else if (pass->watch.self_excited())
+            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
+                if (!ground.more()) {
+                    pass->end(Status::at_rest);
+                    continue;
+                }
+                if (at_rest_since < 0) at_rest_since = n + 1;
+                if (n + 1 < at_rest_since + steps_to(ground.pause())) continue;
+                result.events.back().slip = result.history.slip.back();
+                ground.next(static_cast<double>(n + 1) * dt);
+                result.events.push_back({ground.event()->name, ground.start(), ground.end(), 0.0, 0.0});
+                pass->watch.next_record(ground.end());
+                record_steps = steps_to(ground.end());
+                all_steps = record_steps + run_out;
+                at_rest_since = -1;
+            } else if (pass->watch.self_excited())
                 pass->end(Status::self_excited);
         }
     }
@@ -202,10 +242,33 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         if (adaptive && halvings == 0) lanes[i]->local_error = worst(pass.dynamics.local_errors());
         if (adaptive) pass.result.dt = pass.dynamics.state().time / std::max(1, pass.dynamics.counts().steps);
         pass.result.run_out = pass.watch.figures();
+        pass.result.events_left = ground.left();
         end_lane(pass.dynamics, pass.strength, *lanes[i], pass.result);
         pass.result.seconds.dynamics += seconds;
         results.push_back(std::move(pass.result));
     }
+    return results;
+}
+
+/// The pressure under the base after the earthquake, as the options have it or with all that has cracked under full head. What
+/// the water in the joint has come to goes into the result.
+PressureProfile EarthquakeRun::water_after(const ContactMemory& end, RunResult& result) const
+{
+    const auto* water = end.laws.find<CrackWater>();
+    if (!water) return options_.uplift_after;
+    result.base_water = water->report();
+    if (!options_.cracked_uplift_after) return options_.uplift_after;
+    const CrackLengths& crack = result.base_water->largest;
+    return options_.cracked_uplift_after(crack.upstream, crack.downstream);
+}
+
+/// Lanes of a sequence come to rest at times of their own, so each has a ground of its own.
+std::vector<RunResult> EarthquakeRun::shake_in_turn(const GroundMotion& motion, int halvings,
+                                                    std::span<Lane* const> lanes) const
+{
+    std::vector<RunResult> results;
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        results.push_back(std::move(shake(motion, halvings, lanes.subspan(i, 1)).front()));
     return results;
 }
 
@@ -218,6 +281,14 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const Plane& plane = planes.base();
     const Index m = plane.pairs();
     result.slip = result.history.slip.back();
+    if (!result.events.empty()) {
+        result.events.back().slip = result.slip;
+        double before = 0.0;
+        for (EventSlip& event : result.events) {
+            event.change = event.slip - before;
+            before = event.slip;
+        }
+    }
     result.max_slip = dynamics.largest_slips().of(0);
     result.end_time = end.time;
     result.counts = dynamics.counts();
@@ -227,8 +298,9 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
                           std::max({dynamics.energy_scale(), least, std::numeric_limits<double>::min()});
     result.pair_distance = plane.distance;
     result.pair_area = plane.area;
-    result.pair_pressure = end.contact.force.head(m).cwiseQuotient(plane.area);
-    result.pair_shear = -end.contact.force.segment(planes.pairs(), m).cwiseQuotient(plane.area);
+    const VectorXd force = end.contact.contact_force();
+    result.pair_pressure = force.head(m).cwiseQuotient(plane.area);
+    result.pair_shear = -force.segment(planes.pairs(), m).cwiseQuotient(plane.area);
     result.pair_slip = (end.contact.slip - lane.memory.slip).head(m);
     result.pair_opening = end.contact.opening.head(m);
     result.lifts.clear();
@@ -242,12 +314,16 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         lift.largest_opening = largest(h.largest_opening);
         lift.largest_rocking = largest(h.rocking);
     }
+    if (const auto* anchors = end.contact.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
+    result.state = {end.contact.force, end.contact.opening, end.contact.slip, {}, {}, end.contact.states};
+    strength_at_end.save(result.state);
     result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
     result.bytes = dynamics.bytes();
     result.seconds.contact += result.counts.contact_seconds;
 
-    const VectorXd after = load_with(stages_, *model_, options_.uplift_after);
+    const PressureProfile uplift_after = water_after(end.contact, result);
+    const VectorXd after = load_with(stages_, *model_, uplift_after);
     if (result.status == Status::left_plane) return;
     Strength strength = strength_at_end;
     ContactMemory memory = end.contact;
@@ -257,8 +333,9 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     else
         statics.emplace(statics_, scene_.contact, options_.contact);
     SplitLoad load = structure_->split(after);
-    let_water_ride(*structure_, options_.uplift_after.empty() ? options_.uplift : options_.uplift_after, load);
-    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory);
+    const SplitLoad before = split(stages_.loads.size() - 1);
+    let_water_ride(*structure_, uplift_after.empty() ? options_.uplift : uplift_after, load);
+    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory, &before);
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
@@ -312,6 +389,9 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     for (const Contact& contact : contacts) {
         if (!usable_ || !movable) break;
         Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
+        lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
+        if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift))
+            lane.memory.laws.add(std::move(water));
         lanes.push_back(std::make_unique<Lane>(std::move(lane)));
         lanes.back()->steps = steps;
         stand(*lanes.back());

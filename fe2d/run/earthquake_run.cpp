@@ -1,4 +1,5 @@
 #include "fe2d/run/earthquake_lane.hpp"
+#include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/self_excited.hpp"
 
 #include "core/input_error.hpp"
@@ -6,6 +7,7 @@
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/rock/rock_of_scene.hpp"
 #include "fe2d/time/coupled_structure.hpp"
+#include "scene/friction_over_slip.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/water.hpp"
 
@@ -90,6 +92,8 @@ void check_scheme(const Scene& scene)
 EarthquakeRun::EarthquakeRun(const Scene& scene, RunOptions options) : scene_(scene), options_(std::move(options))
 {
     check_scheme(scene_);
+    check_friction_over_rate(scene_);
+    check_rebounds(scene_);
     const Stopwatch start;
     const auto part_done = [this] { stop_if_asked(options_.stop, "the set-up of the finite elements"); };
     part_done();
@@ -216,11 +220,22 @@ SplitLoad EarthquakeRun::split(std::size_t stage) const
     return load;
 }
 
+namespace {
+
+/// No load at all, before the first stage.
+SplitLoad nothing(const SplitLoad& like)
+{
+    return {VectorXd::Zero(like.dam.size()), VectorXd::Zero(like.rock.size()), VectorXd::Zero(like.joint.size())};
+}
+
+} // namespace
+
 std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const
 {
     std::vector<StageResult> results;
     for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
-        results.push_back(solve_stage(statics, *structure_, stages_.names[k], split(k), strength, memory));
+        const SplitLoad load = split(k), before = k > 0 ? split(k - 1) : nothing(load);
+        results.push_back(solve_stage(statics, *structure_, stages_.names[k], load, strength, memory, &before));
         if (results.back().status != StageStatus::ok) break;
     }
     // Pairs almost without friction may defeat the solver before the load comes that no friction of theirs can hold.
@@ -335,6 +350,24 @@ void EarthquakeRun::judge(RunResult& result) const
     default:
         break;
     }
+    if (result.events_left > 0 && !result.events.empty())
+        result.message +=
+            fmt::format(" It had not come to rest after \"{}\": {} more of the sequence {} not run.",
+                        result.events.back().name, result.events_left, result.events_left == 1 ? "was" : "were");
+    if (result.status == Status::not_resolved && scene_.contact.rate.active()) result.message += longest_rated_step();
+}
+
+/// Steps for which friction over the rate has one answer in any case, of the dam as a rigid block.
+std::string EarthquakeRun::longest_rated_step() const
+{
+    const RateFriction& rate = scene_.contact.rate;
+    const BaseResultant base = base_resultant(*structure_, split(stages_.loads.size() - 1).dam);
+    const double mass = structure_->dam_inertia_x().sum();
+    const double fall = std::abs(1.0 - rate.kinetic_ratio) * FrictionOverSlip(scene_.contact).peak();
+    if (!(fall > 0.0) || !(base.normal_force > 0.0)) return {};
+    return fmt::format(" Friction over the rate needs steps below about v_c M/(N' (mu - mu_k)) = {:.3g} s, or a longer "
+                       "relaxation: give a smaller time.dt_s.",
+                       *rate.characteristic_rate * mass / (base.normal_force * fall));
 }
 
 /// Displacements at the end of the gravity stage where the scene counts from there; else empty.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "core/event_slip.hpp"
 #include "core/status.hpp"
 #include "core/stop.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
+#include "fe2d/run/base_water.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
@@ -10,6 +12,7 @@
 #include "fe2d/run/stages.hpp"
 #include "fe2d/time/run_progress.hpp"
 #include "records/record.hpp"
+#include "scene/anchor_bar.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -23,9 +26,11 @@ namespace damslip::fe2d {
 
 /// What the caller brings from other modules, and what only a run needs. All else is the scene's.
 struct RunOptions {
-    AddedMassLaw added_mass;      ///< of the upstream face (ModelOptions::added_mass); empty: none
-    PressureProfile uplift;       ///< under the base before the earthquake; empty: none
-    PressureProfile uplift_after; ///< the same after it; empty: as before
+    AddedMassLaw added_mass;            ///< of the upstream face (ModelOptions::added_mass); empty: none
+    PressureProfile uplift;             ///< under the base before the earthquake; empty: none
+    PressureProfile uplift_after;       ///< the same after it; empty: as before
+    CrackedUplift cracked_uplift;       ///< `uplift` where the base has cracked, for uplift.opening
+    CrackedUplift cracked_uplift_after; ///< `uplift_after` where it has; empty: it stays as it is
     /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.
     std::function<Eigen::VectorXd(const Model&)> water_in_rock;
     std::optional<RayleighConstants> damping; ///< in place of the scene's
@@ -35,6 +40,7 @@ struct RunOptions {
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
     double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
     ContactOptions contact;
+    std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
     PairSeries pair_series = PairSeries::none;
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
@@ -68,19 +74,24 @@ struct RunResult {
     std::vector<StageResult> stages;      ///< before the earthquake
     StageResult after;                    ///< after it, with residual strength and uplift_after
     RunHistory history;
-    double slip = 0.0;       ///< final, area mean, since the static state [m]
-    double max_slip = 0.0;   ///< largest |slip| of all steps on the way, between the rows of the history too [m]
-    double slip_error = 0.0; ///< estimate of what the time step leaves open [m]; NaN: not estimated
-    int halvings = 0;        ///< the step was dt / 2^halvings
-    double dt = 0.0;         ///< [s]; of adaptive steps the mean
-    double end_time = 0.0;   ///< run-out included [s]
-    RunOutFigures run_out;   ///< slip with the ground moving and at rest, and what pays for it
+    double slip = 0.0;             ///< final, area mean, since the static state [m]
+    double max_slip = 0.0;         ///< largest |slip| of all steps on the way, between the rows of the history too [m]
+    double slip_error = 0.0;       ///< estimate of what the time step leaves open [m]; NaN: not estimated
+    std::vector<EventSlip> events; ///< of a sequence, as far as they were reached; else empty
+    std::size_t events_left = 0;   ///< not reached
+    int halvings = 0;              ///< the step was dt / 2^halvings
+    double dt = 0.0;               ///< [s]; of adaptive steps the mean
+    double end_time = 0.0;         ///< run-out included [s]
+    RunOutFigures run_out;         ///< slip with the ground moving and at rest, and what pays for it
     RayleighConstants damping;
-    DynamicCounts counts;                     ///< of the run that is reported
-    double energy_error = 0.0;                ///< |imbalance| at the end over the largest term [-]
-    std::vector<LiftResult> lifts;            ///< from bottom to top
-    Eigen::VectorXd pair_distance, pair_area; ///< of the base [m]
+    DynamicCounts counts;                       ///< of the run that is reported
+    double energy_error = 0.0;                  ///< |imbalance| at the end over the largest term [-]
+    std::vector<LiftResult> lifts;              ///< from bottom to top
+    std::vector<AnchorOutcome> anchors;         ///< in the order of the scene
+    std::optional<JointWaterReport> base_water; ///< none where uplift.opening and uplift.after leave it as it was
+    Eigen::VectorXd pair_distance, pair_area;   ///< of the base [m]
     Eigen::VectorXd pair_pressure, pair_shear, pair_slip, pair_opening; ///< at the end [Pa, Pa, m, m]
+    RunState state;                    ///< of the joints at the end; without pairs where the record has not run
     Eigen::VectorXd displacement;      ///< at the end, on all unknowns of the model, from `zero_displacement` on [m]
     Eigen::VectorXd zero_displacement; ///< of the gravity stage where scene.stages.geostatic is set; else empty [m]
     RunSeconds seconds;
@@ -159,14 +170,18 @@ private:
     SlideWatch slide_watch(const Lane& lane, double record_end) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
     void stand(Lane& lane) const;
+    void go_on(StaticContact& statics, Lane& lane) const;
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
+    std::vector<RunResult> shake_in_turn(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const;
+    PressureProfile water_after(const ContactMemory& end, RunResult& result) const;
     void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const;
     void judge(RunResult& result) const;
+    std::string longest_rated_step() const;
     std::string runs_away(const RunResult& result) const;
     std::string missed_tolerance(const RunResult& result) const;
 

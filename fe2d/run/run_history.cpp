@@ -1,5 +1,8 @@
 #include "fe2d/run/run_history.hpp"
 
+#include "fe2d/contact/anchor_law.hpp"
+#include "fe2d/run/base_water.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,7 +88,8 @@ void HistoryRecorder::add()
         if (state == ContactState::open) open += plane.area[i];
         if (is_slip(state)) slipping += plane.area[i];
     }
-    const double normal = c.force.head(m).sum(), about_heel = c.force.head(m).dot(plane.distance);
+    const VectorXd force = c.contact_force();
+    const double normal = force.head(m).sum(), about_heel = force.head(m).dot(plane.distance);
     history_.time.push_back(s.time);
     history_.ground_h.push_back(s.ground.h);
     history_.ground_v.push_back(s.ground.v);
@@ -96,21 +100,28 @@ void HistoryRecorder::add()
     history_.rocking.push_back(base_rotation(plane, c.opening.head(m)));
     history_.crest_x.push_back(s.u[crest_] - crest_start_);
     history_.normal_force.push_back(normal);
-    history_.shear_force.push_back(-c.force.segment(planes.pairs(), m).sum());
+    history_.shear_force.push_back(-force.segment(planes.pairs(), m).sum());
     history_.normal_position.push_back(normal > 0.0 ? about_heel / normal : std::numeric_limits<double>::quiet_NaN());
     history_.moment.push_back(about_heel - normal * middle_of(plane));
     history_.open_length.push_back(open);
     history_.slipping_length.push_back(slipping);
     history_.largest_opening.push_back(c.opening.head(m).maxCoeff());
+    if (const auto* water = c.laws.find<CrackWater>()) {
+        const JointWaterReport& report = water->report();
+        history_.crack_length.push_back(report.crack.upstream);
+        history_.wet_length.push_back(report.wet_length);
+        for (const double pressure : report.pressure) history_.joint_pressure.push_back(static_cast<float>(pressure));
+    }
     history_.energy.push_back(dynamics_.energy());
     history_.imbalance.push_back(dynamics_.energy_imbalance());
-    add_lifts();
+    add_lifts(force);
+    add_anchors();
     if (series_ == PairSeries::none) return;
-    add_pairs();
+    add_pairs(force);
     history_.states.look(s, history_.slip.back(), history_.crest_x.back());
 }
 
-void HistoryRecorder::add_lifts()
+void HistoryRecorder::add_lifts(const VectorXd& force)
 {
     const ContactMemory& c = dynamics_.state().contact;
     const ContactPlanes& planes = dynamics_.structure().planes();
@@ -119,12 +130,24 @@ void HistoryRecorder::add_lifts()
         LiftHistory& lift = history_.lifts[static_cast<std::size_t>(k - 1)];
         lift.slip.push_back(planes.mean(k, c.slip - start_));
         lift.rocking.push_back(base_rotation(planes[k], c.opening.segment(first, pairs)));
-        lift.normal_force.push_back(c.force.segment(first, pairs).sum());
+        lift.normal_force.push_back(force.segment(first, pairs).sum());
         lift.largest_opening.push_back(c.opening.segment(first, pairs).maxCoeff());
     }
 }
 
-void HistoryRecorder::add_pairs()
+void HistoryRecorder::add_anchors()
+{
+    const auto* law = dynamics_.state().contact.laws.find<AnchorLaw>();
+    if (!law) return;
+    const std::vector<AnchorOutcome> now = law->outcomes();
+    history_.anchors.resize(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        history_.anchors[k].name = now[k].name;
+        history_.anchors[k].force.push_back(now[k].history.force);
+    }
+}
+
+void HistoryRecorder::add_pairs(const VectorXd& force)
 {
     const ContactMemory& c = dynamics_.state().contact;
     const VectorXd& area = dynamics_.structure().plane().area;
@@ -132,8 +155,8 @@ void HistoryRecorder::add_pairs()
     PairHistory& pairs = history_.by_pair;
     pairs.pairs = m;
     for (Index i = 0; i < m; ++i) {
-        pairs.pressure.push_back(static_cast<float>(c.force[i] / area[i]));
-        pairs.shear.push_back(static_cast<float>(-c.force[tangential + i] / area[i]));
+        pairs.pressure.push_back(static_cast<float>(force[i] / area[i]));
+        pairs.shear.push_back(static_cast<float>(-force[tangential + i] / area[i]));
         pairs.slip.push_back(static_cast<float>(c.slip[i] - start_[i]));
         pairs.opening.push_back(static_cast<float>(c.opening[i]));
     }

@@ -3,6 +3,7 @@
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stored_states.hpp"
 
+#include <string>
 #include <vector>
 
 namespace damslip::fe2d {
@@ -19,6 +20,12 @@ struct LiftHistory {
     std::vector<double> rocking;         ///< rotation of what is above, positive where the upstream end opens [rad]
     std::vector<double> normal_force;    ///< N' [N/m]
     std::vector<double> largest_opening; ///< [m]
+};
+
+/// One row of anchors over time.
+struct AnchorSeries {
+    std::string name;
+    std::vector<double> force; ///< N [N/m]
 };
 
 /// Values of the base's m pairs over time; value of pair i in row r: [r * pairs + i]. Slips are counted from the static state.
@@ -49,19 +56,24 @@ struct RunHistory {
     std::vector<double> rocking;     ///< rotation of the base over the rock, positive where the heel opens [rad]
     std::vector<double>
         crest_x; ///< upstream end of the crest relative to the ground, since the static state, downstream [m]
-    std::vector<double> normal_force;    ///< N' = Σλ_n [N/m]
-    std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t [N/m]
+    std::vector<double> normal_force;    ///< N' = Σλ_n, of contact alone [N/m]
+    std::vector<double> shear_force;     ///< on the dam, resisting downstream slip: -Σλ_t, of contact alone [N/m]
     std::vector<double> normal_position; ///< of N' from the heel [m]; NaN while the whole base is open
     std::vector<double> moment;          ///< of λ_n about the middle of the base, positive towards the toe [N m/m]
     std::vector<double> open_length;     ///< [m]
     std::vector<double> slipping_length; ///< [m]
     std::vector<double> largest_opening; ///< [m]
-    std::vector<Energy> energy;          ///< [J/m]
-    std::vector<double> imbalance;       ///< [J/m]
-    std::vector<LiftHistory> lifts;      ///< from bottom to top
-    SlideHistory slide;                  ///< what pays for the sliding; rows of `time`
-    PairHistory by_pair;                 ///< rows of `time`; empty with PairSeries::none
-    StateKeeper states;                  ///< displacements of some instants; empty with PairSeries::none
+    // Of water that follows the opening of the base; empty without it.
+    std::vector<double> crack_length;  ///< of the run of open pairs from the heel to its tip [m]
+    std::vector<double> wet_length;    ///< how far water has come in it; opening mouth [m]
+    std::vector<float> joint_pressure; ///< of the base's m pairs, row by row [Pa]
+    std::vector<Energy> energy;        ///< [J/m]
+    std::vector<double> imbalance;     ///< [J/m]
+    std::vector<LiftHistory> lifts;    ///< from bottom to top
+    std::vector<AnchorSeries> anchors; ///< in the order of the scene
+    SlideHistory slide;                ///< what pays for the sliding; rows of `time`
+    PairHistory by_pair;               ///< rows of `time`; empty with PairSeries::none
+    StateKeeper states;                ///< displacements of some instants; empty with PairSeries::none
 };
 
 /// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
@@ -85,8 +97,9 @@ public:
     void add(); ///< a row for the present state
 
 private:
-    void add_lifts();
-    void add_pairs();
+    void add_lifts(const Eigen::VectorXd& force);
+    void add_anchors();
+    void add_pairs(const Eigen::VectorXd& force);
 
     const ContactMotion& dynamics_;
     RunHistory& history_;

@@ -1,5 +1,7 @@
 #include "fe2d/run/slide_probe.hpp"
 
+#include "fe2d/run/base_water.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,7 +45,7 @@ SlideInstant SlideProbe::instant(double time, const ContactMemory& contact, cons
         now.thrust_work += balances_[plane].shear_force * slip;
     }
     const Index base = planes_.base().pairs();
-    now.normal_force = contact.force.head(base).sum();
+    now.normal_force = contact.contact_force().head(base).sum();
     now.open = std::all_of(contact.states.begin(), contact.states.begin() + base,
                            [](ContactState state) { return state == ContactState::open; });
     now.sliding_factor = sliding_factor(law);
@@ -61,7 +63,7 @@ SlideInstant SlideProbe::instant(const ContactMotion& dynamics, const ContactLaw
 double friction_work(const ContactMemory& before, const ContactMemory& after)
 {
     const Index m = after.slip.size();
-    return -0.5 * (before.force.tail(m) + after.force.tail(m)).dot(after.slip - before.slip);
+    return -0.5 * (before.contact_force().tail(m) + after.contact_force().tail(m)).dot(after.slip - before.slip);
 }
 
 } // namespace damslip::fe2d

@@ -64,6 +64,12 @@ void SlideWatch::add(const SlideInstant& now)
     self_excited_ = goes_on();
 }
 
+void SlideWatch::next_record(double record_end)
+{
+    limits_.record_end = record_end;
+    edges_.clear();
+}
+
 double SlideWatch::chi(const Tally& from, const Tally& to) const
 {
     const double friction = to.friction - from.friction;

@@ -87,6 +87,8 @@ public:
     void add(const SlideInstant& now);         ///< after a step; the start first
     void add_row(SlideHistory& history) const; ///< for the present instant
     bool self_excited() const { return self_excited_; }
+    /// Another record begins. @param record_end  the ground is at rest from here on [s]
+    void next_record(double record_end);
     RunOutFigures figures() const;
 
 private:

@@ -1,7 +1,9 @@
 #include "fe2d/run/stages.hpp"
 
 #include "core/defect.hpp"
+#include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/model/lift_water.hpp"
+#include "fe2d/run/static_path.hpp"
 
 #include <fmt/format.h>
 
@@ -43,6 +45,10 @@ LoadStages load_stages(const Scene& scene, const Model& model, const PressurePro
     VectorXd sum = sum_of(loads.gravity, model.dofs.count);
     stages.names.push_back("gravity");
     stages.loads.push_back(sum);
+    if (std::any_of(scene.anchors.begin(), scene.anchors.end(), [](const Anchor& a) { return a.prestress > 0.0; })) {
+        stages.names.push_back("prestress"); // by AnchorLaw: within the joints, no load on the model
+        stages.loads.push_back(sum);
+    }
     if (!loads.impounding.empty()) {
         sum += sum_of(loads.impounding, model.dofs.count);
         stages.names.push_back("water");
@@ -82,12 +88,18 @@ void let_water_ride(const ContactStructure& structure, const PressureProfile& up
 
 namespace {
 
-StageStatus judge(const BaseResultant& r, double resistance, double length)
+/// @param bond  its tensile strength helps to carry the moment
+StageStatus judge(const BaseResultant& r, double resistance, const PlaneLimit& bond)
 {
-    if (!(r.normal_force > 0.0)) return StageStatus::floats;
+    if (!(r.normal_force + bond.tension_strength > 0.0)) return StageStatus::floats;
     if (std::abs(r.shear_force) > resistance) return StageStatus::slides;
-    if (r.position < 0.0 || r.position > length) return StageStatus::overturns;
-    return StageStatus::ok;
+    if (bond.tension_strength == 0.0) {
+        if (r.position < 0.0 || r.position > bond.length) return StageStatus::overturns;
+        return StageStatus::ok;
+    }
+    const double all = r.normal_force + bond.tension_strength,
+                 position = (r.position * r.normal_force + 0.5 * bond.length * bond.tension_strength) / all;
+    return position < 0.0 || position > bond.length ? StageStatus::overturns : StageStatus::ok;
 }
 
 std::string plane_name(const ContactStructure& structure, Index index)
@@ -98,21 +110,62 @@ std::string plane_name(const ContactStructure& structure, Index index)
     return fmt::format("lift joint at {:.6g} m", mesh.nodes[node].y - mesh.nodes[mesh.contact.dam_nodes.front()].y);
 }
 
-/// Resultants against the strength of the whole plane: cohesion on all of it, the weakest friction.
-PlaneBalance balance(const ContactStructure& structure, Index index, const VectorXd& dam_load, const ContactLaw& law)
+/// All strength of a plane's bond at once; nothing where its bond takes no work to break.
+PlaneLimit bond_limit(const ContactStructure& structure, Index index, const ContactMemory& memory)
+{
+    PlaneLimit limit;
+    limit.length = structure.planes()[index].length();
+    const auto* bond = memory.laws.find<BondLaw>();
+    if (!bond) return limit;
+    const Index first = structure.planes().first(index), pairs = structure.planes()[index].pairs();
+    for (Index i = first; i < first + pairs; ++i) {
+        if (bond->damage()[i] >= 1.0) continue;
+        const BondStrength& b = bond->strength()[static_cast<std::size_t>(i)];
+        limit.shear_strength += std::hypot(b.shear, b.friction * b.tension);
+        limit.tension_strength += b.tension;
+        limit.friction = b.friction;
+    }
+    return limit;
+}
+
+/// What presses on the joint when anchors pull on it, too.
+BaseResultant with_anchors(const BaseResultant& loads, const AnchorLaw::Support& anchors)
+{
+    BaseResultant r{loads.normal_force + anchors.normal, loads.shear_force - anchors.along, 0.0};
+    if (r.normal_force != 0.0) r.position = (loads.position * loads.normal_force + anchors.moment) / r.normal_force;
+    return r;
+}
+
+/// Resultants against the strength of the whole plane: cohesion on all of it, the weakest friction. Anchors count with the
+/// force they have; they fail only where their yield forces would not hold it either.
+PlaneBalance balance(const ContactStructure& structure, Index index, const VectorXd& dam_load, const ContactLaw& law,
+                     const PlaneLimit& bond, const AnchorLaw* anchors)
 {
     const Index first = structure.planes().first(index), pairs = structure.planes()[index].pairs();
     PlaneBalance result;
     result.plane = plane_name(structure, index);
-    result.resultant = base_resultant(structure, dam_load, index);
+    const BaseResultant of_loads = base_resultant(structure, dam_load, index);
+    result.resultant = of_loads;
+    AnchorLaw::Support now, most;
+    if (anchors) {
+        const VectorXd distance = structure.planes()[index].distance.array() - structure.planes()[index].distance[0];
+        now = anchors->support(AnchorLaw::Force::next_stage, first, pairs, distance);
+        most = anchors->support(AnchorLaw::Force::yield, first, pairs, distance);
+        if (now.any) result.resultant = with_anchors(of_loads, now);
+    }
     const double normal = result.resultant.normal_force, shear = std::abs(result.resultant.shear_force);
-    const double cohesion = law.cohesion.segment(first, pairs).sum(),
+    const double cohesion = law.cohesion.segment(first, pairs).sum() + bond.shear_strength + now.dowel,
                  resistance = law.friction.segment(first, pairs).minCoeff() * normal + cohesion;
     result.critical_friction = std::max(0.0, shear - cohesion) / normal;
     // A balance of the loads on the dam alone: round-off of sums of order N' is not a shear force.
     result.sliding_factor =
         shear > 1e-12 * std::abs(normal) ? resistance / shear : std::numeric_limits<double>::infinity();
-    result.status = judge(result.resultant, resistance, structure.planes()[index].length());
+    result.status = judge(result.resultant, resistance, bond);
+    if (most.any && result.status != StageStatus::ok) {
+        const BaseResultant yielding = with_anchors(of_loads, most);
+        const double held = resistance + law.friction.segment(first, pairs).minCoeff() * (most.normal - now.normal);
+        result.status = judge(yielding, held, bond);
+    }
     return result;
 }
 
@@ -130,24 +183,59 @@ void read_state(const ContactPlanes& planes, Index index, const ContactMemory& m
 
 } // namespace
 
+namespace {
+
+PlaneLoad plane_load(const BaseResultant& r)
+{
+    return {r.normal_force, r.shear_force, r.normal_force * r.position};
+}
+
+/// The load comes bit by bit where the bond breaks on the way. @returns false: it is not carried
+bool follow_bond(StaticContact& statics, const ContactStructure& structure, const SplitLoad& before,
+                 const SplitLoad& load, const ContactLaw& law, ContactMemory& memory, StageResult& result)
+{
+    BondLoad& bond = result.bond.emplace();
+    bond.limit = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < structure.planes().count(); ++k)
+        bond.limit = std::min(bond.limit, limit_load(bond_limit(structure, k, memory),
+                                                     plane_load(base_resultant(structure, before.dam, k)),
+                                                     plane_load(base_resultant(structure, load.dam, k))));
+    const StaticPath path = follow_damage(statics.with_laws(), statics.linear().shut_force(before),
+                                          statics.linear().shut_force(load), law, memory);
+    bond.largest = path.largest_load;
+    bond.events = path.events;
+    result.contact = path.contact;
+    return path.holds;
+}
+
+} // namespace
+
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
-                        const SplitLoad& load, Strength& strength, ContactMemory& memory)
+                        const SplitLoad& load, Strength& strength, ContactMemory& memory, const SplitLoad* before)
 {
     const ContactPlanes& planes = structure.planes();
     const ContactLaw& law = strength.law();
+    const AnchorLaw* anchors = memory.laws.find<AnchorLaw>();
     StageResult result;
     result.name = name;
-    static_cast<PlaneBalance&>(result) = balance(structure, 0, load.dam, law);
+    static_cast<PlaneBalance&>(result) =
+        balance(structure, 0, load.dam, law, bond_limit(structure, 0, memory), anchors);
     result.base_fails = result.status != StageStatus::ok;
     for (Index k = 1; k < planes.count(); ++k) {
-        result.lifts.push_back(balance(structure, k, load.dam, law));
+        result.lifts.push_back(balance(structure, k, load.dam, law, bond_limit(structure, k, memory), anchors));
         if (result.status == StageStatus::ok) result.status = result.lifts.back().status;
     }
     if (result.status != StageStatus::ok) return result;
 
     ContactMemory trial = memory;
     result.contact = statics.solve(load, law, trial);
-    if (!result.contact.resolved()) {
+    if (!result.contact.resolved() && before && memory.laws.find<BondLaw>()) {
+        trial = memory;
+        if (!follow_bond(statics, structure, *before, load, law, trial, result)) {
+            result.status = StageStatus::progressive;
+            return result;
+        }
+    } else if (!result.contact.resolved()) {
         result.status = StageStatus::not_resolved;
         return result;
     }
@@ -163,6 +251,7 @@ Status status_of(StageStatus stage)
 {
     switch (stage) {
     case StageStatus::slides:
+    case StageStatus::progressive:
         return Status::static_failure;
     case StageStatus::floats:
         return Status::floats;
@@ -197,6 +286,11 @@ std::string StageResult::text() const
     case StageStatus::overturns:
         return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", name, body,
                            forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
+    case StageStatus::progressive:
+        return fmt::format("{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
+                           "stage's load is in equilibrium, {:.3g} with all strength at once; give more strength or "
+                           "fracture energy.",
+                           name, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0);
     case StageStatus::not_resolved:
         return fmt::format(
             "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "

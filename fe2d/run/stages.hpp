@@ -5,11 +5,12 @@
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/strength.hpp"
 
+#include <optional>
 #include <string>
 
 namespace damslip::fe2d {
 
-/// What all loads above a plane come to on it, from statics alone.
+/// What all loads above a plane, and the anchors through it, come to on it, from statics alone.
 struct BaseResultant {
     double normal_force = 0.0; ///< N', effective, compression positive [N/m]
     double shear_force = 0.0;  ///< T, drives what is above downstream [N/m]
@@ -21,9 +22,10 @@ BaseResultant base_resultant(const ContactStructure& structure, const Eigen::Vec
 
 enum class StageStatus {
     ok,
-    slides,      ///< |T| > mu N' + c A: no equilibrium whatever the elasticity
-    floats,      ///< N' <= 0
-    overturns,   ///< N' acts outside the base
+    slides,    ///< |T| > mu N' + c A: no equilibrium whatever the elasticity
+    floats,    ///< N' <= 0
+    overturns, ///< N' acts outside the base
+    progressive, ///< the bond unzips: its strength would do if all of it were there at once, but no state carries the load
     not_resolved ///< resultants allow equilibrium, but the contact problem has none or was not solved: see the report
 };
 
@@ -42,12 +44,20 @@ struct PlaneBalance {
     double slipping_length = 0.0;   ///< area of pairs at their strength [m]
 };
 
+/// How much of a stage's load a bond carries.
+struct BondLoad {
+    double largest = 1.0; ///< t_max: share of the load on the way to its equilibrium, or to failure [-]
+    double limit = 0.0;   ///< t_LP: upper bound with all of the bond's strength at once (limit_load()) [-]
+    int events = 0;       ///< damage updates on the way; 0: found without following the load
+};
+
 /// A stage: the base's balance, and those of the lift joints.
 struct StageResult : PlaneBalance {  // `status` is that of the whole stage
-    std::string name;                ///< "gravity", "water", "uplift", "after the earthquake"
+    std::string name;                ///< "gravity", "prestress", "water", "uplift", "after the earthquake"
     std::string where;               ///< the lift joint that fails; empty: the base
     bool base_fails = false;         ///< by its resultants
     std::vector<PlaneBalance> lifts; ///< from bottom to top
+    std::optional<BondLoad> bond;    ///< of a bond that breaks by energy; none: none, or not asked for
     ContactReport contact;
 
     std::string text() const; ///< one sentence with the numbers
@@ -62,7 +72,7 @@ struct LoadStages {
     const Eigen::VectorXd& last() const { return loads.back(); }
 };
 
-/// Gravity, water, uplift with the water in lift joints; stages without loads are left out.
+/// Gravity, prestress of anchors, water, uplift with the water in lift joints; stages without loads are left out.
 /// @param uplift  under the base; empty: none. It acts on both sides of the joint, open or not, so contact forces are effective
 /// @param in_rock  water in the rock, on all unknowns, comes with the uplift and stays (RunOptions::water_in_rock); empty: none
 LoadStages load_stages(const Scene& scene, const Model& model, const PressureProfile& uplift,
@@ -76,7 +86,9 @@ Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const Pr
 void let_water_ride(const ContactStructure& structure, const PressureProfile& uplift, SplitLoad& load);
 
 /// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
+/// @param before  load of the stage before, from which a bond that breaks is followed; null: the stage is made at once
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
-                        const SplitLoad& load, Strength& strength, ContactMemory& memory);
+                        const SplitLoad& load, Strength& strength, ContactMemory& memory,
+                        const SplitLoad* before = nullptr);
 
 } // namespace damslip::fe2d

@@ -96,9 +96,15 @@ StaticState StaticOperator::displacements(const SplitLoad& load, const VectorXd&
     return state;
 }
 
+VectorXd ContactMemory::contact_force() const
+{
+    return laws.active() ? VectorXd(force - laws.force()) : force;
+}
+
 StaticContact::StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint,
                              const ContactOptions& options)
-    : linear_(std::move(linear)), solver_(linear_->stiffness(), linear_->structure().planes().area(), joint, options)
+    : linear_(std::move(linear)), options_(options),
+      solver_(linear_->stiffness(), linear_->structure().planes().area(), joint, options)
 {
 }
 
@@ -115,7 +121,14 @@ ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law,
     stuck += solver_.stiffness().rightCols(m) * (memory.slip + memory.elastic);
     ContactSolution solution{memory.states, {}, memory.force};
     VectorXd elastic = memory.elastic;
-    const ContactReport report = solver_.solve(stuck, law, elastic, solution);
+    ContactReport report;
+    if (memory.laws.active()) {
+        report =
+            memory.laws.solve(with_laws(), stuck, {0.0, memory.opening, memory.slip, memory.states}, law, solution);
+        if (report.resolved()) memory.laws.end();
+    } else {
+        report = solver_.solve(stuck, law, elastic, solution);
+    }
     if (!report.resolved()) return report;
     memory.elastic = elastic;
     memory.states = solution.states;
@@ -123,6 +136,12 @@ ContactReport StaticContact::solve(const SplitLoad& load, const ContactLaw& law,
     memory.opening = solution.displacement.head(m);
     memory.slip += solution.displacement.tail(m);
     return report;
+}
+
+JointLawSolver& StaticContact::with_laws()
+{
+    if (!with_laws_) with_laws_ = std::make_unique<JointLawSolver>(linear_->stiffness(), options_);
+    return *with_laws_;
 }
 
 StaticState StaticContact::displacements(const SplitLoad& load, const ContactMemory& memory) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/contact/joint_laws.hpp"
 #include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/run/contact_structure.hpp"
 
@@ -9,13 +10,18 @@ namespace damslip::fe2d {
 
 /// Everything of one instant that the contact remembers or shows; plane vectors (normal, then tangential).
 struct ContactMemory {
-    Eigen::VectorXd force;   ///< λ [N/m]: effective compression; shear on the dam, positive downstream
+    Eigen::VectorXd force; ///< λ [N/m]: all that crosses the joint; effective compression; shear on the dam, positive
+                           ///< downstream
     Eigen::VectorXd opening; ///< g_N [m], m values
     Eigen::VectorXd
         slip; ///< accumulated, positive downstream, without the elastic give of a penalty [m], m values; kept exactly while a pair sticks
     Eigen::VectorXd elastic; ///< elastic part of the tangential gaps, on top of `slip`; zero where sticking is rigid
                              ///< [m], m values
     ContactStates states;
+    JointLaws laws; ///< with their states; `force` holds their forces, too
+
+    /// λ_c: what contact and friction carry of `force` [N/m].
+    Eigen::VectorXd contact_force() const;
 
     explicit ContactMemory(Eigen::Index pairs = 0)
         : force(Eigen::VectorXd::Zero(2 * pairs)), opening(Eigen::VectorXd::Zero(pairs)),
@@ -82,12 +88,18 @@ public:
     /// From the memory of the last stage to equilibrium under the whole load: friction is followed in one step.
     ContactReport solve(const SplitLoad& load, const ContactLaw& law, ContactMemory& memory);
 
+    /// For solutions with laws of the joints beside hard contact and friction.
+    JointLawSolver& with_laws();
+    const StaticOperator& linear() const { return *linear_; }
+
     /// Displacements that belong to a load and a memory in equilibrium.
     StaticState displacements(const SplitLoad& load, const ContactMemory& memory) const;
 
 private:
     std::shared_ptr<const StaticOperator> linear_;
+    ContactOptions options_;
     JointSolver solver_;
+    std::unique_ptr<JointLawSolver> with_laws_; ///< null: none needed so far
 };
 
 } // namespace damslip::fe2d

@@ -9,7 +9,8 @@ struct StepState : DynamicState {
     Eigen::VectorXd rate_t;  ///< tangential gap rates ġ_t [m/s]; kept for themselves: a pair that sticks has none,
                              ///< to the last bit
     Eigen::VectorXd accel_t; ///< and accelerations [m/s²]
-    Eigen::VectorXd force_before; ///< λ one step ago [N/m]
+    Eigen::VectorXd force_before;     ///< λ one step ago [N/m]
+    Eigen::VectorXd law_force_before; ///< of it, the laws of the joint (JointLaws::force()); empty: no laws
 };
 
 /// What one step changed.

@@ -1,5 +1,8 @@
 #include "fe2d/run/strength.hpp"
 
+#include "scene/joint_bond.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -25,23 +28,69 @@ void Strength::add(const Contact& contact, Index first, const Eigen::VectorXd& a
 {
     const FrictionOverSlip friction(contact);
     law_.friction.segment(first, area.size()).setConstant(friction.at(0.0));
-    law_.cohesion.segment(first, area.size()) = contact.cohesion * area;
-    if (!friction.constant() || (contact.cohesion != 0.0 && contact.cohesion_lost_at_slip)) constant_ = false;
-    parts_.push_back({friction, contact.cohesion_lost_at_slip, first, area.size()});
+    Part part{friction, std::nullopt, first, area.size(), {}};
+    if (breaks_by_energy(contact)) {
+        law_.cohesion.segment(first, area.size()).setZero();
+    } else {
+        law_.cohesion.segment(first, area.size()) = contact.cohesion * area;
+        if (contact.cohesion != 0.0 && contact.cohesion_lost_at_slip) part.loss = bond_loss(contact);
+        if (part.loss == BondLoss::together) part.cohesion = contact.cohesion * area;
+    }
+    if (!friction.constant() || part.loss) constant_ = false;
+    parts_.push_back(std::move(part));
     last_slip_ = accumulated_ = Eigen::VectorXd::Zero(law_.pairs());
 }
 
 void Strength::follow(const ContactMemory& memory)
 {
     if (constant_) return;
-    for (const Part& part : parts_)
+    for (Part& part : parts_) {
+        if (part.loss == BondLoss::together && part.cohesion.size() > 0 && lose_together(part, memory))
+            part.cohesion.resize(0);
         for (Index i = part.first; i < part.first + part.pairs; ++i) {
             accumulated_[i] += std::abs(memory.slip[i] - last_slip_[i]);
             last_slip_[i] = memory.slip[i];
             law_.friction[i] = part.friction.at(accumulated_[i]);
             const ContactState state = memory.states[static_cast<std::size_t>(i)];
-            if (part.cohesion_lost_at_slip && state != ContactState::stick) law_.cohesion[i] = 0.0;
+            if (part.loss == BondLoss::pairs && state != ContactState::stick) law_.cohesion[i] = 0.0;
+            if (part.loss == BondLoss::together) {
+                const bool holds = part.cohesion.size() > 0 && state != ContactState::open;
+                law_.cohesion[i] = holds ? part.cohesion[i - part.first] : 0.0;
+            }
         }
+    }
+}
+
+/// |Σλ_t| over all closed pairs of a plane against μΣλ_n + c A_closed. Each pair is within its own strength, so the plane has
+/// reached it only when every closed pair slips, up to round-off.
+bool Strength::lose_together(const Part& part, const ContactMemory& memory) const
+{
+    double shear = 0.0, strength = 0.0;
+    for (Index i = part.first; i < part.first + part.pairs; ++i) {
+        if (memory.states[static_cast<std::size_t>(i)] == ContactState::open) continue;
+        shear += memory.force[law_.pairs() + i];
+        strength += law_.friction[i] * std::max(0.0, memory.force[i]) + part.cohesion[i - part.first];
+    }
+    return std::abs(shear) >= strength * (1.0 - 1e-9);
+}
+
+void Strength::save(RunState& state) const
+{
+    state.path = accumulated_;
+    state.cohesion = law_.cohesion;
+}
+
+void Strength::restore(const RunState& state)
+{
+    accumulated_ = state.path;
+    last_slip_ = state.slip;
+    law_.cohesion = state.cohesion;
+    for (Part& part : parts_) {
+        for (Index i = part.first; i < part.first + part.pairs; ++i)
+            law_.friction[i] = part.friction.at(accumulated_[i]);
+        if (part.cohesion.size() > 0 && (state.cohesion.segment(part.first, part.pairs).array() == 0.0).all())
+            part.cohesion.resize(0);
+    }
 }
 
 } // namespace damslip::fe2d

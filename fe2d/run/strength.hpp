@@ -1,13 +1,16 @@
 #pragma once
 
+#include "fe2d/run/run_state.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "scene/friction_over_slip.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace damslip::fe2d {
 
-/// Strength of the pairs during a run: friction that depends on the slip of each pair, cohesion that is lost.
+/// Strength of the pairs during a run: friction that depends on the slip of each pair, cohesion that is lost pair by pair or
+/// of a whole plane together. Cohesion that takes work to break is a law of its own (BondLaw): none here.
 ///
 /// Changes take effect from the next step on (an error of first order in the step, nothing where strength is constant).
 class Strength {
@@ -18,14 +21,18 @@ public:
     const ContactLaw& law() const { return law_; }
     bool constant() const { return constant_; }
     void follow(const ContactMemory& memory); ///< after a step
+    void save(RunState& state) const;         ///< path and cohesion
+    void restore(const RunState& state);
 
 private:
     struct Part {
         FrictionOverSlip friction;
-        bool cohesion_lost_at_slip;
+        std::optional<BondLoss> loss; ///< of cohesion; none: it stays
         Eigen::Index first, pairs;
+        Eigen::VectorXd cohesion; ///< of the pairs, where it is lost together [N/m]; empty: lost
     };
     void add(const Contact& contact, Eigen::Index first, const Eigen::VectorXd& area);
+    bool lose_together(const Part& part, const ContactMemory& memory) const;
 
     std::vector<Part> parts_; ///< by plane
     ContactLaw law_;

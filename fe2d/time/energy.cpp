@@ -26,13 +26,16 @@ double Energy::imbalance(const Energy& start) const
 {
     return (kinetic - start.kinetic) + (strain - start.strain) + (damping - start.damping) +
            (numerical - start.numerical) + (friction - start.friction) + (radiated - start.radiated) -
-           (external - start.external) - (contact_normal - start.contact_normal);
+           (external - start.external) - (contact_normal - start.contact_normal) + (joint_stored - start.joint_stored) +
+           (bond_fracture - start.bond_fracture) + (anchor_plastic - start.anchor_plastic) +
+           (anchor_loss - start.anchor_loss) - (joint_water - start.joint_water) + (impact - start.impact);
 }
 
 double Energy::scale() const
 {
     return std::max({kinetic, strain, std::abs(damping), std::abs(numerical), std::abs(friction), std::abs(radiated),
-                     std::abs(external), std::abs(contact_normal)});
+                     std::abs(external), std::abs(contact_normal), joint_stored, bond_fracture, anchor_plastic,
+                     anchor_loss, std::abs(joint_water), std::abs(impact)});
 }
 
 EnergyLedger::EnergyLedger(const State& start)

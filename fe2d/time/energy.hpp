@@ -26,6 +26,14 @@ struct Energy {
     double external = 0.0;       ///< done by R: static loads and ground motion
     double contact_normal = 0.0; ///< done by contact pressures beyond what soft contact stores or gives back
 
+    // Of the joints' laws beside contact and friction; zero without them.
+    double joint_stored = 0.0;   ///< in bonds and anchors
+    double bond_fracture = 0.0;  ///< spent on breaking bonds
+    double anchor_plastic = 0.0; ///< spent on yielding anchors
+    double anchor_loss = 0.0;    ///< stored in anchors that snapped
+    double joint_water = 0.0;    ///< done by water that follows the opening, beyond its pressure before
+    double impact = 0.0;         ///< lost in landings
+
     /// Δ(kinetic + strain) + damping + numerical + friction + radiated - external - contact_normal since the start
     /// [J/m].
     double imbalance(const Energy& start) const;

@@ -67,7 +67,7 @@ double sliding_mass(const BaseEquations& equations, double friction, SlipDirecti
 GroundLinear excess_drive(const BaseEquations& e, const RigidBlock& block, SlipDirection direction)
 {
     const double d = sign(direction);
-    return {d * e.drive.constant - block.cohesion_force - block.friction * e.normal.constant,
+    return {d * e.drive.constant - block.cohesion_force - block.dowel_force - block.friction * e.normal.constant,
             d * e.drive.per_a_h - block.friction * e.normal.per_a_h,
             d * e.drive.per_a_v - block.friction * e.normal.per_a_v};
 }
@@ -89,6 +89,8 @@ void check_block(const RigidBlock& b)
             "check contact.friction");
     require(std::isfinite(b.cohesion_force) && b.cohesion_force >= 0.0, found, "cohesion force", b.cohesion_force,
             ">= 0 N/m", "check contact.cohesion");
+    require(std::isfinite(b.dowel_force) && b.dowel_force >= 0.0, found, "dowel force", b.dowel_force, ">= 0 N/m",
+            "check the anchors");
     require(std::isfinite(b.gravity) && b.gravity > 0.0, found, "gravity", b.gravity, "more than 0 m/s^2",
             "check site.gravity");
     require(std::abs(b.base_inclination) < 0.5 * std::numbers::pi, found, "base inclination in rad", b.base_inclination,

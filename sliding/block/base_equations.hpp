@@ -32,8 +32,6 @@ struct BaseEquations {
 
 BaseEquations base_equations(const RigidBlock& block);
 
-enum class SlipDirection { downstream = 1, upstream = -1 };
-
 inline double sign(SlipDirection direction)
 {
     return static_cast<double>(direction);
@@ -44,7 +42,7 @@ inline double sign(SlipDirection direction)
 /// see check_block.
 double sliding_mass(const BaseEquations& equations, double friction, SlipDirection direction);
 
-/// What is missing to sliding in `direction`, sign reversed: sign drive - c A' - mu normal [N/m]. Positive: it slides.
+/// What is missing to sliding in `direction`, sign reversed: sign drive - c A' - dowel - mu normal [N/m]. Positive: it slides.
 GroundLinear excess_drive(const BaseEquations& equations, const RigidBlock& block, SlipDirection direction);
 
 /// Normal force of a block that slides without any resistance, normal + mass_tn drive / mass_tt [N/m]. Its sign is also

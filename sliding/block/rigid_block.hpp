@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sliding/block/opening_uplift.hpp"
+
 /// The rigid block on its base plane, and the ground accelerations at which it starts to slide.
 namespace damslip::sliding {
 
@@ -16,13 +18,15 @@ struct RigidBlock {
     AddedMassTensor added_mass; ///< moves with the block [kg/m]
     double gravity = 9.81;      ///< of the site [m/s^2]; the weight is mass * gravity
     double vertical_force =
-        0.0; ///< static, downward, besides the weight: water on sloping faces, silt, user forces [N/m]
+        0.0; ///< static, downward, besides the weight: water on sloping faces, silt, user forces, anchors [N/m]
     double horizontal_force =
         0.0;             ///< static, downstream: hydrostatic thrust less tailwater, silt, ice, user forces [N/m]
     double uplift = 0.0; ///< U, normal to the base, lifts the block [N/m]
-    double cohesion_force = 0.0;   ///< c A' [N/m]
-    double friction = 0.0;         ///< mu [-]
-    double base_inclination = 0.0; ///< theta [rad], positive: dips downstream
+    double cohesion_force = 0.0;                       ///< c A' [N/m]
+    double dowel_force = 0.0;                          ///< of grouted anchors, resists slip either way [N/m]
+    double friction = 0.0;                             ///< mu [-]
+    double base_inclination = 0.0;                     ///< theta [rad], positive: dips downstream
+    std::shared_ptr<const OpeningUplift> opening = {}; ///< of `uplift` while it slides; null: none
 };
 
 } // namespace damslip::sliding

@@ -1,6 +1,7 @@
 #include "sliding/block/slide.hpp"
 
 #include "core/defect.hpp"
+#include "core/input_error.hpp"
 #include "core/number.hpp"
 #include "sliding/block/slammer.hpp"
 #include "sliding/block/slip_motion.hpp"
@@ -23,6 +24,39 @@ void run_out(SlipMotion& block, double start, double dt, double longest, SlideHi
     }
 }
 
+/// Zero samples between two events until the block rests, and for the pause from there on. @returns false where it does not
+/// come to rest within `longest` [s]
+template <typename Cross>
+bool pause(const SlipMotion& block, const GroundMotion& motion, double longest, Line a_h, Line a_v, Cross&& cross)
+{
+    const auto most = static_cast<long>(std::ceil(longest / motion.dt - 1e-9));
+    const auto wanted = static_cast<long>(std::ceil(motion.pause / motion.dt - 1e-9));
+    for (long zeros = 1, at_rest = 0;; ++zeros) {
+        cross(a_h, a_v);
+        a_h = a_v = {};
+        if (block.unresolved()) return false;
+        at_rest = block.at_rest() ? at_rest + 1 : 0;
+        if (at_rest > wanted) return true;
+        if (at_rest == 0 && zeros >= most) return false;
+    }
+}
+
+/// What each event of a sequence has added. @param slip  at the end, after the last one's run-out [m]
+void add_changes(const GroundMotion& motion, double slip, SlideResult& result)
+{
+    if (result.events.empty()) return;
+    result.events.back().slip = slip;
+    double before = 0.0;
+    for (EventSlip& event : result.events) {
+        event.change = event.slip - before;
+        before = event.slip;
+    }
+    const std::size_t left = motion.events.size() - result.events.size();
+    if (left > 0)
+        result.notes.push_back("The block did not come to rest after \"" + result.events.back().name + "\": " +
+                               std::to_string(left) + (left == 1 ? " event" : " events") + " of the sequence not run.");
+}
+
 std::string static_note(const SlipStages& stages, StaticState state)
 {
     const RigidBlock& block = stages.front().block;
@@ -43,8 +77,15 @@ void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& 
                                " s after the record's end: the slip is a lower bound.");
     if (result.status == Status::not_resolved)
         result.notes.push_back("More events in one sample interval than a motion can have; the slip up to " +
-                               shortest(result.end_time) + " s is given.");
-    if (result.accuracy == SlideAccuracy::series)
+                               shortest(result.end_time) + " s is given." +
+                               (stages.front().rate.active() ? " Friction follows the rate within v_c = " +
+                                                                   shortest(*stages.front().rate.characteristic_rate) +
+                                                                   " m/s: give a larger contact.characteristic_rate."
+                                                             : ""));
+    if (result.accuracy == SlideAccuracy::series && stages.front().rate.active())
+        result.notes.push_back(
+            "Friction over the rate of slip: Taylor series to round-off, events located within 1e-10.");
+    else if (result.accuracy == SlideAccuracy::series && options.anchors.empty())
         result.notes.push_back("Friction linear in slip under a varying normal force has no closed form: Taylor series "
                                "to round-off, events "
                                "located within 1e-10.");
@@ -68,22 +109,67 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
     SlideHistory* history = options.history == HistoryOutput::samples ? &result.history : nullptr;
     SlipMotion block(stages, options);
     if (history) block.add_sample(0.0, a_h(0), a_v(0), *history);
-    const std::size_t last = motion.accel_h.size() - 1;
+    const bool stands = static_state(stages.front().block) == StaticState::at_rest;
     const auto rests = [&](const AccelRange& r) {
         return options.polarity > 0 ? block.stays_at_rest(r.h_min, r.h_max, r.v_min, r.v_max)
                                     : block.stays_at_rest(-r.h_max, -r.h_min, r.v_min, r.v_max);
     };
-    for (std::size_t k = 0; k < last && !block.unresolved(); ++k) {
-        if (blocks && !history && block.at_rest()) k = blocks->skip(k, rests);
-        if (k == last) break;
-        block.cross(static_cast<double>(k) * motion.dt, motion.dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
-        if (history) block.add_sample(static_cast<double>(k + 1) * motion.dt, a_h(k + 1), a_v(k + 1), *history);
+    std::size_t n = 0; // intervals so far, those between events included
+    const auto now = [&] { return static_cast<double>(n) * motion.dt; };
+    const auto cross = [&](const Line& h, const Line& v) {
+        block.cross(now(), motion.dt, h, v);
+        ++n;
+        if (history) block.add_sample(now(), h.end, v.end, *history);
+    };
+    const std::size_t events = std::max<std::size_t>(1, motion.events.size());
+    for (std::size_t e = 0; e < events; ++e) {
+        const std::size_t first = e == 0 ? 0 : motion.events[e].first, last = motion.last_of(e);
+        if (e > 0) cross({0.0, a_h(first)}, {0.0, a_v(first)});
+        if (motion.is_sequence()) result.events.push_back({motion.events[e].name, now(), now(), 0.0, 0.0});
+        for (std::size_t k = first; k < last && !block.unresolved(); ++k) {
+            if (blocks && !history && block.at_rest()) {
+                const std::size_t next = std::min(blocks->skip(k, rests), last);
+                n += next - k;
+                k = next;
+            }
+            if (k == last) break;
+            cross({a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
+        }
+        if (!motion.is_sequence()) break;
+        result.events.back().end = now();
+        const bool rests_then =
+            e + 1 < events && stands && !defect(Defect::run_out_off) &&
+            pause(block, motion, options.sliding.run_out_max, {a_h(last), 0.0}, {a_v(last), 0.0}, cross);
+        result.events.back().slip = block.slip();
+        if (!rests_then) break;
     }
-    const double end = static_cast<double>(last) * motion.dt;
-    if (static_state(stages.front().block) == StaticState::at_rest && !defect(Defect::run_out_off))
-        run_out(block, end, motion.dt, options.sliding.run_out_max, history);
+    const double end = now();
+    if (stands && !defect(Defect::run_out_off)) run_out(block, end, motion.dt, options.sliding.run_out_max, history);
     conclude(block, stages, options, end, result);
+    add_changes(motion, block.slip(), result);
     return result;
+}
+
+} // namespace
+
+namespace {
+
+void check_anchors(const SlideOptions& options)
+{
+    if (options.anchors.empty()) return;
+    Diagnostic diagnostic;
+    if (options.sliding.scheme == SlidingScheme::slammer) {
+        diagnostic.problem = "SLAMMER's scheme with anchors is not allowed.";
+        diagnostic.expected = "the exact scheme: SLAMMER's has no force that grows with slip";
+        diagnostic.fix = "use  scheme = \"exact\"";
+    } else if (options.sliding.lift_off == LiftOff::ballistic) {
+        diagnostic.problem = "ballistic lift-off with anchors is not allowed.";
+        diagnostic.expected = "lift_off = \"no-friction\": the block's flight knows no anchor";
+        diagnostic.fix = "use  lift_off = \"no-friction\"";
+    } else {
+        return;
+    }
+    throw InputError(diagnostic);
 }
 
 } // namespace
@@ -105,6 +191,7 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
 {
     check_motion(motion);
     check_stages(stages);
+    check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
     return slide_exact(motion, nullptr, stages, options);
 }
@@ -112,6 +199,7 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)
 {
     check_stages(stages);
+    check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion.motion(), stages, options);
     return slide_exact(motion.motion(), &motion, stages, options);
 }

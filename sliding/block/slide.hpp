@@ -1,7 +1,9 @@
 #pragma once
 
+#include "core/event_slip.hpp"
 #include "core/status.hpp"
 #include "records/record.hpp"
+#include "scene/anchor_bar.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/skipping_motion.hpp"
 #include "sliding/block/slip_stage.hpp"
@@ -20,13 +22,15 @@ struct SlideOptions {
     SlidingOptions sliding;                      ///< scheme, lift-off, one or two ways, run-out (scene.hpp)
     int polarity = 1;                            ///< +1 or -1: multiplies a_h of the motion passed in [-]
     HistoryOutput history = HistoryOutput::none; ///< samples: values at every sample, run-out included
+    /// Anchors whose forces before any slip (prestress, dowel) the block's static forces hold already.
+    std::vector<AnchorBar> anchors = {};
 };
 
 /// How the slip was found between events.
 enum class SlideAccuracy {
     closed_form, ///< polynomials, sines and hyperbolic sines: exact up to round-off
-    series, ///< somewhere a Taylor series was needed (friction linear in slip under varying N'), to round-off, events
-            ///< within 1e-10
+    series, ///< somewhere a Taylor series was needed (friction linear in slip under varying N', friction over the rate,
+            ///< anchors), to round-off, events within 1e-10
     scheme  ///< a time-stepping scheme with an error of its own (SLAMMER's)
 };
 
@@ -58,7 +62,13 @@ struct SlideResult {
     int lift_offs = 0;                            ///< times the base opened (N' reached zero)
     double max_gap = 0.0;                         ///< largest opening, `ballistic` only [m]
     double end_time = 0.0;                        ///< of the integration, run-out included [s]
-    std::vector<std::string> notes;               ///< sentences for people
+    int landings = 0;                             ///< `ballistic` only
+    double last_landing_time =
+        std::numeric_limits<double>::quiet_NaN(); ///< when the base last shut after a flight [s]; NaN: never
+    double impact_loss = 0.0;           ///< kinetic energy that landings took, friction's impulses included [J/m]
+    std::vector<EventSlip> events;      ///< of a sequence, as far as they were reached; else empty
+    std::vector<std::string> notes;     ///< sentences for people
+    std::vector<AnchorOutcome> anchors; ///< in the order of the options
     SlideHistory history;
 };
 
@@ -72,12 +82,17 @@ struct SlideResult {
 ///
 /// Lift-off: `no_friction`: while N' <= 0 there is no resistance, cohesion included, and no vertical flight.
 /// `ballistic`: the gap follows y'' = -(normal force of the free block)/m, lands plastically with the impulse J = m
-/// |y'| and Coulomb's impulse <= mu J along the base. Run-out: zero ground acceleration from the last sample on until
+/// |y'| and Coulomb's impulse <= mu J along the base; with restitution e it leaves again with e |y'|, J = (1 + e) m |y'|
+/// (Newton; Moreau 1988), until a flight would last less than 1e-13 s. Friction over the rate: see RatedSlip. A sequence:
+/// each event goes on from what the one before left, see GroundMotion::events. Run-out: zero ground acceleration from the last sample on until
 /// the block rests, at most run_out_max. (With zero ground acceleration a block at rest stays at rest, so the half
 /// second of rest that FE runs wait for needs no integration here.)
 ///
+/// Anchors pull with N(s) sin ψ' against downstream slip and press with N(s) cos ψ' (AnchorBar, joint shut); between the slips
+/// at which one of them yields, slackens, tightens or snaps the slip is a Taylor series in time, to round-off.
+///
 /// @throws InputError for dt <= 0, fewer than 2 samples, components of unequal length, non-finite samples, and what
-/// check_stages refuses.
+/// check_stages refuses; for anchors with ballistic lift-off or SLAMMER's scheme.
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options = {});
 
 /// The same bits sooner: while the block rests, whole stretches that cannot start it are skipped (unless a history is

@@ -17,6 +17,7 @@ SlipSummary run_one(const SkippingMotion& motion, const SlipStages& stages, int 
     options.polarity = polarity;
     options.history = HistoryOutput::none;
     const bool quick = options.sliding.scheme == SlidingScheme::exact && stages.size() == 1 &&
+                       options.anchors.empty() && !motion.motion().is_sequence() && !stages.front().rate.active() &&
                        never_opens(stages.front().block, motion);
     if (!quick) return summary_of(slide(motion, stages, options));
     check_stages(stages);

@@ -21,8 +21,14 @@ GroundLinear combination(double a, const GroundLinear& x, double b, const Ground
     return {a * x.constant + b * y.constant, a * x.per_a_h + b * y.per_a_h, a * x.per_a_v + b * y.per_a_v};
 }
 
-constexpr int events_per_interval =
-    1000; // friction tables have tens of values; more than this in one interval is no motion
+/// Friction tables have tens of values; more than this in one interval is no motion. Friction over the rate takes a step for
+/// each few v_c that the rate changes, a rebound some four events for each of its flights.
+int events_per_interval(const SlipStage& stage)
+{
+    return stage.restitution > 0.0 ? 200000 : stage.rate.active() ? 5000 : 1000;
+}
+
+constexpr double shortest_flight = 1e-13; ///< [s]; a landing that would rebound for less stays
 
 } // namespace
 
@@ -30,14 +36,20 @@ SlipMotion::SlipMotion(const SlipStages& stages, const SlideOptions& options)
     : stages_(stages), options_(options.sliding)
 {
     forms_.reserve(stages.size());
-    for (const SlipStage& stage : stages) {
-        const BaseEquations e = base_equations(stage.block);
-        // In flight A (s'', y'') = (drive, -normal): inverse of the 2 x 2 matrix.
-        const double determinant = e.mass_tt * e.mass_nn - e.mass_tn * e.mass_tn;
-        forms_.push_back({e, free_normal_force(e),
-                          combination(e.mass_nn / determinant, e.drive, e.mass_tn / determinant, e.normal),
-                          combination(-e.mass_tt / determinant, e.normal, -e.mass_tn / determinant, e.drive)});
-    }
+    for (const SlipStage& stage : stages) forms_.push_back(forms_of(stage.block));
+    if (options.anchors.empty()) return;
+    for (const AnchorBar& bar : options.anchors) anchors_.emplace_back(bar);
+    anchored_ = stages;
+    unanchored_forms_ = forms_;
+}
+
+SlipMotion::StageForms SlipMotion::forms_of(const RigidBlock& block)
+{
+    const BaseEquations e = base_equations(block);
+    // In flight A (s'', y'') = (drive, -normal): inverse of the 2 x 2 matrix.
+    const double determinant = e.mass_tt * e.mass_nn - e.mass_tn * e.mass_tn;
+    return {e, free_normal_force(e), combination(e.mass_nn / determinant, e.drive, e.mass_tn / determinant, e.normal),
+            combination(-e.mass_tt / determinant, e.normal, -e.mass_tn / determinant, e.drive)};
 }
 
 void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v)
@@ -46,19 +58,49 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
     span_ = dt;
     a_h_ = a_h;
     a_v_ = a_v;
+    read_opening();
     settle_contact();
     for (int events = 0; span_ > 0.0; ++events) {
-        if (events == events_per_interval) {
+        if (events >= events_per_interval(stage())) {
             unresolved_ = true;
             return;
         }
         if (!moving_)
             wait();
+        else if (!anchors_.empty())
+            move_anchored();
+        else if (touching_ && stage().rate.active())
+            move_rated();
         else if (touching_ && stage().friction_slope != 0.0)
             move_sloped();
         else
             move();
     }
+}
+
+void SlipMotion::read_opening()
+{
+    opening_down_ = opening_up_ = {};
+    const OpeningUplift* opening = stage().block.opening.get();
+    if (!opening) return;
+    const auto over = [&](SlipDirection direction) {
+        return Line{opening->at(direction, a_v_.now), opening->at(direction, a_v_.end)};
+    };
+    opening_down_ = over(SlipDirection::downstream);
+    opening_up_ = over(SlipDirection::upstream);
+}
+
+Line SlipMotion::less_opening(const Line& normal, SlipDirection direction) const
+{
+    if (!stage().block.opening) return normal;
+    return combine(1.0, normal, -1.0, direction == SlipDirection::downstream ? opening_down_ : opening_up_);
+}
+
+/// N' of the block sliding without resistance; at rest its uplift is the static one.
+Line SlipMotion::free_normal() const
+{
+    const Line normal = line(forms().free_normal);
+    return moving_ ? less_opening(normal, direction_) : normal;
 }
 
 /// Contact or not, from the sign of N' just after now. A block at rest touches when it presses its base as it lies;
@@ -67,7 +109,7 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
 void SlipMotion::settle_contact()
 {
     if (airborne_) return;
-    const Line sliding = line(forms().free_normal);
+    const Line sliding = free_normal();
     const bool was_touching = touching_;
     touching_ = moving_ ? above_zero(sliding)
                         : above_zero(line(forms().equations.normal)) || (bond_stays() && above_zero(sliding));
@@ -91,16 +133,15 @@ double SlipMotion::time_of_contact_change() const
         return first_fall_to_zero(gap, span_);
     }
     // The state says on which side of zero N' is now, whatever round-off says just after an event.
-    const auto change = [this](const GroundLinear& form) {
-        Line normal = line(form);
+    const auto change = [this](Line normal) {
         if (touching_) normal = -normal;
         normal.now = std::min(normal.now, 0.0);
         return time_above_zero(normal, span_);
     };
-    if (moving_) return change(forms().free_normal);
-    const double at_rest = change(forms().equations.normal);
+    if (moving_) return change(free_normal());
+    const double at_rest = change(line(forms().equations.normal));
     if (!bond_stays()) return at_rest;
-    const double sliding = change(forms().free_normal);
+    const double sliding = change(free_normal());
     return touching_ ? std::max(at_rest, sliding) : std::min(at_rest, sliding);
 }
 
@@ -119,35 +160,89 @@ void SlipMotion::turn_contact()
     airborne_ = leaves && options_.lift_off == LiftOff::ballistic;
 }
 
-/// Plastic landing: the gap rate vanishes; A (ds, |y'|) = (-I, J) with Coulomb's |I| <= mu J against the slip.
+/// Landing: of the gap rate its restitution is left, A (ds, (1 + e) |y'|) = (-I, J) with Coulomb's |I| <= mu J against the
+/// slip. What leaves a level base by impulses J >= 0, |I| <= mu J gains no energy: J does -(1 - e) J |y'|/2 of work, I some
+/// against the slip.
 void SlipMotion::land()
 {
     const BaseEquations& e = forms().equations;
-    const double d = sign(direction_);
-    const double impact = -gap_rate_;
-    gap_ = gap_rate_ = 0.0;
-    airborne_ = false;
+    const double d = sign(direction_), impact = -gap_rate_, before = kinetic_energy();
+    const double left = rebound(impact);
+    ++landings_;
+    last_landing_ = time_;
+    gap_ = 0.0;
+    gap_rate_ = left;
+    airborne_ = left > 0.0;
     if (moving_) {
-        rate_ -= impact * (d * e.mass_tn + friction() * e.mass_nn) / sliding_mass(e, friction(), direction_);
+        const double push = (d * e.mass_tn + friction() * e.mass_nn) / sliding_mass(e, friction(), direction_);
+        rate_ -= (impact + left) * push;
         if (rate_ <= 0.0) stop();
     }
+    impact_loss_ += before - kinetic_energy();
     settle_contact();
+}
+
+/// Gap rate after a landing with the rate `impact`; 0: it stays. Flights get shorter as eⁿ: one that would last no time to
+/// speak of is the last.
+double SlipMotion::rebound(double impact) const
+{
+    const double left = stage().restitution * impact, fall = -line(forms().gap_accel).now;
+    return 2.0 * left > shortest_flight * std::max(fall, 0.0) ? left : 0.0;
+}
+
+double SlipMotion::kinetic_energy() const
+{
+    const BaseEquations& e = forms().equations;
+    const double s = sign(direction_) * rate();
+    return 0.5 * (e.mass_tt * s * s + e.mass_nn * gap_rate_ * gap_rate_) + e.mass_tn * s * gap_rate_;
+}
+
+/// mu of this instant.
+double SlipMotion::friction() const
+{
+    const double peak = friction_at(stage(), path_);
+    const RateFriction& law = stage().rate;
+    return !law.active() ? peak : peak * (lags(law) ? ratio_ : steady_ratio(law, rate()));
+}
+
+RatedSlip SlipMotion::rated(double direction) const
+{
+    const BaseEquations& e = forms().equations;
+    return {.law = stage().rate,
+            .mass_tt = e.mass_tt,
+            .mass_tn = direction * e.mass_tn,
+            .cohesion = stage().block.cohesion_force,
+            .friction = friction_at(stage(), path_),
+            .slope = stage().friction_slope,
+            .ratio = ratio_,
+            .rate = rate_,
+            .drive = combine(direction, line(e.drive), 0.0, {}),
+            .normal = line(e.normal),
+            .span = span_,
+            .moves = moving_,
+            .from_rest = from_rest_};
 }
 
 /// The block rests: follow the drive until it exceeds the resistance in one of the directions, or the contact changes.
 void SlipMotion::wait()
 {
+    if (touching_ && lags(stage().rate)) return wait_lagging();
     const StageForms& f = forms();
     const Line drive = line(airborne_ ? f.flight_accel : f.equations.drive);
     const Line normal = line(f.equations.normal);
-    Line resistance;
-    if (touching_) {
-        resistance = combine(friction(), normal, 0.0, normal);
-        resistance.now += stage().block.cohesion_force;
-        resistance.end += stage().block.cohesion_force;
-    }
-    const double h_down = time_above_zero(combine(1.0, drive, -1.0, resistance), span_);
-    const double h_up = options_.two_way ? time_above_zero(combine(-1.0, drive, -1.0, resistance), span_) : never;
+    const auto resistance = [&](SlipDirection direction) {
+        Line sum;
+        if (!touching_) return sum;
+        const Line pressed = less_opening(normal, direction);
+        sum = combine(friction(), pressed, 0.0, pressed);
+        sum.now += stage().block.cohesion_force + stage().block.dowel_force;
+        sum.end += stage().block.cohesion_force + stage().block.dowel_force;
+        return sum;
+    };
+    const double h_down = time_above_zero(combine(1.0, drive, -1.0, resistance(SlipDirection::downstream)), span_);
+    const double h_up = options_.two_way
+                            ? time_above_zero(combine(-1.0, drive, -1.0, resistance(SlipDirection::upstream)), span_)
+                            : never;
     const double h_contact = time_of_contact_change();
     const double h = std::min({h_down, h_up, h_contact});
     elapse(std::min(h, span_));
@@ -157,6 +252,24 @@ void SlipMotion::wait()
     else if (h == h_up)
         start(SlipDirection::upstream);
     else
+        turn_contact();
+}
+
+/// The same while friction goes back to its value at rest.
+void SlipMotion::wait_lagging()
+{
+    const RatedStep step(rated(1.0));
+    const double h_down = step.time_of_start(1.0), h_up = options_.two_way ? step.time_of_start(-1.0) : never;
+    const double h_contact = time_of_contact_change();
+    const double h = std::min({h_down, h_up, h_contact, step.length()});
+    ratio_ = step.ratio(h);
+    if (stage().rate.relaxation_time && std::abs(ratio_ - 1.0) < 1e-14) ratio_ = 1.0;
+    elapse(h);
+    if (h == h_down)
+        start(SlipDirection::downstream);
+    else if (h == h_up)
+        start(SlipDirection::upstream);
+    else if (h == h_contact)
         turn_contact();
 }
 
@@ -172,7 +285,7 @@ void SlipMotion::start(SlipDirection direction)
     const bool changed = enter_stages();
     if (changed) from_rest_ = false;
     // Off the horizontal N' of the moving block is another one than that of the block at rest.
-    if (changed || forms().equations.mass_tn != 0.0) settle_contact();
+    if (changed || forms().equations.mass_tn != 0.0 || stage().block.opening) settle_contact();
 }
 
 void SlipMotion::stop()
@@ -185,14 +298,17 @@ void SlipMotion::stop()
         --phases_; // nothing moved: a start taken back
     else
         last_time_ = time_;
-    if (forms().equations.mass_tn != 0.0) settle_contact();
+    if (forms().equations.mass_tn != 0.0 || stage().block.opening) settle_contact();
 }
 
 bool SlipMotion::enter_stages()
 {
     const std::size_t before = stage_;
     while (stage_ + 1 < stages_.size() && stages_[stage_ + 1].from_slip <= path_) ++stage_;
-    if (stage_ != before) ++changes_;
+    if (stage_ != before) {
+        ++changes_;
+        read_opening();
+    }
     return stage_ != before;
 }
 
@@ -212,6 +328,10 @@ Line SlipMotion::slip_accel() const
     const double mass = sliding_mass(f.equations, stage().block.friction, direction_);
     GroundLinear excess = excess_drive(f.equations, stage().block, direction_);
     Line accel = line(excess);
+    if (stage().block.opening) {
+        const Line change = less_opening({}, direction_);
+        accel = combine(1.0, accel, -stage().block.friction, change);
+    }
     return {accel.now / mass, accel.end / mass};
 }
 
@@ -255,8 +375,8 @@ void SlipMotion::move_sloped()
     const BaseEquations& e = forms().equations;
     const double d = sign(direction_);
     const SlopedStep step(SlopedSlip{e.mass_tt, d * e.mass_tn, stage().block.cohesion_force, friction(),
-                                     stage().friction_slope, rate_, combine(d, line(e.drive), 0.0, {}), line(e.normal),
-                                     span_, from_rest_});
+                                     stage().friction_slope, rate_, combine(d, line(e.drive), 0.0, {}),
+                                     less_opening(line(e.normal), direction_), span_, from_rest_});
     used_series_ = used_series_ || !step.closed_form();
     const double h_stop = step.time_of_stop();
     const double h_contact = time_of_contact_change();
@@ -267,6 +387,108 @@ void SlipMotion::move_sloped()
 
     if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
         peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    add_slip(step.path(h));
+    rate_ = std::max(0.0, step.rate(h));
+    peak_rate_ = std::max(peak_rate_, rate_);
+    from_rest_ = from_rest_ && h == 0.0;
+    elapse(h);
+    meet(h, h_stage, h_stop, h_contact);
+}
+
+/// With anchors, whatever the friction, in contact or without resistance.
+void SlipMotion::move_anchored()
+{
+    const BaseEquations& e = unanchored_forms_[stage_].equations;
+    const double d = sign(direction_);
+    AnchoredSlip slip;
+    slip.slip = {e.mass_tt,
+                 d * e.mass_tn,
+                 stage().block.cohesion_force,
+                 friction(),
+                 stage().friction_slope,
+                 rate_,
+                 combine(d, line(e.drive), 0.0, {}),
+                 line(e.normal),
+                 span_,
+                 from_rest_};
+    slip.direction = d;
+    slip.slip_now = this->slip();
+    slip.touching = touching_;
+    double to_change = never;
+    std::vector<double> changes;
+    for (BlockAnchor& anchor : anchors_) {
+        slip.initial_tangential += anchor.bar.prestress * anchor.bar.sine;
+        slip.initial_normal += anchor.bar.prestress * anchor.bar.cosine;
+        anchor.face(d, slip.slip_now);
+        changes.push_back(anchor.next_change(d, slip.slip_now));
+        to_change = std::min(to_change, changes.back());
+    }
+    const AnchoredStep step(slip, anchors_);
+    used_series_ = true;
+    const double h_stop = step.time_of_stop();
+    const double h_contact = step.time_of_contact_change();
+    double h = std::min({h_stop, h_contact, step.length()});
+    const double to_stage = next_stage_path() - path_, nearest = std::min(to_stage, to_change);
+    const double h_path = step.path(h) >= nearest ? step.time_of_path(nearest, h) : never;
+    h = std::min(h, h_path);
+    const double h_stage = nearest == to_stage ? h_path : never;
+
+    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
+        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    add_slip(step.path(h));
+    rate_ = std::max(0.0, step.rate(h));
+    peak_rate_ = std::max(peak_rate_, rate_);
+    from_rest_ = from_rest_ && h == 0.0;
+    for (std::size_t k = 0; k < anchors_.size(); ++k) {
+        anchors_[k].history.plastic_work += step.dowel_work(k, h);
+        if (h == h_path && changes[k] == nearest)
+            anchors_[k].change(this->slip(), time_ + h);
+        else
+            anchors_[k].go_to(this->slip());
+    }
+    hold_anchors();
+    elapse(h);
+    meet(h, h_stage, h_stop, h_contact);
+    // A force that is gone all at once may leave the base open or the block at rest.
+    if (h == h_path && h_stage == never) settle_contact();
+}
+
+/// The stages with the anchors' forces at the slip so far.
+void SlipMotion::hold_anchors()
+{
+    double tangential = 0.0, normal = 0.0, dowel = 0.0;
+    for (const BlockAnchor& anchor : anchors_) {
+        tangential += anchor.tangential(slip()) - anchor.bar.prestress * anchor.bar.sine;
+        normal += anchor.normal(slip()) - anchor.bar.prestress * anchor.bar.cosine;
+        dowel += anchor.dowel();
+    }
+    for (std::size_t i = 0; i < anchored_.size(); ++i) {
+        RigidBlock& block = anchored_[i].block;
+        const RigidBlock& before = stages_[i].block;
+        const double c = std::cos(block.base_inclination), s = std::sin(block.base_inclination);
+        // On the block -tangential along t = (c, -s) and -normal along n = (s, c).
+        block.horizontal_force = before.horizontal_force - tangential * c - normal * s;
+        block.vertical_force = before.vertical_force - tangential * s + normal * c;
+        block.dowel_force = dowel;
+        forms_[i] = forms_of(block);
+    }
+}
+
+/// Friction over the rate.
+void SlipMotion::move_rated()
+{
+    const RatedStep step(rated(sign(direction_)));
+    used_series_ = true;
+    const double h_stop = step.time_of_stop();
+    const double h_contact = time_of_contact_change();
+    double h = std::min({h_stop, h_contact, step.length()});
+    const double target = next_stage_path() - path_;
+    const double h_stage = step.path(h) >= target ? step.time_of_path(target, h) : never;
+    h = std::min(h, h_stage);
+
+    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
+        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    ratio_ = step.ratio(h);
     add_slip(step.path(h));
     rate_ = std::max(0.0, step.rate(h));
     peak_rate_ = std::max(peak_rate_, rate_);
@@ -319,10 +541,14 @@ void SlipMotion::elapse(double h)
         span_ = 0.0;
         a_h_.now = a_h_.end;
         a_v_.now = a_v_.end;
+        opening_down_.now = opening_down_.end;
+        opening_up_.now = opening_up_.end;
         return;
     }
     a_h_.now = a_h_.at(h / span_);
     a_v_.now = a_v_.at(h / span_);
+    opening_down_.now = opening_down_.at(h / span_);
+    opening_up_.now = opening_up_.at(h / span_);
     span_ -= h;
 }
 
@@ -332,6 +558,7 @@ bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, d
     const BaseEquations& e = forms().equations;
     const RigidBlock& block = stage().block;
     const double mu = friction();
+    if (lags(stage().rate) && stage().rate.relaxation_time && ratio_ != 1.0) return false;
     // Upper bound of a linear form over the box, with a margin for round-off so that a skipped sample is one that
     // plainly does not slide.
     const auto upper = [&](double constant, double per_a_h, double per_a_v) {
@@ -339,7 +566,7 @@ bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, d
         const double v = std::max(per_a_v * a_v_min, per_a_v * a_v_max);
         return constant + h + v + 1e-13 * (std::abs(constant) + std::abs(h) + std::abs(v));
     };
-    const double c = block.cohesion_force;
+    const double c = block.cohesion_force + block.dowel_force - (block.opening ? mu * block.opening->largest() : 0.0);
     if (upper(-e.normal.constant, -e.normal.per_a_h, -e.normal.per_a_v) >= 0.0) return false;
     if (upper(e.drive.constant - c - mu * e.normal.constant, e.drive.per_a_h - mu * e.normal.per_a_h,
               e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0)

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "sliding/block/anchored_step.hpp"
 #include "sliding/block/base_equations.hpp"
 #include "sliding/block/line.hpp"
+#include "sliding/block/rated_slip.hpp"
 #include "sliding/block/slide.hpp"
 
 #include <span>
@@ -24,6 +26,7 @@ public:
     bool used_series() const { return used_series_; }
     bool on_base() const { return touching_ && !airborne_; } ///< N' > 0, there is resistance
     double rate() const { return moving() ? rate_ : 0.0; }   ///< |slip rate| [m/s]
+    double slip() const { return downstream_ - upstream_; }  ///< so far [m]
     double peak_rate() const { return peak_rate_; }          ///< largest |slip rate| so far [m/s]
     /// Starts, stops, contacts and stages so far: two equal counts say that nothing of the kind came between.
     long changes() const { return changes_; }
@@ -43,12 +46,18 @@ private:
     };
 
     void wait();
+    void wait_lagging();
     void move();
     void move_sloped();
+    void move_anchored();
+    void hold_anchors();
+    void move_rated();
     void start(SlipDirection direction);
     void stop();
     void turn_contact();
     void land();
+    double rebound(double impact) const;
+    double kinetic_energy() const;
     void settle_contact();
     bool bond_stays() const;
     bool enter_stages();
@@ -58,10 +67,16 @@ private:
     double time_of_contact_change() const;
     double time_of_stage(double h, const Line& accel) const;
 
-    const SlipStage& stage() const { return stages_[stage_]; }
+    static StageForms forms_of(const RigidBlock& block);
+    const SlipStage& stage() const { return anchors_.empty() ? stages_[stage_] : anchored_[stage_]; }
     const StageForms& forms() const { return forms_[stage_]; }
-    double friction() const { return friction_at(stage(), path_); }
+    double friction() const;
+    RatedSlip rated(double direction) const;
     Line line(const GroundLinear& form) const { return {form.at(a_h_.now, a_v_.now), form.at(a_h_.end, a_v_.end)}; }
+    void read_opening();
+    /// N' with the uplift of the crack that sliding in a direction opens.
+    Line less_opening(const Line& normal, SlipDirection direction) const;
+    Line free_normal() const;
     Line slip_accel() const;
     double next_stage_path() const;
 
@@ -69,10 +84,16 @@ private:
     SlidingOptions options_;
     std::vector<StageForms> forms_;
 
+    // With anchors: those, and the stages with what they have come to; forms_ are of these.
+    std::vector<BlockAnchor> anchors_;
+    SlipStages anchored_;
+    std::vector<StageForms> unanchored_forms_; ///< of stages_, which hold the anchors' forces before any slip
+
     // The interval: what is left of it.
     double time_ = 0.0; ///< now [s]
     double span_ = 0.0; ///< rest of the interval [s]
     Line a_h_, a_v_;
+    Line opening_down_, opening_up_; ///< change of the uplift while it slides [N/m]
 
     // The block. Its direction is only meaningful while it moves; rate and path are counted along it.
     std::size_t stage_ = 0;
@@ -84,11 +105,13 @@ private:
     double rate_ = 0.0;                 ///< |slip rate| [m/s]
     double path_ = 0.0;                 ///< sum of |slip| [m]
     double gap_ = 0.0, gap_rate_ = 0.0; ///< [m], [m/s]
+    double ratio_ = 1.0;                ///< mu over that of rest, where it lags behind the rate [-]
 
     // Results.
     double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, max_gap_ = 0.0;
     double first_time_ = 0.0, last_time_ = 0.0, phase_start_path_ = 0.0;
-    int phases_ = 0, lift_offs_ = 0;
+    double last_landing_ = 0.0, impact_loss_ = 0.0;
+    int phases_ = 0, lift_offs_ = 0, landings_ = 0;
     long changes_ = 0;
     bool unresolved_ = false, used_series_ = false;
 };

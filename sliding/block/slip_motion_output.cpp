@@ -46,8 +46,14 @@ void SlipMotion::write(SlideResult& result) const
     result.phases = phases_;
     result.lift_offs = lift_offs_;
     result.max_gap = max_gap_;
+    result.landings = landings_;
+    result.impact_loss = impact_loss_;
+    if (landings_ > 0) result.last_landing_time = last_landing_;
     result.end_time = time_;
     result.accuracy = used_series_ ? SlideAccuracy::series : SlideAccuracy::closed_form;
+    for (const BlockAnchor& anchor : anchors_)
+        result.anchors.push_back(
+            {anchor.bar.name, anchor.history, anchor.bar.yield_force, anchor.history.stored(anchor.bar)});
     if (phases_ == 0) return;
     result.first_slip_time = first_time_;
     result.last_slip_time = moving() ? time_ : last_time_;

@@ -37,7 +37,7 @@ SlipStages strength_stages(RigidBlock block, const Contact& contact)
     SlipStages stages;
     for (const FrictionOverSlip::Piece& piece : FrictionOverSlip(contact).pieces()) {
         block.friction = piece.friction;
-        stages.push_back({piece.from_slip, block, piece.slope});
+        stages.push_back({piece.from_slip, block, piece.slope, contact.rate, contact.restitution});
     }
     if (contact.cohesion_lost_at_slip) lose_cohesion_at_slip(stages);
     return stages;

@@ -15,12 +15,15 @@ struct SlipStage {
     double from_slip = 0.0;
     RigidBlock block;            ///< friction: its value at from_slip
     double friction_slope = 0.0; ///< d mu / d path within the stage [1/m]; 0: constant
+    RateFriction rate = {};      ///< how friction falls with the rate of slip, on top of its value over the path
+    double restitution = 0.0;    ///< of landings after a ballistic flight: rate after over rate before [-]
 };
 
 /// Stages by ascending from_slip, at least one.
 using SlipStages = std::vector<SlipStage>;
 
-/// The stages of one block with the strength of the scene's contact: FrictionOverSlip, cohesion lost at first slip. `block.cohesion_force` is c A'; `block.friction` is overwritten by the contact's.
+/// The stages of one block with the strength of the scene's contact: FrictionOverSlip, friction over the rate, cohesion lost
+/// at first slip, restitution. `block.cohesion_force` is c A'; `block.friction` is overwritten by the contact's.
 SlipStages strength_stages(RigidBlock block, const Contact& contact);
 
 /// Other static forces and masses from a path on, the strength staying as it is: drains lost at slip (a higher uplift).

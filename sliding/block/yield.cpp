@@ -10,7 +10,11 @@ namespace {
 Yield yield(const RigidBlock& block, SlipDirection direction)
 {
     const BaseEquations equations = base_equations(block);
-    const GroundLinear excess = excess_drive(equations, block, direction);
+    GroundLinear excess = excess_drive(equations, block, direction);
+    if (block.opening) {
+        excess.constant += block.friction * block.opening->at(direction, 0.0);
+        excess.per_a_v += block.friction * block.opening->per_accel_v(direction);
+    }
     const double per_driving_accel = sign(direction) * excess.per_a_h; // upstream sliding is driven by -a_h
     // q.A x below this is a cancellation of cos(theta) -+ mu sin(theta): the direction is taken as jammed.
     const double round_off =
@@ -64,7 +68,8 @@ double critical_friction(const RigidBlock& block)
 {
     const BaseEquations equations = base_equations(block);
     if (equations.normal.constant <= 0.0) return std::numeric_limits<double>::infinity();
-    return std::max(0.0, (std::abs(equations.drive.constant) - block.cohesion_force) / equations.normal.constant);
+    return std::max(0.0, (std::abs(equations.drive.constant) - block.cohesion_force - block.dowel_force) /
+                             equations.normal.constant);
 }
 
 } // namespace damslip::sliding

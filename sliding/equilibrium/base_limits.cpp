@@ -4,6 +4,8 @@
 #include "scene/section.hpp"
 #include "sliding/equilibrium/shaken_base.hpp"
 
+#include <cmath>
+
 namespace damslip::sliding {
 
 namespace {
@@ -23,14 +25,16 @@ public:
 
     bool open(double a_h) const { return base(load(a_h)).status == CrackStatus::open; }
 
-    /// With the bond of what is closed under this acceleration itself.
+    /// With the bond of what is closed under this acceleration itself; a joint that is open from end to end rests on one of
+    /// them.
     bool slides(double a_h, double friction, double cohesion) const
     {
         const Force total = load(a_h);
         const CrackedBase joint = base(total);
-        if (joint.status == CrackStatus::open) return true;
-        const double bonded = cracked_through(joint, before_.frame.length) ? 0.0 : bonded_length(before_, joint);
-        return shear(before_.frame, total) > cohesion * bonded + friction * joint.effective_normal;
+        const bool through = joint.status == CrackStatus::open || cracked_through(joint, before_.frame.length);
+        const double bonded = through ? 0.0 : bonded_length(before_, joint);
+        return shear(before_.frame, total) >
+               cohesion * bonded + before_.dowel_force + friction * joint.effective_normal;
     }
 
 private:
@@ -67,6 +71,31 @@ double smallest_acceleration(const Happens& happens)
     return already;
 }
 
+/// The same for what may come, go and come again as the acceleration grows: the first of many even steps up to one that
+/// makes it happen, then bisected.
+template <class Happens>
+double first_acceleration(const Happens& happens)
+{
+    constexpr int steps = 128; // a rule of uplift turns a_y(a) around by a jump at curtain or drains at most
+    double last = smallest_acceleration(happens);
+    if (!std::isfinite(last)) return last;
+    double before = 0.0;
+    for (int k = 1; k < steps; ++k) {
+        const double a = last * k / steps;
+        if (!happens(a)) {
+            before = a;
+            continue;
+        }
+        last = a;
+        break;
+    }
+    while (last - before > 1e-12 * last) {
+        const double middle = before + 0.5 * (last - before);
+        (happens(middle) ? last : before) = middle;
+    }
+    return last;
+}
+
 } // namespace
 
 double tipping_acceleration(const Scene& scene, const AddedMassIntegral& water, const BaseState& before, double a_v,
@@ -96,9 +125,8 @@ BaseLimits base_limits(const Scene& scene, const SeepageProfile& seepage, std::o
     const ShakenJoint joint(scene, static_case, water, before, seepage);
     limits.opens = smallest_acceleration([&](double a_h) { return joint.open(a_h); });
     const RigidBlock block = make_rigid_block(scene, before, static_case.loads.reservoir_level);
-    if (const double cohesion = scene.contact.cohesion; cohesion > 0.0)
-        limits.bond_fails =
-            smallest_acceleration([&](double a_h) { return joint.slides(a_h, block.friction, cohesion); });
+    limits.yield_with_crack =
+        first_acceleration([&](double a_h) { return joint.slides(a_h, block.friction, scene.contact.cohesion); });
     return limits;
 }
 

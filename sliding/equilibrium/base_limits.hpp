@@ -29,9 +29,10 @@ struct BaseLimits {
     /// Downstream: from here on the joint is open from heel to toe, and whatever bond it had is lost [m/s^2]. By the crack
     /// rule of the state; `none` and `static` say nothing of what the earthquake opens, `seismic-unchanged` is taken.
     double opens = std::numeric_limits<double>::infinity();
-    /// Downstream, of a joint with cohesion: it slides here with the crack that the same acceleration opens, by the same
-    /// rule as `opens`, and with the bond of the rest [m/s^2]. The yield acceleration has the bond of the static state.
-    double bond_fails = std::numeric_limits<double>::infinity();
+    /// Downstream: it slides here with the crack that the same acceleration opens, and the uplift in it, by the same rule as
+    /// `opens`, and with the bond of the rest; smallest root of c A'(a) + mu N'(a) = T(a) [m/s^2]. The yield acceleration
+    /// has the crack, uplift and bond of the static state.
+    double yield_with_crack = std::numeric_limits<double>::infinity();
 };
 
 /// @param crack  in place of the scene's uplift.crack, if given

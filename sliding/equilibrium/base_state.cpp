@@ -48,6 +48,7 @@ BaseState base_state(const Scene& scene, const StaticCase& static_case, const Se
     state.loads = static_loads(scene, static_case.loads);
     state.load = resultant(state.loads);
     state.opened = static_case.opened;
+    state.dowel_force = dowel_force(scene, static_case.loads.anchors);
     const BaseLoad load = base_load(state.frame, state.load);
     const CrackUplift uplift = crack_uplift(scene, static_case.uplift, static_case.uplift_factor, seepage);
     if (static_case.crack == CrackRule::none) {
@@ -57,6 +58,25 @@ BaseState base_state(const Scene& scene, const StaticCase& static_case, const Se
         state.base = cracked_base(load, state.frame.length, uplift, static_case.opened, crack_events(scene));
     }
     return state;
+}
+
+std::vector<AnchorBar> base_anchors(const Scene& scene)
+{
+    std::vector<AnchorBar> bars;
+    for (const Anchor& anchor : scene.anchors)
+        if (anchor.joint.empty()) bars.push_back(anchor_bar(anchor, FrictionOverSlip(scene.contact).peak()));
+    return bars;
+}
+
+double dowel_force(const Scene& scene, AnchorForce which)
+{
+    double sum = 0.0;
+    for (const Anchor& anchor : scene.anchors) {
+        if (!anchor.joint.empty() || !anchor.dowel) continue;
+        const AnchorBar bar = anchor_bar(anchor, FrictionOverSlip(scene.contact).peak());
+        sum += bar.dowel * dowel_share(force_of(anchor, which) / bar.yield_force);
+    }
+    return sum;
 }
 
 RigidBlock make_rigid_block(const Scene& scene, const BlockOptions& options)
@@ -86,6 +106,7 @@ RigidBlock make_rigid_block(const Scene& scene, const BaseState& state, std::opt
     block.uplift = state.base.uplift.force;
     block.cohesion_force = options.cohesion.value_or(scene.contact.cohesion) * state.cohesive_length();
     block.friction = options.friction.value_or(FrictionOverSlip(scene.contact).peak());
+    block.dowel_force = state.dowel_force;
     block.base_inclination = state.frame.inclination;
     return block;
 }

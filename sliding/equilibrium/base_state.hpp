@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/anchor_bar.hpp"
 #include "scene/scene.hpp"
 #include "sliding/block/rigid_block.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
@@ -45,6 +46,7 @@ struct BaseState {
     Force load;                                                                 ///< their sum
     CrackedBase base;                                                           ///< uplift, crack, N' and its position
     Crack opened;                                                               ///< as given
+    double dowel_force = 0.0;                                                   ///< of grouted anchors [N/m]
     double cohesive_length() const { return frame.length - base.crack.length; } ///< A' [m]
 };
 
@@ -63,6 +65,12 @@ struct BlockOptions {
     CurtainState curtain = CurtainState::intact; ///< damaged: linear uplift, e.g. after a rupture
     SeepageProfile seepage;                      ///< for uplift.model = "seepage"
 };
+
+/// Resistance of grouted anchors through the base with their forces of a load case [N/m].
+double dowel_force(const Scene& scene, AnchorForce which);
+
+/// The anchors through the base, for the sliding block.
+std::vector<AnchorBar> base_anchors(const Scene& scene);
 
 /// The rigid block of the scene: weight, static forces, uplift, cohesion on the uncracked length, added mass of the
 /// reservoir. Sums: horizontal_force = sum of Fx of all loads, vertical_force = -(sum of Fy) - weight; they are exact

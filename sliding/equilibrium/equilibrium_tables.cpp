@@ -2,6 +2,8 @@
 
 #include "core/units.hpp"
 
+#include <algorithm>
+
 namespace damslip::sliding {
 
 namespace {
@@ -83,7 +85,13 @@ Table load_table(const Equilibrium& e)
 
 Table equilibrium_table(const std::vector<Equilibrium>& all)
 {
-    Table table = table_of("Limit equilibrium", equilibrium_columns(), all);
+    std::vector<ColumnOf<Equilibrium>> columns = equilibrium_columns();
+    if (std::any_of(all.begin(), all.end(), [](const Equilibrium& e) { return e.anchor_force + e.dowel_force > 0.0; }))
+        columns.insert(columns.end(), {{{"anchor_force_kN_per_m", "N of anchors", "kN/m", 5},
+                                        [](const Equilibrium& e) { return e.anchor_force / kilo; }},
+                                       {{"dowel_force_kN_per_m", "dowels", "kN/m", 5},
+                                        [](const Equilibrium& e) { return e.dowel_force / kilo; }}});
+    Table table = table_of("Limit equilibrium", columns, all);
     for (const Equilibrium& e : all)
         for (const std::string& note : e.notes)
             table.notes.push_back(e.name + " (crack rule " + word(e.crack_rule) + "): " + note + ".");

@@ -58,6 +58,8 @@ Scene scene_above(const Scene& scene, const LiftJoint& joint)
     lower_level(part.ice, y);
     std::erase_if(part.forces, [y](const PointForce& f) { return f.at.y < y; });
     for (PointForce& f : part.forces) f.at = {f.at.x - x, f.at.y - y};
+    std::erase_if(part.anchors, [&joint](const Anchor& a) { return a.joint != joint.name; });
+    for (Anchor& anchor : part.anchors) anchor.joint.clear();
     part.uplift.reset();
     if (joint.water == JointWater::linear) part.uplift.emplace().model = UpliftModel::linear;
     return part;

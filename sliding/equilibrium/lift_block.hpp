@@ -6,7 +6,7 @@
 namespace damslip::sliding {
 
 /// The dam above a lift joint as a scene of its own, in whose axes the joint is the base: section, water, silt, ice and
-/// forces above the joint, the joint's strength; no rock, curtain or drains. Uplift is the water in the joint, linear
+/// forces above the joint, the joint's strength and its anchors; no rock, curtain or drains. Uplift is the water in the joint, linear
 /// between the two faces where LiftJoint::water says so. The added mass of such a scene is not that of the dam (it
 /// depends on the depth of the whole reservoir): see lift_block.
 Scene scene_above(const Scene& scene, const LiftJoint& joint);

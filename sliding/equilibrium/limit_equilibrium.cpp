@@ -31,6 +31,7 @@ StaticCase static_case_of(const Scene& scene, const Combination& c, CrackRule ru
     loads = scene_load_case(scene);
     if (c.reservoir_level) loads.reservoir_level = c.reservoir_level;
     if (c.tailwater_level) loads.tailwater_level = c.tailwater_level;
+    loads.anchors = AnchorForce::limit;
     loads.ice = c.ice ? IceLoad::on : IceLoad::off;
     loads.weight_factor = c.weight_factor;
     loads.water_factor = c.water_factor;
@@ -78,13 +79,40 @@ Strength residual(const Scene& scene, const Combination& c)
     return out;
 }
 
+void anchor_forces(const Scene& scene, Equilibrium& e)
+{
+    e.dowel_force = dowel_force(scene, AnchorForce::limit);
+    for (const Anchor& anchor : scene.anchors) {
+        if (!anchor.joint.empty()) continue;
+        const double force = force_of(anchor, AnchorForce::limit);
+        e.anchor_force += force;
+        e.anchor_shear += (force - anchor.prestress) * std::sin(anchor.inclination);
+    }
+}
+
+/// That the yield force is there only once the dam has slid.
+void note_yield_forces(const Scene& scene, Equilibrium& e)
+{
+    for (const Anchor& anchor : scene.anchors) {
+        if (!anchor.joint.empty() || force_of(anchor, AnchorForce::limit) == anchor.prestress) continue;
+        const double slip = anchor_bar(anchor, 0.0).slip_to_yield();
+        e.notes.push_back(fmt::format("{} counts with its yield force, which it has after {:.3g} mm of slip",
+                                      anchor.name, slip / units::mm));
+    }
+}
+
 void sliding_factors(Equilibrium& e)
 {
-    const double normal = std::max(0.0, e.base.effective_normal), shear = std::abs(e.shear);
-    e.sliding_factor = factor(e.cohesion * e.cohesive_length + e.friction * normal, shear);
-    e.friction_factor = factor(e.friction * normal, shear);
-    e.sliding_factor_residual = factor(e.residual_cohesion * e.cohesive_length + e.residual_friction * normal, shear);
-    e.critical_friction = normal > 0.0 ? std::max(0.0, shear - e.cohesion * e.cohesive_length) / normal : infinity;
+    const double normal = std::max(0.0, e.base.effective_normal), without_slip = e.shear + e.anchor_shear;
+    const bool resists = without_slip * e.anchor_shear > 0.0;
+    const double shear = std::abs(resists ? without_slip : e.shear);
+    const double anchors = e.dowel_force + (resists ? std::abs(e.anchor_shear) : 0.0);
+    e.sliding_factor = factor(e.cohesion * e.cohesive_length + e.friction * normal + anchors, shear);
+    e.friction_factor = factor(e.friction * normal + anchors, shear);
+    e.sliding_factor_residual =
+        factor(e.residual_cohesion * e.cohesive_length + e.residual_friction * normal + anchors, shear);
+    e.critical_friction =
+        normal > 0.0 ? std::max(0.0, shear - e.cohesion * e.cohesive_length - anchors) / normal : infinity;
 }
 
 Force uplift_force(const Equilibrium& e)
@@ -111,7 +139,7 @@ double overturning_factor(const Equilibrium& e, Point toe_point)
     return factor(stabilising, overturning);
 }
 
-/// (W + S)/(U - W_G), EM 1110-2-2100 (2005) eq. (3-2): W weight (with its vertical inertia), S vertical user forces, U
+/// (W + S)/(U - W_G), EM 1110-2-2100 (2005) eq. (3-2): W weight (with its vertical inertia), S vertical user forces and anchors, U
 /// uplift, W_G water standing on the structure. Infinite if the water on top outweighs the uplift.
 double flotation_factor(const Equilibrium& e)
 {
@@ -122,6 +150,7 @@ double flotation_factor(const Equilibrium& e)
         case LoadKind::weight:
         case LoadKind::inertia:
         case LoadKind::point_force:
+        case LoadKind::anchor:
             weight += down;
             break;
         case LoadKind::reservoir:
@@ -263,6 +292,7 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
     e.residual_cohesion = residual_strength.cohesion;
     e.shear = without_round_off(shear(e.frame, e.load), e);
     const Point toe_point = toe(scene.section);
+    anchor_forces(scene, e);
     sliding_factors(e);
     e.overturning_factor = overturning_factor(e, toe_point);
     e.flotation_factor = flotation_factor(e);
@@ -280,6 +310,7 @@ Equilibrium evaluate(const Scene& scene, const Combination& c, const Requirement
 
     add_checks(e, c, required);
     add_notes(e);
+    note_yield_forces(scene, e);
     return e;
 }
 

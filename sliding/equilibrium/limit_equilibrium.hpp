@@ -63,8 +63,14 @@ struct Equilibrium {
     CrackedBase base;             ///< uplift, crack, N' and its position
     double cohesive_length = 0.0; ///< A' [m]
 
-    double shear = 0.0;                   ///< T along the base [N/m]
-    double sliding_factor = 0.0;          ///< (c A' + mu N')/|T|, peak (or residual where the combination says so) [-]
+    double shear = 0.0;        ///< T along the base, what anchors carry of it taken off [N/m]
+    double anchor_force = 0.0; ///< sum of N of the anchors through the base, each P₀ or f_y A as it says [N/m]
+    double dowel_force = 0.0;  ///< of grouted anchors, resists [N/m]
+    double anchor_shear = 0.0; ///< Σ (N - P₀) sin ψ: what only slip brings about; it resists, it does not drive [N/m]
+    /// (c A' + mu N')/|T|, peak (or residual where the combination says so) [-]. With anchors
+    /// (c A' + mu N' + dowels + anchor_shear)/(T + anchor_shear) where anchor_shear is against that shear: 1 where
+    /// T <= c A' + mu N' + dowels with N of every anchor in N' and T.
+    double sliding_factor = 0.0;
     double friction_factor = 0.0;         ///< mu N'/|T|: without cohesion [-]
     double sliding_factor_residual = 0.0; ///< with residual friction, cohesion only if slip does not destroy it [-]
     double overturning_factor =

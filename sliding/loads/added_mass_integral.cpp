@@ -9,10 +9,10 @@ namespace damslip::sliding {
 
 namespace {
 
-/// Integrals over 0...1 of f(w) and w f(w) by the tanh-sinh rule: w = 1/(1 + exp(-pi sinh t)), step 1/16. Roots and
+/// Integrals over 0...1 of f(w), w f(w) and w^2 f(w) by the tanh-sinh rule: w = 1/(1 + exp(-pi sinh t)), step 1/16. Roots and
 /// logarithms at the ends cost no accuracy; w is exact near 0, where the free surface is.
 struct Moments {
-    double zeroth = 0.0, first = 0.0;
+    double zeroth = 0.0, first = 0.0, second = 0.0;
 };
 
 template <class Function>
@@ -27,6 +27,7 @@ Moments integrate(Function f)
         const double value = weight * f(w);
         sum.zeroth += value;
         sum.first += w * value;
+        sum.second += w * w * value;
     }
     return sum;
 }
@@ -48,6 +49,10 @@ void add_piece(const AddedMass& method, const WaterColumn& water, Point upper, P
     sum.horizontal_moment.y -= y * normal.x * normal.y;
     sum.vertical_moment.x += x * normal.y * normal.x;
     sum.vertical_moment.y += x * normal.y * normal.y;
+    // n_x y - n_y x is linear along the piece.
+    const double arm = normal.x * upper.y - normal.y * upper.x;
+    const double change = normal.x * (lower.y - upper.y) - normal.y * (lower.x - upper.x);
+    sum.rotation += length * (arm * arm * m.zeroth + 2.0 * arm * change * m.first + change * change * m.second);
 }
 
 Point at_height(Point a, Point b, double y)

@@ -16,6 +16,9 @@ struct AddedMassIntegral {
     Point horizontal_moment; ///< integral of -y n_x m_n n dS [kg]: moment about the heel of the horizontal part of M^w
                              ///< a, per a
     Point vertical_moment;   ///< integral of  x n_y m_n n dS [kg]: of the vertical part
+    /// Integral of m_n (n_x y - n_y x)^2 dS [kg m]: moment about the heel that resists a rotation about it, per angular
+    /// acceleration.
+    double rotation = 0.0;
     /// Height above the heel of the horizontal water force under a horizontal acceleration [m]; 0 without added mass.
     double acting_height() const { return xx > 0.0 ? -horizontal_moment.x / xx : 0.0; }
 };

@@ -4,6 +4,8 @@
 #include "scene/water.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace damslip::sliding {
 
@@ -79,7 +81,25 @@ std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
     }
     for (const PointForce& force : scene.forces)
         loads.push_back({LoadKind::point_force, force.name, at_point(force.at, force.force_x, force.force_y)});
+    const Point base{toe(scene.section).x / base_length(scene.section),
+                     toe(scene.section).y / base_length(scene.section)};
+    for (const Anchor& anchor : scene.anchors) {
+        const double force = force_of(anchor, load_case.anchors);
+        if (!anchor.joint.empty() || force == 0.0) continue;
+        // Along the bar, up from the rock: cos ψ n + sin ψ t, with t = base and n = (-t.y, t.x).
+        const double c = std::cos(anchor.inclination), s = std::sin(anchor.inclination);
+        const bool yields = force != anchor.prestress;
+        loads.push_back({LoadKind::anchor, fmt::format("{}, {}", anchor.name, yields ? "yield force" : "prestress"),
+                         at_point({anchor.distance * base.x, anchor.distance * base.y},
+                                  -force * (s * base.x - c * base.y), -force * (s * base.y + c * base.x))});
+    }
     return loads;
+}
+
+double force_of(const Anchor& anchor, AnchorForce which)
+{
+    const bool yields = which == AnchorForce::limit && anchor.limit_force == AnchorForceRule::yield;
+    return yields ? anchor.yield_strength * anchor.area : anchor.prestress;
 }
 
 Force resultant(const std::vector<Load>& loads)

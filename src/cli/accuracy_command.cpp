@@ -87,6 +87,10 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
         throw UsageError(Diagnostic{loaded.scene.file.string(), 0, 0, "accuracy with mesh.file.",
                                     "the program's own mesh: the ladder changes the size of its elements",
                                     "delete mesh.file, or compare meshes of your own with  damslip fe"});
+    if (!loaded.scene.motion.sequence.empty())
+        throw UsageError(Diagnostic{loaded.scene.file.string(), 0, 0, "accuracy with motion.sequence.",
+                                    "records each alone: the ladder compares methods on one record",
+                                    "delete sequence, or give the record with  --record FILE"});
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)
         throw InputError(Diagnostic{a.inputs.scene.string(), 0, 0, "the scene has no record.",

@@ -1,5 +1,7 @@
 #include "cli/fe_command.hpp"
 
+#include "core/usage_error.hpp"
+
 #include <fmt/format.h>
 #include <ostream>
 
@@ -33,6 +35,10 @@ int fe(const FeArguments& arguments, const Streams& streams)
     if (!streams.quiet && ready.reservoir) streams.talk << ready.reservoir->reason << "\n";
     if (!streams.quiet && ready.dam_period)
         streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / ready.dam_period->frequency);
+    if ((arguments.reduced || arguments.base == "tied") && !(arguments.state_in.empty() && arguments.state_out.empty()))
+        refuse_usage(arguments.reduced ? "--state-in or --state-out with --reduced."
+                                       : "--state-in or --state-out with --base tied.",
+                     "the state of joints that slide and open, of a full run", "leave one of them out");
     if (arguments.reduced) return run_reduced(arguments, ready, streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, streams) : run_contact(arguments, ready, streams);
 }

@@ -18,7 +18,8 @@ struct FeArguments {
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
-    bool mesh_error = true;      ///< one more run on elements of twice the size tells what the mesh leaves open
+    std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
+    bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
 };
 
 FeOptions fe_options(const FeArguments& arguments);

@@ -25,6 +25,13 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         "--spread", a.spread,
         "run the worst record on massless rock (or radiating, where the scene's has no mass) and with added mass in "
         "place of acoustic water, too: how far the models lie apart");
+    sub.add_option("--state-out", a.state_out,
+                   "file for the state of the joints after the earthquake, of one record and polarity")
+        ->check(output_to(OutputPath::file, "--state-out"))
+        ->group("State of the joints");
+    sub.add_option("--state-in", a.state_in,
+                   "go on from that file: the same dam as another earthquake has left it; the slip counts from there")
+        ->group("State of the joints");
     CLI::Option* reduced =
         sub.add_flag("--reduced", a.reduced, "earthquake on few modes of the dam; slip with an error estimate")
             ->group("Reduced run");

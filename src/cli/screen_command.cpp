@@ -22,7 +22,11 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     if (!streams.quiet)
         for (const std::string& warning : record_warnings(ready.records())) streams.talk << "note: " << warning << "\n";
 
-    Screening s = run_screening(ready, arguments.jobs);
+    if (arguments.rocking && ready.scene.wedge)
+        refuse_usage("--rocking cannot take a [wedge]: it has no toe to rock on.", "a scene with a [section]",
+                     "delete --rocking");
+    Screening s = run_screening(ready, arguments.jobs,
+                                arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
     for (std::string& note : note_texts(ready.given.notes)) s.warnings.push_back(std::move(note));
     if (!ready.flexible_modes.empty()) s.warnings.push_back(ready.flexible_modes);
     if (!ready.given.lift_joints.empty())
@@ -35,7 +39,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         write_screening(arguments.out, in);
         if (!streams.quiet)
             streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
-                         << (s.flexible ? "flexible_block.csv, " : "")
+                         << (has_rocking(s) ? "rocking_block.csv, " : "") << (s.flexible ? "flexible_block.csv, " : "")
                          << "scene.resolved.toml\nreport: " << (arguments.out / "report.html").string() << "\n";
     }
     return statuses_of(s).exit_code();

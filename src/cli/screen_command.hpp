@@ -10,6 +10,7 @@ namespace damslip::cli {
 struct ScreenArguments {
     RunInputs inputs;
     std::filesystem::path out; ///< folder for summary.json, displacements.csv and the resolved scene; empty: none
+    bool rocking = false;      ///< the block that rocks, too, where the sliding one holds
     int jobs = 0;              ///< threads; 0: all cores
 };
 

@@ -11,6 +11,8 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
     sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
     sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
     sub.add_option("--scheme", a.inputs.scheme, "of the rigid block: exact (default) or slammer");
+    sub.add_flag("--rocking", a.rocking,
+                 "the block that rocks and slides, too; without it where the sliding block does not hold");
     sub.add_option("--out", a.out, "folder for summary.json, displacements.csv and the resolved scene")
         ->check(output_to(OutputPath::folder, "--out"));
     sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));

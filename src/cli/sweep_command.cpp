@@ -6,6 +6,7 @@
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/sweep/opening_water_table.hpp"
 #include "pages/sweep/sweep_parts.hpp"
 #include "pages/sweep/sweep_report.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
@@ -190,6 +191,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     }
     if (!streams.quiet) {
         if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
+        if (const std::optional<Table> rules = opening_water_table(table)) streams.talk << text(*rules) << "\n";
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
@@ -239,7 +241,7 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
                      "add  --record FILE");
-    const TaskList tasks = make_tasks(axes, scene.motion.records.size());
+    const TaskList tasks = make_tasks(axes, motion_count(scene));
     if (tasks.rows() > 20'000'000)
         refuse_usage(fmt::format("the grid has {} rows.", tasks.rows()), "at most 20 million", "split it");
     for (const auto& [flag, given] :

@@ -39,17 +39,20 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list("--friction-deg", a.friction_deg, "friction angles instead [deg]");
     list("--level", a.level, "water levels above the heel, at size 1 [m]");
     list("--uplift", a.uplift, uplift_words());
+    list("--opening-water", a.opening_water,
+         "rules for the water in the opening base, side by side: unchanged, zero, full, mouth (with the scene's "
+         "mouth_speed_m_s), reynolds");
     list("--reservoir", a.reservoir, fmt::format("{}", fmt::join(reservoir_axis_words(), ", ")));
     list("--size", a.size, "factors on all lengths of the scene: dam, rock, water, elements");
     list("--scale", a.scale, "factors on the records");
     list("--polarity", a.polarity, "1, -1 or both: 1,-1");
-    list(
-        "--method", a.method,
-        "rigid (horizontal), rigid-v (with the vertical component), fe (finite elements with the scene's contact law), "
-        "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-radiating, fe-massless, "
-        "fe-reduced, and regressions by "
-        "id such as "
-        "ambraseys-menu-1988, jibson-1993, jibson-1998");
+    list("--method", a.method,
+         "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "
+         "fe (finite elements with the scene's contact law), "
+         "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-radiating, fe-massless, "
+         "fe-reduced, and regressions by "
+         "id such as "
+         "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
     sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(CLI::Range(1.0, 1e20));
     sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");

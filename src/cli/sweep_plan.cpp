@@ -33,6 +33,7 @@ std::string sweep_command_line(const SweepArguments& a)
     add("--friction-deg", a.friction_deg);
     add("--level", a.level);
     add("--uplift", a.uplift);
+    add("--opening-water", a.opening_water);
     add("--reservoir", a.reservoir);
     add("--size", a.size);
     add("--scale", a.scale);

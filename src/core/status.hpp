@@ -25,8 +25,10 @@ enum class Status {
     overturns,        ///< the resultant of the static loads acts outside the base
     floats,           ///< the uplift carries more than the weight
     runs_away,        ///< slid further than its own base is long: the model no longer holds
+    overturned,       ///< rocked over its toe or heel in the earthquake
     left_plane,       ///< slid further than contact.max_slip_m, as far as the plane is meshed
     self_excited,     ///< goes on sliding by itself with the ground at rest, although it would stand
+    rocks_first,      ///< would tip before it slides: the slip of a sliding block is none of this dam
     tolerance_missed, ///< the time step leaves more open than time.slip_tolerance allows
     not_resolved,     ///< the solver found no answer; nothing is said of the dam
     diverged,         ///< energy grew beyond all that the ground put in: an answer of the scheme, not of the dam

@@ -55,6 +55,7 @@ void check_strength(const Contact& c, const std::string& table, Findings& f)
                 fmt::format("{} is given without {}.", key("residual_slip_m"), key("residual_friction")),
                 "both or neither",
                 table == "contact" ? "add  residual_friction = 0.65  to [contact]" : "add  residual_friction = 0.65");
+    check_rate(c, table, f);
     if (!c.friction_table.empty() && c.residual_friction)
         f.wrong(key("friction_table"),
                 fmt::format("{} and {} are both given.", key("friction_table_m"), key("residual_friction")),

@@ -21,10 +21,22 @@ void check_rock(const Scene& s, Findings& f);
 void check_strength(const Contact& c, const std::string& table, Findings& f);
 void check_lift_joints(const Scene& s, Findings& f);
 
+/// Bond of one plane, as check_strength().
+void check_bond(const Contact& c, const std::string& table, Findings& f);
+/// Laws of the joints beyond Coulomb's, and what cannot go with them.
+void check_joint_laws(const Scene& s, Findings& f);
+/// Water that follows the opening of the base.
+void check_opening_water(const Scene& s, Findings& f);
+/// Friction over the rate of slip. @param table  as of check_strength()
+void check_rate(const Contact& c, const std::string& table, Findings& f);
+/// What follows friction over the rate, rebounds and sequences, and what does not.
+void check_rate_methods(const Scene& s, Findings& f);
+
 /// Law and enforcement of the contact.
 void check_joint(const Scene& s, Findings& f);
 void check_water(const Scene& s, Findings& f);
 void check_motion(const Scene& s, Findings& f, FileCheck files);
+void check_sequence(const Scene& s, Findings& f);
 
 /// Planes, shape and water of the wedge. @pre scene.wedge
 void check_wedge(const Scene& s, Findings& f);
@@ -33,6 +45,9 @@ void check_combinations(const Scene& s, Findings& f);
 
 /// Keys of an imported mesh against those of the program's own; the file itself is read where it is meshed.
 void check_mesh_file(const Scene& s, Findings& f, FileCheck files);
+
+/// Anchors in their joints, and what they cannot go with.
+void check_anchors(const Scene& s, Findings& f);
 
 /// Mesh, damping and time integration.
 void check_fe(const Scene& s, Findings& f);

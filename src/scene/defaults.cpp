@@ -64,6 +64,12 @@ void fill_defaults(Scene& scene, const Findings& findings)
         if (force.name.empty()) force.name = "force";
     for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
         if (scene.lift_joints[i].name.empty()) scene.lift_joints[i].name = fmt::format("lift joint {}", i + 1);
+    for (std::size_t i = 0; i < scene.anchors.size(); ++i) {
+        Anchor& anchor = scene.anchors[i];
+        if (anchor.name.empty()) anchor.name = fmt::format("anchor {}", i + 1);
+        if (anchor.prestress == 0.0 && !findings.given(fmt::format("anchor[{}].limit_force", i + 1)))
+            anchor.limit_force = AnchorForceRule::yield;
+    }
 }
 
 } // namespace damslip

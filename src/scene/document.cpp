@@ -55,6 +55,8 @@ Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
         return {{"type", "array"},
                 {"minItems", 1},
                 {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "number"}}}}}};
+    if (std::holds_alternative<std::vector<std::string>*>(slot))
+        return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "string"}, {"minLength", 1}}}};
     return {{"type", "string"}, {"minLength", 1}};
 }
 
@@ -113,6 +115,7 @@ std::string allowed(const Key& key, const Slot& slot)
         return key.range.text() + " or `\"" + either->word + "\"`";
     if (is_number(slot)) return key.range.text();
     if (std::holds_alternative<std::vector<Point>*>(slot)) return "list of pairs, second entry " + key.range.text();
+    if (std::holds_alternative<std::vector<std::string>*>(slot)) return "list of texts";
     return "text";
 }
 

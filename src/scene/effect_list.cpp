@@ -13,6 +13,10 @@ std::vector<EffectRow> strength_effects();
 std::vector<EffectRow> motion_effects();
 std::vector<EffectRow> rock_effects();
 std::vector<EffectRow> contact_effects();
+std::vector<EffectRow> joint_effects();
+std::vector<EffectRow> anchor_effects();
+std::vector<EffectRow> opening_water_effects();
+std::vector<EffectRow> rate_effects();
 
 std::span<const EffectRow> effect_rows()
 {
@@ -26,6 +30,10 @@ std::span<const EffectRow> effect_rows()
                  motion_effects,
                  rock_effects,
                  contact_effects,
+                 joint_effects,
+                 anchor_effects,
+                 opening_water_effects,
+                 rate_effects,
              })
             for (EffectRow& row : topic()) {
                 assert(!row.named || *row.named == Effect(all.size()));

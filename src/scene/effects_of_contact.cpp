@@ -60,6 +60,13 @@ Decision decide_lift_joint_water(const Scene& s, Method method)
                               "nodal forces on both sides of the joint");
 }
 
+/// With the anchors through them.
+void delete_lift_joints(Scene& s)
+{
+    s.lift_joints.clear();
+    std::erase_if(s.anchors, [](const Anchor& anchor) { return !anchor.joint.empty(); });
+}
+
 RemovalAnswer without_damping(Scene s, const SeepagePoints&)
 {
     s.damping.method = DampingMethod::none;
@@ -107,10 +114,10 @@ std::vector<EffectRow> contact_effects()
         {.name = "lift joints",
          .decide = decide_lift_joints,
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.lift_joints.clear();
+             delete_lift_joints(s);
              return Removal{s, "no [[lift_joint]]: a dam of one piece"};
          },
-         .leave_out = [](Scene& s, const EffectPlan&) { s.lift_joints.clear(); },
+         .leave_out = [](Scene& s, const EffectPlan&) { delete_lift_joints(s); },
          .named = Effect::lift_joints},
         {.name = "water in lift joints",
          .decide = decide_lift_joint_water,

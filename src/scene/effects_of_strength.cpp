@@ -40,6 +40,7 @@ std::vector<EffectRow> strength_effects()
          },
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.contact.cohesion = 0.0;
+             s.contact.bond = {};
              return Removal{s, "contact.cohesion_kPa = 0"};
          },
          .leave_out = [](Scene& s, const EffectPlan&) { s.contact.cohesion = 0.0; },

@@ -31,7 +31,11 @@ Decision decide_uplift(const Scene& s, Method)
 Decision decide_base_crack(const Scene& s, Method method)
 {
     if (method == Method::finite_elements)
-        return {false, "finite elements: the joint opens by itself, the uplift stays", ""};
+        return {false,
+                s.uplift && s.uplift->water.opening != OpeningWater::unchanged
+                    ? "finite elements: the joint opens by itself, its water by uplift.opening"
+                    : "finite elements: the joint opens by itself, the uplift stays",
+                ""};
     const bool on = uplift_acts(s) && s.uplift->crack != CrackRule::none;
     return {on, on ? "uplift.crack" : "uplift.crack = \"none\" (limit equilibrium shows both)",
             "crack and uplift iterated per state"};

@@ -67,7 +67,7 @@ struct NumberOrWord {
 /// Where the value of a key lives in its struct.
 using Slot = std::variant<double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                           std::optional<std::string>*, std::filesystem::path*, std::optional<std::filesystem::path>*,
-                          std::vector<Point>*, Choice, NumberOrWord>;
+                          std::vector<Point>*, std::vector<std::string>*, Choice, NumberOrWord>;
 
 struct Key {
     std::string name;   ///< without unit suffix

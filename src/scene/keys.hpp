@@ -8,6 +8,10 @@ namespace damslip::keys {
 /// @param input  filled instead of a member of the scene: the polygon is made of it afterwards (make_section)
 KeyGroup section_group(SectionInput& input);
 std::vector<KeyGroup> base_groups();
+std::vector<Key> bond_keys();          ///< of the contact's strength
+std::vector<Key> rate_keys();          ///< of its friction over the rate, and of landings
+std::vector<Key> opening_water_keys(); ///< of [uplift]
+KeyGroup anchor_group();
 std::vector<KeyGroup> water_groups();
 std::vector<KeyGroup> motion_groups();
 std::vector<KeyGroup> fe_groups();

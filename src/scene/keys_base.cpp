@@ -140,11 +140,14 @@ std::vector<KeyGroup> base_groups()
                    number("clearance_at_zero_pressure", small_length, Range::between(1e-6, 1), "0.001",
                           "normal exponential: c0, the pressure acts from this clearance on", "0.001",
                           at(&Contact::clearance_at_zero_pressure)))}));
+    for (auto* more : {bond_keys, rate_keys})
+        for (Key& key : more()) groups.back().keys.push_back(std::move(key));
     groups.push_back(list_group<LiftJoint>(
         "lift_joint",
         "A horizontal joint through the dam that may slide and open, for `fe`: the block above a lift or a crack. Its "
         "separation, enforcement and slip tolerance are those of [contact].",
         [](Scene& s) -> std::vector<LiftJoint>& { return s.lift_joints; }, lift_joint_keys(groups.back().keys)));
+    groups.push_back(anchor_group());
     groups.push_back(optional_group(
         "uplift",
         "Water pressure in the base. Without this table: seepage where a [curtain] is given, drains where [drains] "
@@ -162,6 +165,7 @@ std::vector<KeyGroup> base_groups()
                "[[0, 1], [7, 0.938], [7, 0.315], [45, 0]]", at(&Uplift::points)),
          word("crack", "none", "uplift in a base crack: none, static, seismic-zero, seismic-unchanged, seismic-full",
               "\"static\"", choice(&Uplift::crack, crack_rules()))}));
+    for (Key& key : opening_water_keys()) groups.back().keys.push_back(std::move(key));
     groups.push_back(
         optional_group("curtain", "Grout curtain below the base.", &Scene::curtain,
                        {number("distance", length, Range::at_least(0), "required",

@@ -22,9 +22,22 @@ Key of_joint(Key key)
 std::vector<Key> lift_joint_keys(const std::vector<Key>& contact)
 {
     using J = LiftJoint;
-    static const std::set<std::string> of_strength{"friction",      "cohesion",      "cohesion_lost_at_slip",
-                                                   "residual_slip", "residual_path", "residual_friction",
-                                                   "friction_table"};
+    static const std::set<std::string> of_strength{"friction",
+                                                   "cohesion",
+                                                   "cohesion_lost_at_slip",
+                                                   "residual_slip",
+                                                   "residual_path",
+                                                   "residual_friction",
+                                                   "friction_table",
+                                                   "bond",
+                                                   "tensile_strength",
+                                                   "fracture_energy_tension",
+                                                   "fracture_energy_shear",
+                                                   "unloading",
+                                                   "kinetic_friction_ratio",
+                                                   "characteristic_rate",
+                                                   "relaxation_time",
+                                                   "relaxation_slip"};
     std::vector<Key> keys{word("name", "lift joint and its number", "name in the tables", "\"neck\"", at(&J::name)),
                           number("elevation", length, Range::any(), "required", "of the joint above the heel", "51.5",
                                  at(&J::elevation))};

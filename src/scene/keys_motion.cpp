@@ -9,14 +9,21 @@ std::vector<KeyGroup> motion_groups()
     Key polarity =
         word("polarity", "1; of `fe` both", "1 or -1: -1 flips the horizontal components; written, `fe` runs it alone",
              "-1", at(&Motion::polarity));
+    Key pause =
+        number("sequence_pause", seconds, Range::between(0, 600), "0",
+               "rest between the records of a sequence, beyond the run to rest", "10", at(&Motion::sequence_pause));
+    pause.applies = [](const void* motion) { return !static_cast<const Motion*>(motion)->sequence.empty(); };
     groups.push_back(group(
         "motion", "Ground motion. a_h positive upstream drives the dam downstream, a_v positive up.", &Scene::motion,
         {number("scale", none, Range::at_least(0), "1", "factor on all components", "1.5", at(&Motion::scale)),
          number("scale_to_pga", acceleration, Range::above(0), "as recorded",
                 "horizontal peak is made equal to this, the vertical by the same factor", "1.0",
                 at(&Motion::scale_to_pga)),
-         polarity,
-         word("vertical", "true", "false: vertical components are left out", "false", at(&Motion::vertical))}));
+         polarity, word("vertical", "true", "false: vertical components are left out", "false", at(&Motion::vertical)),
+         word("sequence", "each record alone",
+              "names of records that shake the same dam one after the other, each from where the one before left it",
+              "[\"main shock\", \"aftershock\"]", at(&Motion::sequence)),
+         pause}));
     using R = RecordFiles;
     groups.push_back(list_group<R>(
         "motion.record", "One record: a horizontal component and, if there is one, its vertical.",
@@ -55,6 +62,9 @@ std::vector<KeyGroup> motion_groups()
          word("two_way", "true", "false: no upstream sliding", "false", at(&SlidingOptions::two_way)),
          number("run_out_max", seconds, Range::between(0, 600), "60", "integration after the record's end at most",
                 "60", at(&SlidingOptions::run_out_max)),
+         number("restitution", none, Range::between(0, 1), "by angular momentum",
+                "block that rocks: angular rate after a landing over that before", "0.8",
+                at(&SlidingOptions::restitution)),
          number(
              "steady_rate_change", none, Range::half_open(0, 1), "0.1",
              "finite elements: share by which the rate of sliding falls at most from one window of the run-out to the "

@@ -1,18 +1,33 @@
 #include "scene/mesh_sizes.hpp"
 
+#include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace damslip {
+
+namespace {
+
+/// Elements that resolve the process zone of the base's bond, but not more than 240 along the base.
+double bond_size(const Scene& scene)
+{
+    const auto modulus = joint_modulus(scene, true);
+    if (!modulus || !breaks_by_energy(scene.contact)) return HUGE_VAL;
+    return std::max(bond_element_length(scene.contact, *modulus), base_length(scene.section) / 240.0);
+}
+
+} // namespace
 
 MeshSizes mesh_sizes(const Scene& scene)
 {
     const double lowest = std::min(heel(scene.section).y, toe(scene.section).y);
     MeshSizes sizes;
     sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
-    sizes.contact = scene.mesh.contact_size.value_or(std::min(sizes.dam, base_length(scene.section) / 60.0));
+    sizes.contact =
+        scene.mesh.contact_size.value_or(std::min({sizes.dam, base_length(scene.section) / 60.0, bond_size(scene)}));
     if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
     return sizes;
 }

@@ -232,6 +232,8 @@ private:
             read_choice(key, *c, spelling, node);
         } else if (auto* const* points = std::get_if<std::vector<Point>*>(&slot)) {
             read_pairs(key, unit, spelling, node, **points);
+        } else if (auto* const* list = std::get_if<std::vector<std::string>*>(&slot)) {
+            read_texts(key, spelling, node, **list);
         } else {
             read_text(key, slot, spelling, node);
         }
@@ -271,6 +273,21 @@ private:
             **p = *text;
         else if (auto* const* op = std::get_if<std::optional<std::filesystem::path>*>(&slot))
             **op = *text;
+    }
+
+    void read_texts(const Key& key, const std::string& spelling, const toml::node& node, std::vector<std::string>& out)
+    {
+        const toml::array* list = node.as_array();
+        if (!list || list->empty() || list->size() > 1000)
+            return not_allowed(key, spelling, node, "a list of texts [\"a\", \"b\"]: " + key.meaning);
+        std::vector<std::string> texts;
+        for (const toml::node& item : *list) {
+            const auto text = item.value_exact<std::string>();
+            if (!text || text->empty() || text->size() > 4096)
+                return not_allowed(key, spelling, item, "a text in quotes: " + key.meaning);
+            texts.push_back(in_one_line(*text));
+        }
+        out = std::move(texts);
     }
 
     void read_pairs(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,

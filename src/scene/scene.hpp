@@ -2,6 +2,7 @@
 
 #include "core/geometry.hpp"
 #include "core/input_error.hpp"
+#include "scene/joint_laws.hpp"
 #include "scene/rock_wedge.hpp"
 
 #include <filesystem>
@@ -130,6 +131,7 @@ struct Uplift {
     std::vector<Point> points; ///< model `points`: x = distance along the base from the heel [m], y = p / p_heel [-]; a
                                ///< repeated x is a jump
     CrackRule crack = CrackRule::none;
+    JointWaterLaw water; ///< in the joint while it opens
 };
 
 /// Drain line below the base (USACE EM 1110-2-2200): H3 = H2 + (1 - E)(H1 - H2)(L - X)/L.
@@ -160,6 +162,9 @@ struct Contact {
     Interpolation residual_path =
         Interpolation::steps;          ///< between peak and residual: a step at residual_slip, or linear in slip
     std::vector<Point> friction_table; ///< x = accumulated slip [m], y = mu [-]; replaces peak/residual
+    Bond bond;                         ///< how cohesion is lost, and what stands beside it
+    RateFriction rate;                 ///< friction over the rate of slip
+    double restitution = 0.0;          ///< of landings of the whole base: rate after over rate before, 0 ... 1 [-]
 
     // FE runs only.
     JointOpening separation = JointOpening::allowed; ///< none: the joint pulls; lowers the slip, breaks the rigid limit
@@ -183,8 +188,8 @@ enum class JointWater {
 struct LiftJoint {
     std::string name;
     double elevation = 0.0; ///< above the heel [m]
-    Contact strength;       ///< friction, cohesion, residual values and table only; the members for FE runs keep their
-                            ///< defaults, [contact] says them for all planes
+    Contact strength; ///< friction, cohesion, bond, residual values and table only; the members for FE runs keep their
+                      ///< defaults, [contact] says them for all planes
     JointWater water = JointWater::none;
 };
 
@@ -206,6 +211,9 @@ struct Motion {
     std::optional<double> scale_to_pga; ///< horizontal peak made equal to this [m/s^2], vertical by the same factor
     std::optional<int> polarity;        ///< -1 flips the horizontal component, 1 not; none: not said, as recorded
     bool vertical = true;               ///< false: vertical components are left out
+    std::vector<std::string>
+        sequence;                ///< names of records that shake the same dam one after the other; empty: each alone
+    double sequence_pause = 0.0; ///< at least, between two of them, on top of the run to rest [s]
 };
 
 enum class LiftOff { no_friction, ballistic };
@@ -241,9 +249,10 @@ struct FlexibleMass {
 struct SlidingOptions {
     SlidingScheme scheme = SlidingScheme::exact;
     LiftOff lift_off = LiftOff::no_friction;
-    bool two_way = true;             ///< upstream sliding allowed
-    double run_out_max = 60.0;       ///< integration after the record's end at most [s]; 0: none
-    double steady_rate_change = 0.1; ///< FE: a steady rate of sliding falls by less from window to window [-]
+    bool two_way = true;               ///< upstream sliding allowed
+    double run_out_max = 60.0;         ///< integration after the record's end at most [s]; 0: none
+    std::optional<double> restitution; ///< rocking: rate after over before a landing [-]; none: by angular momentum
+    double steady_rate_change = 0.1;   ///< FE: a steady rate of sliding falls by less from window to window [-]
 };
 
 enum class CombinationKind { usual, unusual, extreme, post_seismic };
@@ -360,6 +369,7 @@ struct Scene {
     Material dam;
     Contact contact;
     std::vector<LiftJoint> lift_joints; ///< from the bottom up
+    std::vector<Anchor> anchors;
     std::optional<Foundation> foundation;
     std::optional<Curtain> curtain;
     std::optional<Reservoir> reservoir;

@@ -40,6 +40,21 @@ Point centroid(const Section& section)
     return {m.x6 / (3.0 * m.a2), m.y6 / (3.0 * m.a2)};
 }
 
+double polar_moment(const Section& section)
+{
+    // About the centroid from the start, so that nothing cancels: triangles from there to each side.
+    const Point c = centroid(section);
+    const Polyline& p = section.polygon;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Point a{p[i].x - c.x, p[i].y - c.y};
+        const Point& next = p[(i + 1) % p.size()];
+        const Point b{next.x - c.x, next.y - c.y};
+        sum += (a.x * b.y - b.x * a.y) * (a.x * a.x + a.x * b.x + b.x * b.x + a.y * a.y + a.y * b.y + b.y * b.y);
+    }
+    return sum / 12.0;
+}
+
 Point heel(const Section& section)
 {
     return section.polygon.at(0);

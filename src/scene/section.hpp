@@ -7,6 +7,7 @@ namespace damslip {
 
 double area(const Section& section);                     ///< [m^2], positive
 Point centroid(const Section& section);                  ///< [m]
+double polar_moment(const Section& section);             ///< second moment of area about the centroid [m^4]
 Point heel(const Section& section);                      ///< first vertex
 Point toe(const Section& section);                       ///< second vertex
 double base_length(const Section& section);              ///< heel to toe, along the base [m]

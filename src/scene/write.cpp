@@ -115,6 +115,12 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
             return *v ? key.name + " = " + toml_text(path_text(**v, paths)) + "\n" : "";
         }
         std::string operator()(std::vector<Point>* v) const { return v->empty() ? "" : pairs_line(key, *v); }
+        std::string operator()(std::vector<std::string>* v) const
+        {
+            std::string list;
+            for (const std::string& word : *v) list += (list.empty() ? "" : ", ") + toml_text(word);
+            return v->empty() ? "" : key.name + " = [" + list + "]\n";
+        }
         std::string operator()(const Choice& c) const
         {
             const int i = c.get();

@@ -53,14 +53,17 @@ TEST(SceneInput, ValueOutOfRange)
 
 TEST(SceneInput, UnknownKeyGetsASuggestion)
 {
-    EXPECT_EQ(message(with("friction = 0.77", "friction = 0.77\nresidual_pth = 3")),
-              "dam.toml:10:1: error: unknown key contact.residual_pth. Did you mean contact.residual_path?\n"
-              "  expected: keys of [contact]: friction, cohesion_kPa, cohesion_lost_at_slip, sliding, max_slip_m, "
-              "residual_friction, "
-              "residual_slip_m, residual_path, friction_table_m, separation, enforcement, "
-              "tangential_stiffness_N_m3, slip_tolerance, normal, pressure_at_zero_clearance_kPa, "
-              "clearance_at_zero_pressure_m\n"
-              "  fix:      write  residual_path");
+    EXPECT_EQ(
+        message(with("friction = 0.77", "friction = 0.77\nresidual_pth = 3")),
+        "dam.toml:10:1: error: unknown key contact.residual_pth. Did you mean contact.residual_path?\n"
+        "  expected: keys of [contact]: friction, cohesion_kPa, cohesion_lost_at_slip, sliding, max_slip_m, "
+        "residual_friction, "
+        "residual_slip_m, residual_path, friction_table_m, separation, enforcement, "
+        "tangential_stiffness_N_m3, slip_tolerance, normal, pressure_at_zero_clearance_kPa, "
+        "clearance_at_zero_pressure_m, bond, tensile_strength_kPa, fracture_energy_tension_N_m, "
+        "fracture_energy_shear_N_m, unloading, kinetic_friction_ratio, characteristic_rate_m_s, relaxation_time_s, "
+        "relaxation_slip_m, restitution\n"
+        "  fix:      write  residual_path");
     EXPECT_SAYS(message(with("friction = 0.77", "friction = 0.77\ncohesion_kpa = 3")),
                 "fix:      write  cohesion_kPa = 100");
 }

@@ -414,6 +414,31 @@ std::string radiating_rock(const Writer& w)
     return keys;
 }
 
+/// Rows of anchors through the base, forces of the order of the weight, from bars that hardly pull to ones that snap at once;
+/// not beside what knows no force that grows with slip.
+std::string drawn_anchors(Draw& draw, const Writer& w, const std::string& scene)
+{
+    std::string text;
+    if (!draw.chance(0.15)) return text;
+    for (const char* other : {"enforcement", "normal = ", "separation", "central-difference", "slammer", "ballistic"})
+        if (scene.find(other) != std::string::npos) return text;
+    const double weight = 0.5 * w.base * w.height * 24.0; // [kN/m], about
+    for (int k = draw.whole(1, 3); k > 0; --k) {
+        const double yield = weight * draw.log_between(1e-3, 1.0), strength = draw.between(250, 1800); // [kN/m], [MPa]
+        const double strain = strength / 200e3;
+        text += fmt::format("[[anchor]]\ndistance_m = {:.6g}\ninclination_deg = {:.4g}\nfree_length_m = {:.4g}\n"
+                            "area_m2_m = {:.6g}\nyield_strength_MPa = {:.4g}\n",
+                            draw.between(0.0, 0.99) * w.base, draw.chance(0.3) ? 0.0 : draw.between(-70, 70),
+                            w.base * draw.log_between(1e-3, 3.0), yield / (1e3 * strength), strength);
+        if (draw.chance(0.6)) text += fmt::format("prestress_kN_m = {:.6g}\n", yield * draw.between(0.0, 0.95));
+        if (draw.chance(0.4))
+            text += fmt::format("rupture_strain = {:.4g}\n", std::max(strain * draw.log_between(1.01, 10.0), 1e-4));
+        if (draw.chance(0.3)) text += "dowel = true\n";
+        if (draw.chance(0.2)) text += "limit_force = \"yield\"\n";
+    }
+    return text;
+}
+
 /// One value of the text, taken at random, becomes what no one should write.
 void spoil(SceneFiles& files, Draw& draw)
 {
@@ -452,6 +477,7 @@ SceneFiles random_scene(Draw& draw, double radiating)
     if (w.rock && w.rock_by_name.starts_with("mass") && draw.chance(radiating)) w.rock_by_name = radiating_rock(w);
     const std::string head = "[foundation]\n";
     if (w.rock) files.scene.insert(files.scene.find(head) + head.size(), w.rock_by_name);
+    files.scene += drawn_anchors(draw, w, files.scene);
     return files;
 }
 

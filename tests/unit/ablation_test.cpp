@@ -152,6 +152,24 @@ AblationPlan ablations_of(const std::string& text, Method method)
     return make_ablations(parsed(text), method, any_profile());
 }
 
+/// A dam, and joints of it with a law each.
+const std::string joint_text = R"(
+section = { height_m = 30, base_m = 24, crest_m = 5 }
+dam = { density_kg_m3 = 2400, young_modulus_GPa = 28 }
+reservoir = { level_m = 29, model = "added-mass" }
+)";
+const std::vector<std::string> joint_texts{
+    "uplift = { model = \"linear\" }\n"
+    "contact = { friction = 0.8, cohesion_kPa = 300, fracture_energy_shear_N_m = 1500 }\n",
+    "uplift = { model = \"linear\" }\ncontact = { friction = 0.8 }\n"
+    "[[anchor]]\ndistance_m = 3\nfree_length_m = 20\narea_m2_m = 0.001\nyield_strength_MPa = 1500\n",
+    "uplift = { model = \"linear\", opening = \"full\", after = \"full\" }\ncontact = { friction = 0.8 }\n",
+    "uplift = { model = \"linear\" }\ncontact = { friction = 0.8, kinetic_friction_ratio = 0.8, "
+    "characteristic_rate_m_s = 0.01, "
+    "relaxation_time_s = 0.05, restitution = 0.3 }\nsliding = { lift_off = \"ballistic\" }\n"
+    "[motion]\nsequence = [\"a\", \"b\"]\n[[motion.record]]\nname = \"a\"\nhorizontal = \"a.csv\"\n"
+    "[[motion.record]]\nname = \"b\"\nhorizontal = \"b.csv\"\n"};
+
 TEST(Ablation, EveryActiveEffectOnceAndNoAbsentOne)
 {
     for (const std::string& text : {rich_text, other_text,
@@ -174,9 +192,11 @@ TEST(Ablation, EveryActiveEffectOnceAndNoAbsentOne)
             std::sort(seen.begin(), seen.end());
             EXPECT_EQ(on, seen);
         }
-    // 35 effects, of which each is on in one of the scenes by one of the two methods.
+    // 42 effects, of which each is on in one of the scenes by one of the two methods.
+    std::vector<std::string> texts{rich_text, other_text, wave_text};
+    for (const std::string& law : joint_texts) texts.push_back(joint_text + law);
     std::set<Effect> ever;
-    for (const std::string& text : {rich_text, other_text, wave_text})
+    for (const std::string& text : texts)
         for (const Method method : {Method::rigid_block, Method::finite_elements})
             for (const PlannedEffect& e : make_effect_plan(parsed(text), method).effects)
                 if (e.on) ever.insert(e.effect);

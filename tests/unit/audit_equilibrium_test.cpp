@@ -163,18 +163,24 @@ TEST(Audit, A6_the_bond_of_a_crack_is_lost)
     const double by_hand = (1.5 * c * 6 + 0.3 * m * g) / (m + 1.5 * c * 10 / g);
     ASSERT_LT(by_hand, base_limits(scene).tips);
     ASSERT_LT(by_hand, yield_downstream(make_rigid_block(scene)).law.constant);
-    EXPECT_NEAR(base_limits(scene).bond_fails, by_hand, 1e-9);
+    EXPECT_NEAR(base_limits(scene).yield_with_crack, by_hand, 1e-9);
     // A motion between the two: the block with its whole bond does not slide, the one with the crack does.
-    const double peak = 1.02 * by_hand;
+    const double peak = 1.1 * by_hand; // its tenth upwards presses the joint together
     ASSERT_LT(peak, base_limits(scene).tips);
     const Folder folder(peak);
     const nlohmann::json j = folder.screened(weak + "[criteria]\nallowable_slip_mm = 5\n");
     for (const auto& row : j["displacements"]) {
         EXPECT_EQ(row["slip_h_mm"], 0.0);
-        EXPECT_EQ(row["verdict"], "undecided");
+        EXPECT_EQ(row["verdict"], "judged by rocking"); // it loses its bond with the crack
+    }
+    EXPECT_GT(j["rocking_block"][0]["max_slip_mm"].get<double>(), 0.0);
+    for (const auto& row : j["rocking_block"]) {
+        EXPECT_NE(row["verdict"], "undecided");
     }
     EXPECT_TRUE(says(j["warnings"], "with the crack that the same acceleration opens"));
-    EXPECT_TRUE(std::isinf(base_limits(parsed(dry_block)).bond_fails)); // no bond to lose
+    const Scene loose = parsed(dry_block); // no bond to lose, no water: the crack changes nothing
+    const double yield = yield_downstream(make_rigid_block(loose)).law.constant;
+    EXPECT_NEAR(base_limits(loose).yield_with_crack, yield, 1e-9 * yield);
 }
 
 const std::string bonded = "[section]\nheight_m = 62.5\nbase_m = 45\ncrest_m = 12\nneck_m = 11\n[dam]\n"
@@ -191,12 +197,26 @@ TEST(Audit, A6_no_pass_above_tipping)
     ASSERT_GT(slides, 4.0);
     EXPECT_NEAR(j["yield"][0]["tips_g"].get<double>(), tips / 9.80665, 1e-12);
     EXPECT_NEAR(j["yield"][0]["opens_m_s2"].get<double>(), tips, 1e-9);
-    for (const auto& row : j["displacements"]) EXPECT_EQ(row["verdict"], "undecided");
+    EXPECT_LT(j["yield"][0]["yield_with_crack_m_s2"].get<double>(), tips); // its bond goes before
+    // The pulse drives it downstream with polarity +1 only; the other one loses its bond, which the block that rocks follows.
+    EXPECT_EQ(j["displacements"][0]["status"], "rocks first");
+    EXPECT_TRUE(j["displacements"][0]["slip_h_mm"].is_null());
+    EXPECT_TRUE(j["displacements"][0]["slip_hv_mm"].is_null());
+    EXPECT_EQ(j["displacements"][1]["status"], "at rest");
+    for (const auto& row : j["displacements"]) EXPECT_EQ(row["verdict"], "judged by rocking");
+    ASSERT_EQ(j["rocking_block"].size(), 2u);
+    for (const auto& row : j["rocking_block"]) {
+        EXPECT_TRUE(row["slip_mm"].is_number());
+        EXPECT_NE(row["verdict"], "undecided");
+        EXPECT_LT(std::abs(row["energy_imbalance"].get<double>()), 1e-9);
+    }
+    EXPECT_GT(j["rocking_block"][0]["max_slip_mm"].get<double>(), 1.0);
     EXPECT_TRUE(says(j["warnings"],
                      "tips at 0.305 g before it slides at 0.869 g: the rigid sliding block does not hold "
                      "here"));
     const ProgramAnswer text = strong.run("screen", bonded);
-    EXPECT_TRUE(has(text.out, "no PASS: the dam tips at 0.305 g"));
+    EXPECT_TRUE(has(text.out, "judged by the block that rocks and slides: the dam tips at 0.305 g"));
+    EXPECT_TRUE(has(text.out, "Displacement of the block that rocks and slides"));
 
     const Folder weak(2.0); // below tipping the bonded block holds
     for (const auto& row : weak.screened(bonded)["displacements"]) EXPECT_EQ(row["verdict"], "PASS");
@@ -206,6 +226,50 @@ TEST(Audit, A6_no_pass_above_tipping)
     const nlohmann::json unbonded = strong.screened(sliding_first);
     EXPECT_LT(unbonded["yield"][0]["yield_acceleration_m_s2"].get<double>(), tips);
     for (const auto& row : unbonded["displacements"]) EXPECT_NE(row["verdict"], "undecided");
+}
+
+TEST(Audit, A6_every_command_says_that_it_rocks_first)
+{
+    const Folder strong(4.0);
+    const ProgramAnswer sliding = strong.run("sweep", bonded, {"--method", "rigid", "--polarity", "1"});
+    EXPECT_EQ(sliding.code, 4) << sliding.talk;
+    EXPECT_TRUE(has(sliding.out, "rocks first")) << sliding.out;
+    const ProgramAnswer rocking = strong.run("sweep", bonded, {"--method", "rocking", "--polarity", "1"});
+    EXPECT_EQ(rocking.code, 0) << rocking.talk;
+    EXPECT_FALSE(has(rocking.out, "rocks first"));
+    const ProgramAnswer rungs = strong.run("accuracy", bonded);
+    EXPECT_TRUE(has(rungs.out, "rigid:h+v,rocking")) << rungs.out << rungs.talk;
+    EXPECT_TRUE(has(rungs.out, "rocks first"));
+    const ProgramAnswer below = Folder(2.0).run("accuracy", bonded); // nothing rocks: no such rung
+    EXPECT_FALSE(has(below.out, "rocking")) << below.out;
+}
+
+TEST(Audit, A6_rocking_on_request)
+{
+    const Folder weak(2.0);
+    EXPECT_FALSE(weak.screened(bonded).contains("rocking_block"));
+    const ProgramAnswer asked = weak.run("screen", bonded, {"--json", "--rocking"});
+    ASSERT_EQ(asked.code, 0) << asked.talk;
+    const nlohmann::json j = nlohmann::json::parse(asked.out);
+    ASSERT_EQ(j["rocking_block"].size(), 2u);
+    for (const auto& row : j["displacements"]) EXPECT_EQ(row["verdict"], "PASS"); // the sliding block holds
+}
+
+// N' = W - U, c A' of the uncracked part: more than a third of the resistance is bond, so the slip is judged without it, too.
+TEST(Audit, A6_much_bond_is_judged_without_it)
+{
+    const Folder weak(2.0);
+    const nlohmann::json j = weak.screened(bonded);
+    ASSERT_EQ(j["without_bond"].size(), 2u);
+    EXPECT_GT(j["without_bond"][0]["slip_mm"].get<double>(), 1.0);
+    EXPECT_TRUE(says(j["warnings"], "judged for c = 0, too (a judgement, from a third on)"));
+    std::string loose = bonded;
+    loose.replace(loose.find("1000"), 4, "0");
+    const nlohmann::json unbonded = weak.screened(loose);
+    EXPECT_FALSE(unbonded.contains("without_bond"));
+    EXPECT_EQ(j["without_bond"][0]["slip_mm"], unbonded["displacements"][0]["slip_hv_mm"]);
+    loose.replace(loose.find("cohesion_kPa = 0"), 16, "cohesion_kPa = 100"); // a seventh
+    EXPECT_FALSE(weak.screened(loose).contains("without_bond"));
 }
 
 // The block of 6 m by 10 m with cohesion, pushed by 700 kN/m at its top: 1471.5 kN/m at 3 m hold it, 7000 kNm/m tip it.

@@ -378,7 +378,7 @@ TEST(Audit, B1_fe_what_is_not_resolved_has_no_slip_no_verdict_and_a_neutral_bann
     EXPECT_EQ(exit_code_of(two), exit_no_answer);
     // A slip that would pass does not where another run has no answer.
     const std::vector<ContactRun> small{made_up_run(Status::at_rest, 0.01, 0.001), runs.front()};
-    EXPECT_EQ(verdict_of(small, 0.05), Verdict::none);
+    EXPECT_EQ(verdict_of(small, 0.05), damslip::Verdict::none);
     EXPECT_EQ(fe_headline(scene, small).outcome, pages::Outcome::unresolved);
 }
 
@@ -412,7 +412,7 @@ TEST(Audit, B1_fe_a_state_after_the_earthquake_that_is_not_resolved_is_no_fall)
     const pages::Headline headline = fe_headline(scene, runs);
     EXPECT_EQ(headline.outcome, pages::Outcome::unresolved);
     EXPECT_EQ(headline.sentence.find("does not stand"), std::string::npos) << headline.sentence;
-    EXPECT_EQ(verdict_of(runs, 0.05), Verdict::none);
+    EXPECT_EQ(verdict_of(runs, 0.05), damslip::Verdict::none);
     EXPECT_EQ(exit_code_of(runs), exit_no_answer);
     const Table stages = contact_stage_table(runs);
     EXPECT_EQ(cell_of(stages, "status"), Cell(std::string("NOT RESOLVED")));

@@ -69,18 +69,19 @@ public:
         return path("block.toml");
     }
 
-    /// The reference dam on massless rock with 200 kPa of cohesion: its static stages find no state although the
-    /// resultants allow one.
-    std::string cohesive_dam() const
+    /// The reference dam on massless rock with friction that falls within a tenth of a micrometre a second: no step of the
+    /// earthquake has one answer.
+    std::string unsolvable_dam() const
     {
         const std::filesystem::path root = DAMSLIP_SOURCE_DIR;
         std::string text = text_of(root / "examples/reference_dam.toml");
         for (std::size_t at = 0; (at = text.find("../records/", at)) != std::string::npos;)
             text.replace(at, 3, root.string() + "/");
-        text.insert(text.find("friction = 0.77"), "cohesion_kPa = 200\n");
+        text.insert(text.find("friction = 0.77"),
+                    "kinetic_friction_ratio = 0.5\ncharacteristic_rate_m_s = 1e-7\nrelaxation_time_s = 1e-4\n");
         text.insert(text.find("[foundation]") + 12, "\nmass = \"massless\"");
-        write("cohesive.toml", text);
-        return path("cohesive.toml");
+        write("unsolvable.toml", text);
+        return path("unsolvable.toml");
     }
 
     /// The example's wedge without cohesion and dry, of planes that are not alike.
@@ -344,7 +345,7 @@ TEST(Audit, Statuses_records_without_a_slip_are_counted_and_not_averaged)
 TEST(Audit, B1_a_sweeps_stage_that_is_not_resolved_is_no_static_failure)
 {
     const Scenes files;
-    const std::string scene = files.cohesive_dam();
+    const std::string scene = files.unsolvable_dam();
     const ProgramAnswer answer =
         answer_of({"sweep", scene, "--method", "fe-whole-steps", "--out", files.path("r.csv")});
     EXPECT_EQ(answer.code, exit_no_answer);
@@ -381,7 +382,7 @@ TEST(Audit, B1_rows_take_slip_and_exit_code_from_the_status)
 TEST(Audit, B3_a_solver_without_an_answer_is_not_refused_by_accuracy)
 {
     const Scenes files;
-    const std::string scene = files.cohesive_dam();
+    const std::string scene = files.unsolvable_dam();
     expect_rung("fe-added-mass:dt", scene, Status::not_resolved);
     const ProgramAnswer answer = answer_of({"accuracy", scene, "--quick", "--repeats", "1", "--budget", "4", "--json"});
     EXPECT_EQ(answer.code, exit_no_answer);

@@ -95,7 +95,7 @@ TEST_F(CliScene, ExplainNamesEveryEffectOnce)
     const ProgramAnswer a = answer_of({"explain", scene(), "--json"});
     ASSERT_EQ(a.code, 0);
     const auto j = nlohmann::json::parse(a.out);
-    EXPECT_EQ(j["effects"].size(), 35u);
+    EXPECT_EQ(j["effects"].size(), 42u);
     for (const auto& e : j["effects"]) {
         const bool expected = e["effect"] == "upstream sliding" || e["effect"] == "run-out";
         EXPECT_EQ(e["on"].get<bool>(), expected) << e["effect"];

@@ -1,4 +1,5 @@
 // Every .toml of examples/ is read and held against the figures it states under [expect].
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"

@@ -172,6 +172,7 @@ TEST(FeStrength, cohesion_acts_on_the_area_and_is_lost_where_a_pair_slips_or_ope
     Contact contact;
     contact.friction = 0.7;
     contact.cohesion = 100.0;
+    contact.bond.loss = BondLoss::pairs;
     Strength strength(contact, two_pairs());
     EXPECT_EQ(strength.law().cohesion, Vector2d(200.0, 100.0));
     strength.follow(slipped(0.0, ContactState::stick));
@@ -188,6 +189,34 @@ TEST(FeStrength, cohesion_acts_on_the_area_and_is_lost_where_a_pair_slips_or_ope
     Strength lasting(contact, two_pairs());
     lasting.follow(slipped(0.01, ContactState::slip_downstream));
     EXPECT_EQ(lasting.law().cohesion, Vector2d(200.0, 100.0));
+}
+
+TEST(FeStrength, cohesion_is_lost_together_when_all_closed_pairs_have_reached_their_strength)
+{
+    Contact contact;
+    contact.friction = 0.5;
+    contact.cohesion = 100.0; // 200 and 100 N/m on the pairs
+    Strength strength(contact, two_pairs());
+    ContactMemory memory(2);
+    memory.states = {ContactState::slip_downstream, ContactState::stick};
+    memory.force << 1000.0, 1000.0, -700.0, -599.0; // 700 and 600 are their strengths
+    strength.follow(memory);
+    EXPECT_EQ(strength.law().cohesion, Vector2d(200.0, 100.0)); // one pair at its strength is not the plane
+    memory.states = {ContactState::open, ContactState::stick};
+    memory.force << 0.0, 1000.0, 0.0, -500.0;
+    strength.follow(memory);
+    EXPECT_EQ(strength.law().cohesion, Vector2d(0.0, 100.0)); // an open pair has none while it is open
+    memory.states = {ContactState::stick, ContactState::stick};
+    memory.force << 1000.0, 1000.0, -600.0, -500.0;
+    strength.follow(memory);
+    EXPECT_EQ(strength.law().cohesion, Vector2d(200.0, 100.0));
+    memory.states = {ContactState::slip_downstream, ContactState::slip_downstream};
+    memory.force << 1000.0, 1000.0, -700.0, -600.0;
+    strength.follow(memory);
+    EXPECT_EQ(strength.law().cohesion, Vector2d(0.0, 0.0));
+    memory.states = {ContactState::stick, ContactState::stick}; // and does not come back
+    strength.follow(memory);
+    EXPECT_EQ(strength.law().cohesion, Vector2d(0.0, 0.0));
 }
 
 TEST(FeStrength, friction_falls_with_the_slip_of_each_pair_there_and_back)

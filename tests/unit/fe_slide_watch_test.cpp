@@ -259,7 +259,7 @@ TEST(SelfExcited, a_dam_on_a_rigid_base_that_walks_by_itself_is_named_and_its_ru
     EXPECT_NE(run.message.find("walked >="), std::string::npos) << run.message;
     EXPECT_NE(run.message.find("give [foundation] so that the rock radiates"), std::string::npos) << run.message;
     EXPECT_FALSE(reported(run.status, run.slip).has_value());
-    EXPECT_EQ(judge(run.status, run.slip, 0.0, 1e-3), Verdict::none);
+    EXPECT_EQ(judge(run.status, run.slip, 0.0, 1e-3), damslip::Verdict::none);
     ASSERT_EQ(run.history.slide.rate.size(), run.history.time.size());
 
     // What the thrust does on the slip is what the static loads do: over the run-out the ledger's work of all loads differs by

@@ -75,7 +75,7 @@ TEST(ScreenReport, ChartsAgreeWithTheScreening)
     const auto& x = slip->curves[0].x;
     const auto at = std::find(x.begin(), x.end(), mu);
     ASSERT_NE(at, x.end());
-    const double expected = std::max(s.slips[0].judged().max_slip, s.slips[1].judged().max_slip) / units::mm;
+    const double expected = std::max(s.slips[0].rigid().max_slip, s.slips[1].rigid().max_slip) / units::mm;
     EXPECT_GT(expected, 1.0);
     EXPECT_EQ(slip->curves[0].y[static_cast<std::size_t>(at - x.begin())], expected);
 

@@ -36,7 +36,7 @@ std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
                    : fmt::format("friction {:.4g} is below the {:.4g} that holds it", model.block.friction,
                                  model.critical_friction);
     if (reported(r.status, r.slip) || r.notes.empty()) return "";
-    return r.status == Status::runs_away ? r.notes.back() : r.notes.front();
+    return r.status == Status::runs_away || r.status == Status::rocks_first ? r.notes.back() : r.notes.front();
 }
 
 RecordOutcome outcome(const sliding::SlideResult& r, const RigidModel& model)

@@ -93,7 +93,8 @@ const ModelLimit* find(const std::vector<ModelLimit>& models, const Rung& rung)
 /// Estimate for one record; nothing where the model has no limit.
 std::optional<double> error_of(const RungResult& r, const ModelLimit* limit, std::size_t record)
 {
-    if (r.rung.family == RungFamily::rigid && r.rung.scheme == RigidScheme::exact) return 0.0; // events located exactly
+    if (r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer)
+        return 0.0; // events located exactly
     if (!limit) return std::nullopt;
     return std::max(std::abs(r.slip[record] - limit->slip[record]), limit->open[record]);
 }
@@ -119,7 +120,7 @@ void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* li
 void add_rigid_limits(const std::vector<RungResult>& results, std::vector<ModelLimit>& models)
 {
     for (const RungResult& r : results)
-        if (r.done() && r.rung.family == RungFamily::rigid && r.rung.scheme == RigidScheme::exact) {
+        if (r.done() && r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer) {
             ModelLimit limit;
             limit.model = model_of(r.rung);
             limit.slip = r.slip;

@@ -119,6 +119,8 @@ void add_cheap(const LadderFacts& facts, std::vector<Rung>& rungs)
         rungs.push_back(rung);
         rung.scheme = RigidScheme::slammer;
         if (facts.slammer) rungs.push_back(rung);
+        rung.scheme = RigidScheme::rocking;
+        if (facts.rocks) rungs.push_back(rung);
     }
 }
 
@@ -190,7 +192,7 @@ std::optional<Rung> next_rung(const LadderFacts& facts, const LadderOptions& opt
 bool below(const Rung& a, const Rung& b)
 {
     if (a.family != b.family) return a.family < b.family;
-    if (a.family == RungFamily::rigid) // exact above SLAMMER's
+    if (a.family == RungFamily::rigid) // the block that may rock above the exact one, that above SLAMMER's
         return std::pair(a.components, b.scheme) < std::pair(b.components, a.scheme);
     if (a.family == RungFamily::regression) return b.regression == "ensemble" && a.regression != "ensemble";
     if (a.water != b.water) return a.water < b.water;

@@ -19,6 +19,7 @@ struct LadderFacts {
     std::vector<std::string> regressions; ///< ids of the best valid ones, and "ensemble"; none: none is valid
     bool vertical = false;                ///< some record has a vertical component that counts
     bool slammer = false;                 ///< the scene asks for SLAMMER's scheme
+    bool rocks = false;                   ///< in some record the block tips before it slides
     std::vector<RungWater> waters;        ///< FE models from poor to rich; none: no finite elements
     bool reducible = false;               ///< the first of them can run on few modes
     std::vector<double> alphas;           ///< of HHT, other than the scene's [-]

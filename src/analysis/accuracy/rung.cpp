@@ -137,7 +137,7 @@ std::optional<Rung> parse_rung(std::string_view id)
     }
     if (model != "rigid") return parse_finite_elements(model, settings);
     for (const Components components : {Components::horizontal, Components::both})
-        for (const RigidScheme scheme : {RigidScheme::exact, RigidScheme::slammer}) {
+        for (const RigidScheme scheme : {RigidScheme::rocking, RigidScheme::exact, RigidScheme::slammer}) {
             rung.components = components;
             rung.scheme = scheme;
             if (rung_id(rung) == id) return rung;
@@ -151,7 +151,8 @@ std::string model_of(const Rung& rung)
     case RungFamily::regression:
         return rung_id(rung);
     case RungFamily::rigid:
-        return rung.components == Components::both ? "rigid:h+v" : "rigid:h";
+        return std::string(rung.components == Components::both ? "rigid:h+v" : "rigid:h") +
+               (rung.scheme == RigidScheme::rocking ? ",rocking" : "");
     case RungFamily::finite_elements:
         break;
     }

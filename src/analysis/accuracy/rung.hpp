@@ -9,7 +9,7 @@ namespace damslip {
 
 enum class RungFamily { regression, rigid, finite_elements };
 enum class Components { horizontal, both };
-enum class RigidScheme { exact, slammer };
+enum class RigidScheme { rocking, exact, slammer };              ///< the first: free to rock, too
 enum class RungWater { dry, hydrostatic, added_mass, acoustic }; ///< how the water takes part in the shaking
 enum class StepChoice {
     fixed,        ///< dt / 2^halvings
@@ -48,7 +48,7 @@ struct Rung {
     bool operator==(const Rung&) const = default;
 };
 
-/// One word without blanks: "regression:jibson-1998", "rigid:h+v", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
+/// One word without blanks: "regression:jibson-1998", "rigid:h+v", "rigid:h+v,rocking", "fe-acoustic:dt/4,h/2", "fe-acoustic:dt/4,2h,q8",
 /// "fe-added-mass:dt/4,modes=12".
 std::string rung_id(const Rung& rung);
 /// The inverse; nothing for a word that is no id.

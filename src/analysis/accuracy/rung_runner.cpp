@@ -161,10 +161,15 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records()) {
-        const sliding::SlideResult r = slide_model(ready.scene, model, ready.motion(pair), 1);
+        const GroundMotion motion = ready.motion(pair);
+        const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
+                                           ? rock_model(ready.scene, model, motion, 1).slide
+                                           : slide_model(ready.scene, model, motion, 1);
         result.status = r.status;
         if (r.status != Status::at_rest) {
-            result.remark = r.notes.empty() ? std::string(status_row(r.status).meaning) : r.notes.front();
+            result.remark = r.notes.empty()                   ? std::string(status_row(r.status).meaning)
+                            : r.status == Status::rocks_first ? r.notes.back()
+                                                              : r.notes.front();
             return;
         }
         result.slip.push_back(r.slip);
@@ -192,9 +197,20 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     }
 }
 
+/// In some record the block tips before it slides.
+bool RungRunner::rocks_first() const
+{
+    const Ready ready = prepare(scene_, Method::rigid_block, records_);
+    const RigidModel model = ready.rigid_model();
+    return model.rocking && std::any_of(ready.records().begin(), ready.records().end(), [&](const RecordPair& pair) {
+               return slide_model(ready.scene, model, ready.motion(pair), 1).status == Status::rocks_first;
+           });
+}
+
 LadderFacts RungRunner::facts() const
 {
     LadderFacts facts;
+    facts.rocks = rocks_first();
     facts.vertical = std::any_of(records_->begin(), records_->end(), [](const RecordPair& p) { return p.vertical; });
     if (!facts.vertical) facts.left_out.push_back("No rung with vertical motion: the records have none that counts.");
     facts.slammer = scene_.sliding.scheme == SlidingScheme::slammer;

@@ -25,6 +25,7 @@ public:
     const std::vector<RecordPair>& records() const { return *records_; }
 
 private:
+    bool rocks_first() const;
     void run_regression(const Rung& rung, RungResult& result) const;
     void run_rigid(const Scene& scene, RungResult& result) const;
     void run_finite_elements(const Scene& scene, RungResult& result) const;

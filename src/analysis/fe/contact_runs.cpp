@@ -1,10 +1,12 @@
 #include "analysis/fe/contact_runs.hpp"
 
+#include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "scene/exact_contact.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -38,7 +40,7 @@ int shown_polarity(const Scene& scene, int polarity)
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(options, ready.scene)),
       options_(ready.run_options(watch)), coarser_(
-                                              ready, options.mesh_error,
+                                              ready, options.mesh_error && !options.start,
                                               [this](const fe2d::RunProgress& p) {
                                                   meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
                                                   return answer(watch_);
@@ -49,12 +51,18 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
     watch.phase("set-up");
     options_.reducing_rock = tell_of_large_box(watch);
     const fe2d::RunOptions plain = options_;
+    options_.start = options.start;
     if (options.pair_histories) options_.pair_series = fe2d::PairSeries::every_step;
     options_.progress = [this](const fe2d::RunProgress& p) {
         meter_.reached(share_of_run * share_of(p));
         return answer(watch_);
     };
     model_.emplace(ready.scene, options_);
+    if (options_.start && options_.start->pairs() != model_->structure().pairs())
+        throw InputError(Diagnostic{ready.scene.file.string(), 0, 0,
+                                    fmt::format("the state is of {} pairs, the model has {}.", options_.start->pairs(),
+                                                model_->structure().pairs()),
+                                    "the state of the same model", "write the state anew with  --state-out"});
     if (const std::optional<Scene> exact = with_exact_contact(ready.scene)) exact_.emplace(*exact, plain);
     rigid_ = ready.rigid_model();
 }

@@ -16,6 +16,7 @@ struct FeOptions {
     bool mesh_error = true;           ///< one more run on elements of twice the size tells what the mesh leaves open
     bool pair_histories = false;      ///< keep the values of the pairs at every step, for files and pages
     std::optional<int> modes = {};    ///< elastic modes of reduced runs; none: their own choice
+    std::optional<fe2d::RunState> start = {}; ///< of the joints, from a run before; no mesh error then
 };
 
 /// What is run of each record: +1 and -1, or the one that scene or options ask for. On top of motion.polarity.
@@ -34,9 +35,12 @@ public:
 
     const fe2d::EarthquakeRun& model() const { return *model_; }
     const RigidModel& rigid() const { return rigid_; }
-    const PressureProfile& uplift() const { return options_.uplift; } ///< before the earthquake, distance [m], pressure [Pa]
-    bool gives_way() const { return exact_.has_value(); }      ///< is each run compared with exact contact?
-    std::size_t whole() const;                                 ///< runs of all records and polarities
+    const PressureProfile& uplift() const
+    {
+        return options_.uplift;
+    }                                                     ///< before the earthquake, distance [m], pressure [Pa]
+    bool gives_way() const { return exact_.has_value(); } ///< is each run compared with exact contact?
+    std::size_t whole() const;                            ///< runs of all records and polarities
 
     /// Told each run as soon as it is there, in their order, on the calling thread. It may take the large parts.
     using TakeRun = std::function<void(ContactRun& run, const GroundMotion& motion)>;

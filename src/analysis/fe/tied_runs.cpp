@@ -71,6 +71,10 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     : ready_(ready), watch_(watch), polarity_(options.polarity.value_or(1)), models_(ready.scene, model_options(ready))
 {
     const Scene& scene = ready.scene;
+    if (!scene.motion.sequence.empty())
+        throw InputError(Diagnostic{scene.file.string(), 0, 0, "--base tied with motion.sequence.",
+                                    "each record alone: a dam that is tied keeps nothing of an earthquake",
+                                    "delete sequence in [motion], or run without --base tied"});
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
         water_ = fe2d::build_fluid(scene);
     if (rock_radiates(scene))

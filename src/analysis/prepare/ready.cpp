@@ -7,6 +7,7 @@
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/frequency_content.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/section.hpp"
 
 #include <algorithm>
 
@@ -17,6 +18,27 @@ namespace {
 PressureProfile uplift_of(const Scene& scene, const UpliftState& state, const sliding::SeepageProfile& seepage)
 {
     return scene.uplift ? sliding::uplift_profile(scene, state, {}, seepage) : PressureProfile();
+}
+
+/// Uplift with cracks from heel and toe: that of the heel's crack, with the tailwater's full head in the toe's.
+fe2d::CrackedUplift cracked_uplift(const Scene& scene, const UpliftState& state, std::shared_ptr<SeepageSource> seepage)
+{
+    return [scene, state, seepage](double heel_crack, double toe_crack) {
+        const sliding::SeepageProfile source = seepage->profile_of(scene);
+        const auto with = [&](sliding::Side side, double length) {
+            return sliding::uplift_profile(scene, state, {side, length}, source);
+        };
+        if (!(toe_crack > 0.0)) return with(sliding::Side::heel, heel_crack);
+        const PressureProfile of_toe = with(sliding::Side::toe, toe_crack);
+        if (!(heel_crack > 0.0)) return of_toe;
+        const PressureProfile of_heel = with(sliding::Side::heel, heel_crack);
+        const double length = base_length(scene.section), from = std::max(heel_crack, length - toe_crack);
+        if (from >= length) return of_heel;
+        PressureProfile both;
+        both.points = part(of_heel, 0.0, from);
+        for (const ProfilePoint& point : part(of_toe, from, length)) both.points.push_back(point);
+        return both;
+    };
 }
 
 fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
@@ -33,6 +55,12 @@ std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
 {
     std::vector<RecordFiles> files;
     for (const RecordPair& pair : records) {
+        if (!pair.parts.empty()) {
+            for (const RecordFiles& part : files_of(pair.parts))
+                if (std::none_of(files.begin(), files.end(), [&](const RecordFiles& f) { return f.name == part.name; }))
+                    files.push_back(part);
+            continue;
+        }
         files.push_back(pair.files);
         if (pair.vertical && !pair.files.vertical) files.back().vertical = pair.vertical->source.file;
     }
@@ -82,6 +110,13 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
     water.drains = DrainState::ineffective; // after the earthquake
     water.curtain = CurtainState::damaged;
     options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
+    if (scene.uplift && scene.uplift->water.follows()) {
+        options.cracked_uplift = cracked_uplift(scene, scene_uplift_state(scene), seepage);
+        if (scene.uplift->water.after == WaterAfter::full) {
+            water.drains = DrainState::effective; // where the crack has not reached them
+            options.cracked_uplift_after = cracked_uplift(scene, water, seepage);
+        }
+    }
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));
     if (rock_radiates(scene)) options.wave_frequency = wave_frequency();

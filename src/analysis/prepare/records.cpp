@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/ground_motion.hpp"
+#include "records/transform/sequence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,71 @@ constexpr double largest_accel = 1e4; ///< [m/s2], a thousand times gravity
                    "lessen the factors; 0.1 to 10 is usual"});
 }
 
+bool in_sequence(const Scene& scene, const std::string& name)
+{
+    const std::vector<std::string>& names = scene.motion.sequence;
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The sequence, then the records that it does not name.
+std::vector<RecordPair> with_sequence(const Scene& scene, std::vector<RecordPair> pairs)
+{
+    if (scene.motion.sequence.empty()) return pairs;
+    RecordPair sequence;
+    for (const std::string& name : scene.motion.sequence) {
+        const auto found =
+            std::find_if(pairs.begin(), pairs.end(), [&](const RecordPair& pair) { return pair.files.name == name; });
+        if (found == pairs.end()) continue; // check_sequence() names it
+        sequence.files.name += (sequence.parts.empty() ? "" : ", then ") + name;
+        sequence.parts.push_back(*found);
+    }
+    if (sequence.parts.empty()) return pairs;
+    const std::string name = sequence.files.name;
+    sequence.files = sequence.parts.front().files;
+    sequence.files.name = name;
+    sequence.files.magnitude.reset(); // of one earthquake
+    sequence.horizontal = sequence.parts.front().horizontal;
+    for (const RecordPair& part : sequence.parts)
+        if (part.vertical && !sequence.vertical) sequence.vertical = part.vertical;
+    std::vector<RecordPair> all{std::move(sequence)};
+    for (RecordPair& pair : pairs)
+        if (!in_sequence(scene, pair.files.name)) all.push_back(std::move(pair));
+    return all;
+}
+
+GroundMotion ground_motion_of_one(const RecordPair& pair, const records::MotionOptions& options)
+{
+    if (!std::isfinite(options.scale)) refuse_scale(pair, options.scale);
+    GroundMotion motion = records::make_ground_motion(pair.horizontal, pair.vertical, options);
+    motion.name = pair.files.name;
+    for (const auto* component : {&motion.accel_h, &motion.accel_v})
+        if (!std::all_of(component->begin(), component->end(), [](double a) { return std::abs(a) <= largest_accel; }))
+            refuse_scale(pair, options.scale);
+    return motion;
+}
+
+/// By how much the largest peak of all parts, each with its own scale, is to be changed.
+double factor_to_peak(const RecordPair& sequence, double wanted)
+{
+    double peak = 0.0;
+    for (const RecordPair& part : sequence.parts)
+        for (const double a : part.horizontal.acceleration) peak = std::max(peak, std::abs(part.files.scale * a));
+    if (peak > 0.0) return wanted / peak;
+    throw InputError(
+        Diagnostic{sequence.files.horizontal.string(), 0, 0,
+                   fmt::format("motion.scale_to_pga = {:g} m/s2, but all records of the sequence are zero.", wanted),
+                   "a horizontal record that is not zero", "delete scale_to_pga, or check the files"});
+}
+
 } // namespace
+
+std::size_t motion_count(const Scene& scene)
+{
+    const std::vector<RecordFiles>& all = scene.motion.records;
+    const auto alone = static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [&](const RecordFiles& record) { return !in_sequence(scene, record.name); }));
+    return alone + (scene.motion.sequence.empty() ? 0 : 1);
+}
 
 std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
 {
@@ -45,22 +110,29 @@ std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
         }
     }
     if (!wrong.empty()) throw InputError(wrong);
-    return pairs;
+    return with_sequence(scene, std::move(pairs));
 }
 
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale, int polarity)
 {
     records::MotionOptions options;
-    options.scale = scene.motion.scale * pair.files.scale * scale;
-    options.scale_to_pga = scene.motion.scale_to_pga;
     options.polarity = scene.motion.polarity.value_or(1) * polarity;
-    if (!std::isfinite(options.scale)) refuse_scale(pair, options.scale);
-    GroundMotion motion = records::make_ground_motion(pair.horizontal, pair.vertical, options);
-    motion.name = pair.files.name;
-    for (const auto* component : {&motion.accel_h, &motion.accel_v})
-        if (!std::all_of(component->begin(), component->end(), [](double a) { return std::abs(a) <= largest_accel; }))
-            refuse_scale(pair, options.scale);
-    return motion;
+    options.scale = scene.motion.scale * scale;
+    if (pair.parts.empty()) {
+        options.scale = scene.motion.scale * pair.files.scale * scale;
+        options.scale_to_pga = scene.motion.scale_to_pga;
+        return ground_motion_of_one(pair, options);
+    }
+    if (scene.motion.scale_to_pga) options.scale *= factor_to_peak(pair, *scene.motion.scale_to_pga);
+    std::vector<GroundMotion> motions;
+    for (const RecordPair& part : pair.parts) {
+        records::MotionOptions own = options;
+        own.scale *= part.files.scale;
+        motions.push_back(ground_motion_of_one(part, own));
+    }
+    GroundMotion sequence = records::one_after_the_other(motions, scene.motion.sequence_pause);
+    sequence.name = pair.files.name;
+    return sequence;
 }
 
 } // namespace damslip

@@ -9,17 +9,22 @@
 
 namespace damslip {
 
-/// One record pair of a scene as read, with what its files are.
+/// One record pair of a scene as read, with what its files are; or a sequence of them.
 struct RecordPair {
-    RecordFiles files;
-    Record horizontal;
+    RecordFiles files; ///< of a sequence: those of its first record, with a name of its own
+    Record horizontal; ///< of a sequence: that of its first record
     std::optional<Record> vertical;
+    std::vector<RecordPair> parts = {}; ///< of a sequence, in their order; else empty
 };
 
-/// Reads the scene's records; verticals only where the plan has vertical motion.
+/// How many motions the scene's records make: its sequence is one, each record that it does not name another.
+std::size_t motion_count(const Scene& scene);
+
+/// Reads the scene's records, its sequence first; verticals only where the plan has vertical motion.
 std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan);
 
-/// Both components on one grid, scaled as scene and record say. @param scale  on top of them; @param polarity  on top
+/// Both components on one grid, scaled as scene and record say; of a sequence all its records on one grid, and
+/// motion.scale_to_pga is the largest peak of them. @param scale  on top of them; @param polarity  on top
 /// of the scene's
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale = 1.0, int polarity = 1);
 

@@ -1,6 +1,7 @@
 #include "analysis/prepare/reducible.hpp"
 
 #include "core/usage_error.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +44,12 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
         return not_with("time.stepping = \"adaptive\"",
                         "stepping = \"uniform\", sub-steps of a reduced run are all alike",
                         "delete stepping in [time]");
+    if (!scene.motion.sequence.empty())
+        return not_with("motion.sequence", "each record alone: a reduced run starts from rest",
+                        "delete sequence in [motion]");
+    if (scene.contact.restitution > 0.0)
+        return not_with(fmt::format("contact.restitution = {:g}", scene.contact.restitution),
+                        "restitution = 0, landings of a reduced run come to rest", "delete restitution");
     if (!scene.lift_joints.empty())
         return not_with(fmt::format("{} [[lift_joint]]", scene.lift_joints.size()),
                         "no [[lift_joint]], the modes are those of a dam of one piece", "delete the [[lift_joint]]");
@@ -50,6 +57,9 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
         return not_with("contact.normal = \"exponential\"",
                         "contact.normal = \"hard\", the reduced base has no springs across it",
                         "write  normal = \"hard\"  in [contact]");
+    if (const std::string law = first_joint_law(scene); !law.empty())
+        return not_with(law, "contact by friction and cohesion alone, the reduced base has no other laws",
+                        "leave it out");
     return std::nullopt;
 }
 

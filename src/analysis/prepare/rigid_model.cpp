@@ -4,7 +4,11 @@
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/section.hpp"
+#include "sliding/equilibrium/base_limits.hpp"
+#include "sliding/equilibrium/opening_crack.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -33,21 +37,58 @@ RigidModel make_wedge_model(const Scene& scene)
 
 } // namespace
 
+namespace {
+
+/// The block with the uplift of the crack that it opens, by its friction.
+sliding::RigidBlock with_opening(const Scene& scene, const sliding::BlockOptions& options, sliding::RigidBlock block)
+{
+    if (!scene.uplift || scene.uplift->water.opening == OpeningWater::unchanged) return block;
+    sliding::StaticCase static_case = sliding::scene_static_case(scene);
+    if (options.crack) static_case.crack = *options.crack;
+    static_case.uplift.drains = options.drains;
+    const sliding::BaseState before = sliding::base_state(scene, static_case, options.seepage);
+    const bool vertical =
+        scene.motion.vertical && std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                             [](const RecordFiles& record) { return record.vertical.has_value(); });
+    block.opening = sliding::opening_uplift(scene, static_case, before, block, vertical, options.seepage);
+    return block;
+}
+
+} // namespace
+
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
 {
     if (scene.wedge) return make_wedge_model(scene);
     sliding::BlockOptions options;
     options.crack = crack;
     options.seepage = seepage;
+    sliding::StaticCase static_case = sliding::scene_static_case(scene);
+    if (crack) static_case.crack = *crack;
+    const std::optional<double> level = static_case.loads.reservoir_level;
+    const sliding::BaseState state = sliding::base_state(scene, static_case, seepage);
     RigidModel model;
-    model.block = sliding::make_rigid_block(scene, options);
+    model.block = with_opening(scene, options, sliding::make_rigid_block(scene, state, level, options));
     model.stages = sliding::strength_stages(model.block, scene.contact);
+    std::optional<sliding::BaseState> later;
+    model.anchors = sliding::base_anchors(scene);
     if (scene.drains && scene.drains->lost_at_slip) {
-        sliding::BlockOptions later = options;
-        later.drains = DrainState::ineffective;
+        sliding::StaticCase without_drains = static_case;
+        without_drains.uplift.drains = DrainState::ineffective;
+        later = sliding::base_state(scene, without_drains, seepage);
         model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
-                                                sliding::make_rigid_block(scene, later));
+                                                sliding::make_rigid_block(scene, *later, level, options));
     }
+    const sliding::AddedMassIntegral water = sliding::scene_added_mass(scene, level);
+    model.rocking = std::make_shared<sliding::RockingBlock>(
+        sliding::make_rocking_block(scene, state, water, model.stages, later ? &*later : nullptr));
+    model.tips = sliding::tipping_acceleration(scene, water, state, 0.0, sliding::Towards::downstream);
+    if (model.block.opening)
+        for (sliding::SlipStage& stage : model.stages) {
+            const bool drains_lost = stage.block.uplift != model.block.uplift;
+            sliding::BlockOptions now = options;
+            if (drains_lost) now.drains = DrainState::ineffective;
+            stage.block = with_opening(scene, now, stage.block);
+        }
     model.downstream = sliding::yield_downstream(model.block);
     model.upstream = sliding::yield_upstream(model.block);
     model.state = sliding::static_state(model.block);
@@ -58,9 +99,10 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
 
 namespace {
 
-sliding::SlideOptions slide_options(const Scene& scene, int polarity, sliding::HistoryOutput history)
+sliding::SlideOptions slide_options(const Scene& scene, const RigidModel& model, int polarity,
+                                    sliding::HistoryOutput history)
 {
-    return {scene.sliding, polarity, history};
+    return {scene.sliding, polarity, history, model.anchors};
 }
 
 } // namespace
@@ -74,23 +116,62 @@ void check_length(const RigidModel& model, sliding::SlideResult& result)
         fmt::format("It slides further than the {:.4g} m it slides on: no slip is given.", *model.length));
 }
 
+namespace {
+
+/// "tips at 0.305 g, before it would slide at 0.869 g"
+std::string tipping_words(double tips, double yield)
+{
+    const auto in_g = [](double a) { return fmt::format("{:.3g} g", a / units::standard_gravity); };
+    return "tips at " + in_g(tips) +
+           (std::isfinite(yield) ? ", before it would slide at " + in_g(yield) : ", and would not slide");
+}
+
+bool reaches(double tips, double yield, double peak)
+{
+    return tips > 0.0 && tips < peak && tips < yield; // without an earthquake it overturns
+}
+
+} // namespace
+
+void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& result)
+{
+    if (result.status != Status::at_rest && result.status != Status::sliding_at_end) return;
+    const double yield = model.downstream.law.constant;
+    if (!reaches(model.tips, yield, peak)) return;
+    result.status = Status::rocks_first;
+    result.notes.push_back("It " + tipping_words(model.tips, yield) +
+                           ": the sliding block does not hold; take the block that rocks and slides.");
+}
+
+sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                  sliding::HistoryOutput history)
+{
+    sliding::RockingResult result =
+        sliding::rock_and_slide(motion, *model.rocking, slide_options(scene, model, polarity, history));
+    check_length(model, result.slide);
+    return result;
+}
+
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
                                  int polarity, sliding::HistoryOutput history)
 {
     if (model.wedge) return slide_model(scene, model, motion.motion(), polarity, history);
-    sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, polarity, history));
+    sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
     check_length(model, result);
+    check_tipping(model, polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, result);
     return result;
 }
 
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history)
 {
-    const sliding::SlideOptions options = slide_options(scene, polarity, history);
+    const sliding::SlideOptions options = slide_options(scene, model, polarity, history);
     sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options)
                                               : sliding::slide(motion, model.stages, options);
     if (model.wedge && fails_statically(result.status)) result.status = sliding::status_of(model.state);
     check_length(model, result);
+    const auto [least, most] = std::minmax_element(motion.accel_h.begin(), motion.accel_h.end());
+    check_tipping(model, polarity > 0 ? *most : -*least, result);
     return result;
 }
 

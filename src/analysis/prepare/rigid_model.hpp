@@ -8,18 +8,26 @@
 #include "sliding/block/yield.hpp"
 #include "sliding/empirical/regression.hpp"
 #include "sliding/equilibrium/base_state.hpp"
+#include "sliding/rocking/rocking.hpp"
+
+#include <limits>
+#include <memory>
 
 namespace damslip {
 
 /// The rigid block of a scene, what it becomes with slip, and what holds it.
 struct RigidModel {
-    sliding::RigidBlock block;  ///< before any slip
-    sliding::SlipStages stages; ///< strength and uplift over slip
+    sliding::RigidBlock block;      ///< before any slip
+    sliding::SlipStages stages;     ///< strength and uplift over slip
+    std::vector<AnchorBar> anchors; ///< through the base; the block holds their forces before any slip
     sliding::Yield downstream, upstream;
     sliding::StaticState state = sliding::StaticState::at_rest;
-    double critical_friction = 0.0;  ///< [-]; of a wedge: of its first plane
-    std::optional<RigidWedge> wedge; ///< takes the place of block and stages
-    std::optional<double> length;    ///< of what it slides on [m]; none: a wedge whose surfaces are not given
+    double critical_friction = 0.0;                       ///< [-]; of a wedge: of its first plane
+    std::optional<RigidWedge> wedge;                      ///< takes the place of block and stages
+    std::shared_ptr<const sliding::RockingBlock> rocking; ///< the same block, free to rock; none: a wedge
+    /// Ground acceleration that tips it about its toe (sliding::tipping_acceleration) [m/s^2]
+    double tips = std::numeric_limits<double>::infinity();
+    std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
 };
 
 /// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
@@ -30,6 +38,17 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
 /// The one place where a slip that passes what it slides on loses its meaning: Status::runs_away in place of at_rest and
 /// sliding_at_end.
 void check_length(const RigidModel& model, sliding::SlideResult& result);
+
+/// The one place where it is told that the block tips before it slides: Status::rocks_first in place of at_rest and
+/// sliding_at_end where the acceleration that tips it lies below its yield and the motion reaches it.
+/// About its toe only: rocking upstream, about the heel, is a premise of the verdict (broken_premises), as the dam slides
+/// downstream all the same.
+/// @param peak  of the acceleration of the mass that drives it downstream [m/s^2]
+void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& result);
+
+/// The model that rocks and slides, under a motion with the scene's [sliding] options. @param model  no wedge
+sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
+                                  sliding::HistoryOutput history = sliding::HistoryOutput::none);
 
 /// Slip of the model under a motion with the scene's [sliding] options.
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,

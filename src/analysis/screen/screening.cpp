@@ -44,10 +44,33 @@ double strongest_shaking(const SlipRow& row)
     return strongest;
 }
 
-std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std::vector<RecordPair>& records, int jobs,
+/// What all rows are made of.
+struct RowsOf {
+    const Scene& scene;
+    const BaseRow& base;
+    const std::optional<sliding::FlexibleBlock>& flexible;
+    RockingRuns rocking;
+    int jobs;
+};
+
+void add_rocking(const RowsOf& of, const std::vector<GroundMotion>& motions, std::vector<SlipRow>& rows)
+{
+    const bool does_not_hold = std::any_of(rows.begin(), rows.end(), [](const SlipRow& row) {
+        return row.rigid().status == Status::rocks_first || (!row.flexible && !row.broken_premises.empty());
+    });
+    if (!of.base.model.rocking || !(does_not_hold || of.rocking == RockingRuns::always)) return;
+    parallel_for(rows.size(), of.jobs, [&](std::size_t i) {
+        rows[i].rocking = rock_model(of.scene, of.base.model, motions[i / 2], rows[i].polarity);
+    });
+}
+
+std::vector<SlipRow> slip_rows(const RowsOf& of, const std::vector<RecordPair>& records,
                                std::vector<std::string>& warnings)
 {
-    const RigidModel& model = s.bases.front().model;
+    const Scene& scene = of.scene;
+    const BaseRow& base = of.base;
+    const std::optional<sliding::FlexibleBlock>& flexible = of.flexible;
+    const RigidModel& model = base.model;
     std::vector<GroundMotion> motions;
     std::vector<SlipRow> rows;
     for (const RecordPair& pair : records) {
@@ -62,20 +85,21 @@ std::vector<SlipRow> slip_rows(const Scene& scene, const Screening& s, const std
             rows.push_back(std::move(row));
         }
     }
-    parallel_for(3 * rows.size(), jobs, [&](std::size_t task) {
+    parallel_for(3 * rows.size(), of.jobs, [&](std::size_t task) {
         SlipRow& row = rows[task / 3];
         const GroundMotion& motion = motions[task / 6];
         if (task % 3 == 0)
             row.horizontal = slide_model(scene, model, horizontal_only(motion), row.polarity);
         else if (task % 3 == 1 && !motion.accel_v.empty())
             row.with_vertical = slide_model(scene, model, motion, row.polarity);
-        else if (task % 3 == 2 && s.flexible)
-            row.flexible = slide_flexible(scene, *s.flexible, model, motion, row.polarity);
+        else if (task % 3 == 2 && flexible)
+            row.flexible = slide_flexible(scene, *flexible, model, motion, row.polarity);
     });
     for (SlipRow& row : rows) {
-        if (overturns(s.bases.front())) set_status(row, Status::overturns);
-        row.broken_premises = broken_premises(s.bases.front(), strongest_shaking(row));
+        if (overturns(base)) set_status(row, Status::overturns);
+        row.broken_premises = broken_premises(base, strongest_shaking(row));
     }
+    add_rocking(of, motions, rows);
     return rows;
 }
 
@@ -249,16 +273,27 @@ std::vector<SetStatistics> statistics_rows(const std::vector<SlipRow>& rows, con
     };
     add("rigid, horizontal", [](const SlipRow& r) { return &r.horizontal; });
     add("rigid, with vertical", [](const SlipRow& r) { return r.with_vertical ? &*r.with_vertical : nullptr; });
+    add("rocking and sliding", [](const SlipRow& r) { return r.rocking ? &r.rocking->slide : nullptr; });
     add("flexible, decoupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->decoupled) : nullptr; });
     add("flexible, coupled", [](const SlipRow& r) { return r.flexible ? slide_of(r.flexible->coupled) : nullptr; });
     return out;
 }
 
-/// All slides of a row.
+/// The block that rocks answers where the sliding one does not hold: it tips, or its bond goes with the crack. A flexible mass
+/// keeps its own answer, unless the rigid one already tips.
+bool answered_by_rocking(const SlipRow& row)
+{
+    return row.rocking &&
+           (row.rigid().status == Status::rocks_first || (!row.flexible && !row.broken_premises.empty()));
+}
+
+/// All slides of a row that have to answer.
 std::vector<const sliding::SlideResult*> all_slides(const SlipRow& row)
 {
+    if (answered_by_rocking(row)) return {&row.rocking->slide};
     std::vector<const sliding::SlideResult*> slides{&row.horizontal};
     if (row.with_vertical) slides.push_back(&*row.with_vertical);
+    if (row.rocking) slides.push_back(&row.rocking->slide);
     if (row.flexible)
         for (const auto* slide : {slide_of(row.flexible->decoupled), slide_of(row.flexible->coupled)})
             if (slide) slides.push_back(slide);
@@ -296,12 +331,26 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     if (s.dry_base)
         warnings.push_back("The base is taken as dry although there is water on the dam: no answer here counts any "
                            "uplift.");
-    for (const std::string& premise : broken_premises(s)) warnings.push_back("No PASS: the dam " + premise + ".");
+    const bool rocks = std::any_of(s.slips.begin(), s.slips.end(), answered_by_rocking);
+    for (const std::string& premise : broken_premises(s))
+        warnings.push_back((rocks ? "Judged by the block that rocks and slides: the dam " : "No PASS: the dam ") +
+                           premise + ".");
+    if (!s.slips_without_bond.empty())
+        warnings.push_back(
+            fmt::format("The bond is {:.0f} % of the resistance before the earthquake: the slip is judged "
+                        "for c = 0, too (a judgement, from a third on).",
+                        100.0 * s.bond_share));
     const RigidModel& model = s.bases.front().model;
     if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
         warnings.push_back(fmt::format(
             "The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.",
             model.block.friction, model.critical_friction));
+    if (model.state != sliding::StaticState::at_rest &&
+        std::any_of(model.anchors.begin(), model.anchors.end(),
+                    [](const AnchorBar& bar) { return bar.prestress < bar.yield_force; }))
+        warnings.push_back(
+            "Anchors pull with their prestress until it slides; whether it comes to rest against what more "
+            "they have is a question for finite elements.");
     if (model.state == sliding::StaticState::lifts_off)
         warnings.push_back("The uplift carries more than the weight: the block floats without any earthquake.");
     if (scene.sliding.scheme == SlidingScheme::slammer)
@@ -313,8 +362,17 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     for (const SlipRow& row : s.slips)
         if (row.flexible) add_flexible_warnings(row, warnings);
     for (const SlipRow& row : s.slips)
-        for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr}) {
+        for (const AnchorOutcome& anchor : row.rigid().anchors)
+            if (anchor.history.snapped_at)
+                warnings.push_back(fmt::format("{}, polarity {:+d}: {} snapped at {:.4g} s.", row.record, row.polarity,
+                                               anchor.name, *anchor.history.snapped_at));
+    for (const SlipRow& row : s.slips)
+        for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr,
+                              row.rocking ? &row.rocking->slide : nullptr}) {
             if (!r) continue;
+            if (r->status == Status::overturned)
+                warnings.push_back(
+                    fmt::format("{}, polarity {:+d}: overturned. {}", row.record, row.polarity, r->notes.front()));
             if (r->status == Status::sliding_at_end)
                 warnings.push_back(fmt::format(
                     "{}, polarity {:+d}: still sliding after a run-out of {:.3g} s; the slip is a lower bound.",
@@ -344,6 +402,7 @@ std::optional<std::string> before_sliding(const std::string& what, double limit,
 
 GoverningSlip SlipRow::governing() const
 {
+    if (answered_by_rocking(*this)) return {rocking->slide, "rocking", slip_error(rocking->slide)};
     if (!flexible) return {rigid(), "rigid", slip_error(rigid())};
     const auto& [decoupled, coupled] = *flexible;
     const bool opens = rigid().lift_offs > 0 || (decoupled && decoupled->slide.lift_offs > 0);
@@ -365,6 +424,7 @@ Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
 {
     const GoverningSlip g = row.governing();
     const Verdict verdict = judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    if (g.method == "rocking") return verdict; // it has no such premise
     return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
 }
 
@@ -396,6 +456,11 @@ const SlipRow& worse_judged(const Screening& s, std::size_t number)
     return &worse(a.judged(), b.judged()) == &b.judged() ? b : a;
 }
 
+bool has_rocking(const Screening& s)
+{
+    return std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& row) { return row.rocking.has_value(); });
+}
+
 StatusCount statuses_of(const Screening& screening)
 {
     StatusCount count;
@@ -420,8 +485,8 @@ std::vector<std::string> broken_premises(const BaseRow& base, double pga)
     };
     add("tips", limits.tips, down);
     if (limits.opens < limits.tips * (1.0 - 1e-9)) add("has its joint open from heel to toe", limits.opens, down);
-    const double bond = limits.bond_fails;
-    if (bond < pga && bond < down * (1.0 - 1e-9))
+    const double bond = limits.yield_with_crack;
+    if (base.model.block.cohesion_force > 0.0 && bond < pga && bond < down * (1.0 - 1e-9))
         out.push_back(
             fmt::format("slides at {} with the crack that the same acceleration opens, not at {}: its bond does "
                         "not hold until then",
@@ -450,16 +515,35 @@ FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& f
     if (method != FlexibleMethod::decoupled)
         slips.coupled = sliding::slide_coupled(motion, model.stages, flexible, options);
     for (auto* flexibly : {&slips.decoupled, &slips.coupled})
-        if (*flexibly) check_length(model, (*flexibly)->slide);
+        if (*flexibly) {
+            const double strongest = std::max(peak(motion.accel_h), (*flexibly)->peak_acceleration);
+            check_length(model, (*flexibly)->slide);
+            check_tipping(model, strongest, (*flexibly)->slide);
+        }
     return slips;
 }
 
 namespace {
 
-/// The block under all records, without limit equilibrium.
-void add_slips(const Scene& scene, const std::vector<RecordPair>& records, int jobs, Screening& s)
+/// The rows once more without bond, where much of the resistance is bond.
+void add_slips_without_bond(const Scene& given, const sliding::SeepageProfile& seepage,
+                            const std::vector<RecordPair>& records, const RowsOf& of, Screening& s)
 {
-    s.slips = slip_rows(scene, s, records, jobs, s.warnings);
+    const sliding::RigidBlock& block = of.base.model.block;
+    const double resistance = block.cohesion_force + block.friction * sliding::static_normal_force(block);
+    s.bond_share = resistance > 0.0 ? block.cohesion_force / resistance : 0.0;
+    if (!(s.bond_share > judged_bond_share) || of.base.model.state != sliding::StaticState::at_rest) return;
+    Scene scene = given;
+    scene.contact.cohesion = 0.0;
+    const BaseRow base{"without bond", make_rigid_model(scene, seepage), sliding::base_limits(scene, seepage)};
+    std::vector<std::string> told_already;
+    s.slips_without_bond = slip_rows({scene, base, of.flexible, of.rocking, of.jobs}, records, told_already);
+}
+
+/// The block under all records, without limit equilibrium.
+void add_slips(const RowsOf& of, const std::vector<RecordPair>& records, Screening& s)
+{
+    s.slips = slip_rows(of, records, s.warnings);
     for (const SlipRow& row : s.slips) {
         s.largest_pga = std::max(s.largest_pga, row.pga);
         s.largest_vertical_pga = std::max(s.largest_vertical_pga, row.vertical_pga);
@@ -496,7 +580,7 @@ Screening screen_wedge(const Ready& ready, int jobs)
     Screening s;
     s.plan = ready.plan;
     s.bases.push_back({"wedge", ready.rigid_model()});
-    add_slips(scene, records, jobs, s);
+    add_slips({scene, s.bases.front(), s.flexible, RockingRuns::where_sliding_does_not_hold, jobs}, records, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     add_warnings(scene, s, s.warnings);
@@ -518,14 +602,15 @@ std::vector<LiftBlock> lift_blocks(const Scene& scene)
         b.normal_force = sliding::static_normal_force(block);
         b.shear_force = block.horizontal_force;
         if (b.shear_force != 0.0)
-            b.sliding_factor = (block.friction * b.normal_force + block.cohesion_force) / std::abs(b.shear_force);
+            b.sliding_factor =
+                (block.friction * b.normal_force + block.cohesion_force + block.dowel_force) / std::abs(b.shear_force);
         b.critical_friction = sliding::critical_friction(block);
         b.yield_acceleration = sliding::yield_downstream(block).law.constant;
     }
     return list;
 }
 
-Screening run_screening(const Ready& ready, int jobs)
+Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking)
 {
     const Scene& scene = ready.scene;
     const std::vector<RecordPair>& records = ready.records();
@@ -543,7 +628,9 @@ Screening run_screening(const Ready& ready, int jobs)
     s.dry_base = base_taken_as_dry(scene);
     s.flexible = flexible_block(scene);
     s.mass_ratio_words = ready.flexible_modes.empty() ? mass_ratio_words(scene) : "of the tied modes";
-    add_slips(scene, records, jobs, s);
+    const RowsOf rows{scene, s.bases.front(), s.flexible, rocking, jobs};
+    add_slips(rows, records, s);
+    add_slips_without_bond(scene, seepage, records, rows, s);
     add_equilibrium(scene, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);

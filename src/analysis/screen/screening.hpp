@@ -30,7 +30,7 @@ struct FlexibleSlips {
 /// The slip that is judged, and by which analysis it was found.
 struct GoverningSlip {
     const sliding::SlideResult& slide;
-    std::string_view method; ///< "rigid", "decoupled", "coupled"
+    std::string_view method; ///< "rigid", "decoupled", "coupled", "rocking"
     double error;            ///< slip_error(); NaN also where the analysis leaves out what happens: nothing is decided
 };
 
@@ -45,13 +45,16 @@ struct SlipRow {
 
     std::optional<FlexibleSlips> flexible; ///< where the sliding mass is flexible
 
+    std::optional<sliding::RockingResult>
+        rocking; ///< free to rock, too; where the sliding block does not hold, or on request
+
     std::vector<std::string> broken_premises =
         {}; ///< why the slip is none of a dam in this motion: no PASS rests on it
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
     /// Of the analysis that models the mass best: coupled; decoupled where that alone was asked for, or where the base
-    /// opens, which coupled does not follow; of a rigid mass rigid().
+    /// opens, which coupled does not follow; of a rigid mass rigid(); rocking where that does not hold.
     GoverningSlip governing() const;
     /// The slip to judge by.
     const sliding::SlideResult& judged() const { return governing().slide; }
@@ -98,6 +101,10 @@ struct LiftBlock {
 };
 std::vector<LiftBlock> lift_blocks(const Scene& scene);
 
+/// From this share of the resistance on a joint is judged without its bond, too [-]: a judgement. What cores and tests say of
+/// the cohesion of a whole base is rarely worth more.
+inline constexpr double judged_bond_share = 1.0 / 3.0;
+
 struct Screening {
     EffectPlan plan;
     std::vector<BaseRow> bases;
@@ -106,6 +113,9 @@ struct Screening {
     std::optional<sliding::FlexibleBlock> flexible;
     std::string mass_ratio_words; ///< where the flexible block's mass ratio comes from
     std::vector<SlipRow> slips;
+    double bond_share = 0.0; ///< c A' over c A' + mu N' before the earthquake [-]
+    std::vector<SlipRow>
+        slips_without_bond; ///< the rows once more with c = 0, where bond_share is above judged_bond_share
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
     double largest_pga = 0.0;          ///< of all records [m/s^2]
@@ -113,6 +123,9 @@ struct Screening {
     double largest_vertical_pga = 0.0; ///< of their vertical components; 0: they have none [m/s^2]
     std::vector<std::string> warnings;
 };
+
+/// Some row has the block that rocks and slides.
+bool has_rocking(const Screening& screening);
 
 /// Error of the slip that is numerical [m]: none where events are located exactly; NaN for a scheme whose own is not known.
 double slip_error(const sliding::SlideResult& slide);
@@ -136,8 +149,12 @@ const SlipRow& worse_judged(const Screening& s, std::size_t number);
 /// Statuses of all slides of a screening.
 StatusCount statuses_of(const Screening& screening);
 
+/// When the block that rocks and slides is run beside the sliding one.
+enum class RockingRuns { where_sliding_does_not_hold, always };
+
 /// @param ready  for the rigid block @param jobs  threads, 0: all cores
-Screening run_screening(const Ready& ready, int jobs = 0);
+Screening run_screening(const Ready& ready, int jobs = 0,
+                        RockingRuns rocking = RockingRuns::where_sliding_does_not_hold);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.
 bool overturns(const BaseRow& base);

@@ -3,6 +3,7 @@
 #include "analysis/sweep/sweep_size.hpp"
 #include "core/number.hpp"
 #include "scene/added_mass_row.hpp"
+#include "scene/opening_water.hpp"
 #include "scene/uplift_row.hpp"
 #include "scene/words.hpp"
 
@@ -90,11 +91,22 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
     return sized(std::move(scene), size);
 }
 
+Scene with_opening_water(Scene scene, const std::string& opening)
+{
+    if (opening.empty() || !scene.uplift) return scene;
+    for (const auto& [word, rule] : opening_waters())
+        if (word == opening) scene.uplift->water.opening = rule;
+    return scene;
+}
+
 std::string text_of(const Axes& axes)
 {
     std::vector<std::string> methods;
     for (const SweepMethod& m : axes.method) methods.push_back(m.id);
-    return fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
+    const std::string opening =
+        has_opening_axis(axes) ? fmt::format("opening water {}; ", fmt::join(axes.opening, ",")) : "";
+    return opening +
+           fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
                        joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),
                        fmt::join(axes.reservoir, ","), joined(axes.size), joined(axes.scale),
                        fmt::join(axes.polarity, ","), fmt::join(methods, ","));

@@ -13,6 +13,7 @@ struct Axes {
     std::vector<double> scale;                  ///< of the motion, factor [-]
     std::vector<int> polarity;                  ///< 1, -1
     std::vector<std::string> uplift, reservoir; ///< words as typed
+    std::vector<std::string> opening{""};       ///< words of uplift.opening as typed; empty: the scene's
     std::vector<SweepMethod> method;
     std::vector<Diagnostic> notes; ///< of values that are allowed but unusual
 
@@ -25,8 +26,16 @@ Axes axes_of(const Scene& scene);
 /// Words of the water models an axis may have: "auto", "hydrostatic", "acoustic", and the added masses by their formula.
 std::vector<std::string> reservoir_axis_words();
 
+/// Is uplift.opening one of the axes?
+inline bool has_opening_axis(const Axes& axes)
+{
+    return axes.opening.size() != 1 || !axes.opening.front().empty();
+}
+
 /// The scene with another water level [m], uplift model and water model, words as typed, then another size.
 Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size);
+/// The same with other water in the opening base. @param opening  empty: the scene's
+Scene with_opening_water(Scene scene, const std::string& opening);
 
 /// The axes in words, all digits, in a fixed order: what has to be equal for two sweeps to have the same rows.
 std::string text_of(const Axes& axes);

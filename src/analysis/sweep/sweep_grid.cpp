@@ -20,8 +20,9 @@ std::string rock_of(const Scene& scene, const SweepMethod& method)
 
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
 {
-    return variant(scene, axes.level[at.level], axes.uplift[at.uplift], axes.reservoir[at.reservoir],
-                   axes.size[at.size]);
+    return with_opening_water(
+        variant(scene, axes.level[at.level], axes.uplift[at.uplift], axes.reservoir[at.reservoir], axes.size[at.size]),
+        axes.opening[at.opening]);
 }
 
 Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs)

@@ -15,6 +15,7 @@ std::vector<SweepMethod> make_list()
     const auto fe = [](const char* id, FeLaw law) { return SweepMethod{id, SweepKind::finite_elements, law, false}; };
     std::vector<SweepMethod> list{{"rigid", SweepKind::rigid, FeLaw::scene, false},
                                   {"rigid-v", SweepKind::rigid_vertical, FeLaw::scene, false},
+                                  {"rocking", SweepKind::rocking, FeLaw::scene, false},
                                   fe("fe", FeLaw::scene),
                                   fe("fe-exact", FeLaw::exact),
                                   fe("fe-penalty", FeLaw::penalty),

@@ -28,12 +28,21 @@ RowResults regression_results(const sliding::Regression& regression, const slidi
     return results;
 }
 
+sliding::SlideResult slide(const Scene& scene, const Grid& grid, const GridIndex& at,
+                           const sliding::SkippingMotion& motion, sliding::HistoryOutput output)
+{
+    const int polarity = grid.axes.polarity[at.polarity];
+    if (grid.axes.method[at.method].kind == SweepKind::rocking)
+        return rock_model(scene, grid.model(at), motion.motion(), polarity, output).slide;
+    return slide_model(scene, grid.model(at), motion, polarity, output);
+}
+
 RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
                          const sliding::SkippingMotion& motion, SlipHistory& history)
 {
     const bool keep = grid.tasks.rows() <= most_rows_with_history;
-    const sliding::SlideResult r = slide_model(scene, grid.model(at), motion, grid.axes.polarity[at.polarity],
-                                               keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
+    const sliding::SlideResult r =
+        slide(scene, grid, at, motion, keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
     if (keep && reported(r.status, r.slip)) history = slip_history(r.history.time, r.history.slip);
     RowResults results;
     results.slip = reported(r.status, r.slip);
@@ -55,7 +64,9 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
         results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at), grid.model(at).state);
     else if (method.kind == SweepKind::rigid)
         results = block_results(scene, grid, at, grid.horizontal(at), history);
-    else if (grid.motion(at).has_vertical())
+    else if (method.kind == SweepKind::rocking && grid.model(at).wedge)
+        results.status = "no block that rocks";
+    else if (method.kind == SweepKind::rocking || grid.motion(at).has_vertical())
         results = block_results(scene, grid, at, grid.motion(at), history);
     else
         results.status = "no vertical component";

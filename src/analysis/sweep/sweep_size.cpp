@@ -51,6 +51,12 @@ Scene sized(Scene scene, double factor)
     scale_water(scene, factor);
     for (PointForce& force : scene.forces) force.at = {force.at.x * factor, force.at.y * factor};
     for (LiftJoint& joint : scene.lift_joints) joint.elevation *= factor;
+    for (Anchor& anchor : scene.anchors) { // forces with the weight, so that the anchored dam stays similar
+        anchor.distance *= factor;
+        anchor.free_length *= factor;
+        anchor.area *= factor * factor;
+        anchor.prestress *= factor * factor;
+    }
     for (Combination& c : scene.combinations) {
         scale(c.reservoir_level, factor);
         scale(c.tailwater_level, factor);

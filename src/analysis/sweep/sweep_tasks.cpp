@@ -35,6 +35,7 @@ GridIndex running_order(const TaskList& tasks, std::size_t place)
     at.record = take(tasks.record);
     at.size = take(tasks.size);
     at.reservoir = take(tasks.reservoir);
+    at.opening = take(tasks.opening);
     at.uplift = take(tasks.uplift);
     at.level = take(tasks.level);
     return at;
@@ -56,6 +57,7 @@ GridIndex TaskList::index(std::size_t id) const
     at.scale = take(scale);
     at.size = take(size);
     at.reservoir = take(reservoir);
+    at.opening = take(opening);
     at.uplift = take(uplift);
     at.level = take(level);
     at.friction = take(friction);
@@ -71,7 +73,7 @@ std::size_t TaskList::id(const GridIndex& at) const
 
 std::size_t TaskList::variant(const GridIndex& at) const
 {
-    return ((at.level * uplift + at.uplift) * reservoir + at.reservoir) * size + at.size;
+    return (((at.level * uplift + at.uplift) * opening + at.opening) * reservoir + at.reservoir) * size + at.size;
 }
 
 std::size_t TaskList::motion(const GridIndex& at) const
@@ -85,6 +87,7 @@ TaskList make_tasks(const Axes& axes, std::size_t records)
     tasks.friction = axes.friction.size();
     tasks.level = axes.level.size();
     tasks.uplift = axes.uplift.size();
+    tasks.opening = axes.opening.size();
     tasks.reservoir = axes.reservoir.size();
     tasks.size = axes.size.size();
     tasks.scale = axes.scale.size();

@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "core/usage_error.hpp"
 #include "scene/added_mass_row.hpp"
+#include "scene/opening_water.hpp"
 #include "scene/plausible.hpp"
 #include "scene/section.hpp"
 #include "scene/uplift_row.hpp"
@@ -124,6 +125,21 @@ std::vector<std::string> uplift_axis(const SweepArguments& a, const Scene& scene
     return words;
 }
 
+std::vector<std::string> opening_axis(const SweepArguments& a, const Scene& scene)
+{
+    std::vector<std::string> known;
+    for (const auto& [word, rule] : opening_waters()) known.push_back(word);
+    std::vector<std::string> words = word_list(a.opening_water, "--opening-water", known);
+    if (!scene.uplift)
+        refuse_usage("--opening-water is given, but the scene has no [uplift].", "a scene with water under the base",
+                     "add [uplift] to the scene");
+    if (!scene.uplift->water.mouth_speed && std::find(words.begin(), words.end(), "mouth") != words.end())
+        refuse_usage("--opening-water mouth: the scene has no uplift.mouth_speed_m_s.",
+                     "the speed at which water enters the crack",
+                     "add  mouth_speed_m_s = 5  to [uplift], or leave mouth out");
+    return words;
+}
+
 std::vector<std::string> reservoir_axis(const SweepArguments& a, const Scene& scene)
 {
     std::vector<std::string> words = word_list(a.reservoir, "--reservoir", reservoir_axis_words());
@@ -175,6 +191,7 @@ void check_repeats(const Axes& axes)
     refuse_repeats("--friction", axes.friction);
     refuse_repeats("--level", axes.level);
     refuse_repeats("--uplift", axes.uplift);
+    refuse_repeats("--opening-water", axes.opening);
     refuse_repeats("--reservoir", axes.reservoir);
     refuse_repeats("--size", axes.size);
     refuse_repeats("--scale", axes.scale);
@@ -187,15 +204,19 @@ void check_repeats(const Axes& axes)
 /// A wedge has friction, records, their scale and polarity to vary, and no finite elements.
 void check_wedge_axes(const SweepArguments& a, const std::vector<SweepMethod>& methods)
 {
-    for (const auto& [flag, text] :
-         {std::pair{"--level", a.level}, {"--uplift", a.uplift}, {"--reservoir", a.reservoir}, {"--size", a.size}})
+    for (const auto& [flag, text] : {std::pair{"--level", a.level},
+                                     {"--uplift", a.uplift},
+                                     {"--opening-water", a.opening_water},
+                                     {"--reservoir", a.reservoir},
+                                     {"--size", a.size}})
         if (!text.empty())
             refuse_usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
                          "--friction (of the first plane; the other keeps its share), --scale, --polarity, --record",
                          fmt::format("delete {}", flag));
     for (const SweepMethod& m : methods)
-        if (m.kind == SweepKind::finite_elements)
-            refuse_usage(fmt::format("--method {} cannot take a [wedge]: it has no section for finite elements.", m.id),
+        if (m.kind == SweepKind::finite_elements || m.kind == SweepKind::rocking)
+            refuse_usage(fmt::format("--method {} cannot take a [wedge]: it has no {}.", m.id,
+                                     m.kind == SweepKind::rocking ? "toe to rock on" : "section for finite elements"),
                          "rigid, rigid-v and the regressions", "delete it");
 }
 
@@ -222,6 +243,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
         axes.polarity.push_back(static_cast<int>(p));
     }
     if (!a.uplift.empty()) axes.uplift = uplift_axis(a, scene);
+    if (!a.opening_water.empty() && !scene.wedge) axes.opening = opening_axis(a, scene);
     if (!a.reservoir.empty()) axes.reservoir = reservoir_axis(a, scene);
     axes.method = method_axis(a, scene);
     if (scene.wedge) check_wedge_axes(a, axes.method);

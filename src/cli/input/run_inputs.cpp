@@ -64,7 +64,10 @@ void put_records(const RunInputs& inputs, Scene& scene)
 {
     if (!inputs.verticals.empty() && inputs.records.empty())
         refuse_usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
-    if (!inputs.records.empty()) scene.motion.records = command_line_records(inputs);
+    if (!inputs.records.empty()) {
+        scene.motion.records = command_line_records(inputs);
+        scene.motion.sequence.clear(); // of the scene's own records
+    }
     for (RecordFiles& record : scene.motion.records) {
         if (record.unit.empty()) record.unit = inputs.unit;
         if (!record.dt) record.dt = inputs.dt;

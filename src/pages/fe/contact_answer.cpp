@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "fe2d/run/self_excited.hpp"
+#include "pages/fe/base_water.hpp"
 #include "pages/fe/rock_lines.hpp"
 #include "pages/fe/water_notes.hpp"
 #include "pages/report/table_text.hpp"
@@ -94,6 +95,10 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
         if (r.fe.status != Status::at_rest) messages.push_back(r.label() + ": " + sentences[i]);
         if (has_slip(r) && r.fe.run_out.walked())
             messages.push_back(r.label() + ": " + fe2d::walked_sentence(r.fe.slip, r.fe.run_out));
+        for (const AnchorOutcome& anchor : r.fe.anchors)
+            if (anchor.history.snapped_at)
+                messages.push_back(
+                    fmt::format("{}: {} snapped at {:.4g} s.", r.label(), anchor.name, *anchor.history.snapped_at));
     }
 }
 
@@ -105,6 +110,7 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
     messages.insert(messages.end(), of_rock.begin(), of_rock.end());
     if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
+    for (std::string& note : base_water_notes(scene, runs)) messages.push_back(std::move(note));
     add_run_messages(runs, messages);
     return messages;
 }
@@ -130,14 +136,25 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     j["stages"] = json_of(stages);
     j["runs"] = json_of(table);
     j["slip"] = json_of(slips);
+    const Table events = contact_event_table(runs);
+    if (!events.rows.empty()) j["events"] = json_of(events);
     j["run_out"] = json_of(run_out);
     if (has_lifts) j["lift_joints"] = json_of(lifts);
+    const Table anchors = contact_anchor_table(runs);
+    if (!in.scene.anchors.empty()) j["anchors"] = json_of(anchors);
     j["counts"] = json_of(contact_count_table(runs));
     j["energy"] = json_of(contact_energy_table(runs));
+    const Table water = base_water_table(in.scene, runs), flow = joint_flow_table(runs);
+    if (!water.rows.empty()) j["base_water"] = json_of(water);
+    if (!flow.rows.empty()) j["joint_flow"] = json_of(flow);
     if (gives_way) j["contact_law"] = json_of(law);
 
     std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips, run_out};
+    if (!events.rows.empty()) shown.insert(shown.begin() + 2, events);
     if (has_lifts) shown.push_back(lifts);
+    if (!in.scene.anchors.empty()) shown.push_back(anchors);
+    if (!water.rows.empty()) shown.push_back(water);
+    if (!flow.rows.empty()) shown.push_back(flow);
     if (gives_way) shown.push_back(law);
     answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs,
                                damping.mass, damping.stiffness, rock_line(in.scene, in.model)) +

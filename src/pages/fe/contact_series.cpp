@@ -50,7 +50,7 @@ std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
                                {{"open_length_m", "open", "m", 4}, of(h.open_length)},
                                {{"slipping_length_m", "slipping", "m", 4}, of(h.slipping_length)},
                                {{"largest_opening_m", "opening", "m", 4}, of(h.largest_opening)}};
-    for (const auto& [column, value] : energy_columns())
+    for (const auto& [column, value] : energy_columns_of(h.energy))
         all.push_back({column, [&h, value](std::size_t row) { return value(h.energy[row]); }});
     all.push_back({{"imbalance_J_m", "imbalance", "J/m", 4}, of(h.imbalance)});
     for (std::size_t k = 0; k < h.lifts.size(); ++k) {
@@ -61,6 +61,13 @@ std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
         all.push_back({{key + "rocking_rad", name + "rocking", "rad", 6}, of(lift.rocking)});
         all.push_back({{key + "normal_force_N_m", name + "N'", "N/m", 6}, of(lift.normal_force)});
         all.push_back({{key + "largest_opening_m", name + "opening", "m", 4}, of(lift.largest_opening)});
+    }
+    for (std::size_t k = 0; k < h.anchors.size(); ++k)
+        all.push_back({{"anchor" + std::to_string(k + 1) + "_force_N_m", "N, " + h.anchors[k].name, "N/m", 6},
+                       of(h.anchors[k].force)});
+    if (!h.crack_length.empty()) {
+        all.push_back({{"crack_length_m", "crack", "m", 5}, of(h.crack_length)});
+        all.push_back({{"wet_length_m", "water in the crack", "m", 5}, of(h.wet_length)});
     }
     for (RowColumn& column : slide_columns(h.slide)) all.push_back(std::move(column));
     return all;

@@ -1,5 +1,7 @@
 #include "pages/fe/contact_tables.hpp"
 
+#include "pages/scene/anchor_tables.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -69,6 +71,23 @@ const std::vector<ColumnOf<fe2d::Energy>>& energy_columns()
     return all;
 }
 
+std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::Energy>& rows)
+{
+    using E = fe2d::Energy;
+    std::vector<ColumnOf<E>> columns = energy_columns();
+    const auto add = [&](const char* key, const char* heading, double E::*term) {
+        if (std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; }))
+            columns.push_back({{key, heading, "J/m", 6}, term});
+    };
+    add("joint_stored_J_m", "stored in joints", &E::joint_stored);
+    add("bond_fracture_J_m", "bond fracture", &E::bond_fracture);
+    add("anchor_plastic_J_m", "anchors plastic", &E::anchor_plastic);
+    add("anchor_loss_J_m", "anchors snapped", &E::anchor_loss);
+    add("joint_water_J_m", "water in joints", &E::joint_water);
+    add("impact_J_m", "impact", &E::impact);
+    return columns;
+}
+
 namespace {
 
 /// Of the gravity stage, the scale of round-off in all that follow [N/m].
@@ -95,6 +114,8 @@ std::string stage_word(fe2d::StageStatus status)
         return "stands";
     case fe2d::StageStatus::slides:
         return "SLIDES";
+    case fe2d::StageStatus::progressive:
+        return "BOND BREAKS";
     case fe2d::StageStatus::floats:
         return "FLOATS";
     case fe2d::StageStatus::overturns:
@@ -311,6 +332,43 @@ Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optiona
          "rocking and opening: largest on the way."});
 }
 
+Table contact_anchor_table(const std::vector<ContactRun>& runs)
+{
+    std::vector<AnchorRow> rows;
+    for (const ContactRun& r : runs)
+        for (const AnchorOutcome& anchor : r.fe.anchors) rows.push_back({r.record, r.polarity, anchor});
+    return anchor_run_table(rows);
+}
+
+Table contact_event_table(const std::vector<ContactRun>& runs)
+{
+    struct Row {
+        const ContactRun& run;
+        const EventSlip& event;
+    };
+    std::vector<Row> rows;
+    for (const ContactRun& run : runs)
+        for (const EventSlip& event : run.fe.events) rows.push_back({run, event});
+    const auto of_rigid = [](const Row& r, double EventSlip::*value) {
+        const auto place = static_cast<std::size_t>(&r.event - r.run.fe.events.data());
+        const bool known = r.run.rigid && place < r.run.rigid->events.size();
+        return known && reported(r.run.rigid->status, r.run.rigid->slip) ? Cell(1e3 * r.run.rigid->events[place].*value)
+                                                                         : Cell();
+    };
+    return table_of<Row>(
+        "Slip by event",
+        {{{"record", "sequence"}, [](const Row& r) { return r.run.record; }},
+         {{"polarity", "polarity"}, [](const Row& r) { return Cell(r.run.polarity); }},
+         {{"event", "event"}, [](const Row& r) { return r.event.name; }},
+         {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
+         {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
+         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.change); }},
+         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.slip); }},
+         {{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5},
+          [=](const Row& r) { return of_rigid(r, &EventSlip::change); }}},
+        rows, {"slip: mean of the base, positive downstream, the run to rest after each event included."});
+}
+
 Table contact_count_table(const std::vector<ContactRun>& runs)
 {
     using R = ContactRun;
@@ -347,15 +405,22 @@ Table contact_energy_table(const std::vector<ContactRun>& runs)
 {
     using R = ContactRun;
     std::vector<ContactColumn> columns{record_column, polarity_column};
-    for (const auto& [column, value] : energy_columns())
+    std::vector<fe2d::Energy> ends;
+    for (const R& r : runs)
+        if (!r.fe.history.energy.empty()) ends.push_back(r.fe.history.energy.back());
+    const std::vector<ColumnOf<fe2d::Energy>> terms = energy_columns_of(ends);
+    for (const auto& [column, value] : terms)
         columns.push_back({column, [value](const R& r) { return value(r.fe.history.energy.back()); }});
     columns.push_back(
         {{"imbalance_J_m", "imbalance", "J/m", 3}, [](const R& r) { return r.fe.history.imbalance.back(); }});
     columns.push_back({{"imbalance_share", "of the largest", "–", 2}, [](const R& r) { return r.fe.energy_error; }});
+    const bool of_joints = terms.size() > energy_columns().size();
     return table_of("Energy at the end", columns,
                     runs | std::views::filter([](const R& r) { return !r.fe.history.energy.empty(); }),
-                    {"kinetic + strain + damping + numerical + friction + radiated = external + contact normal, since "
-                     "the static state; what is left is the imbalance."});
+                    {std::string("kinetic + strain + damping + numerical + friction + radiated") +
+                     (of_joints ? " + those of the joints but water's" : "") + " = external + contact normal" +
+                     (of_joints ? " + water in joints" : "") +
+                     ", since the static state; what is left is the imbalance."});
 }
 
 Table run_out_table(const std::vector<ContactRun>& runs)

@@ -15,6 +15,8 @@ Cell slip_cell(const ContactRun& run, double metres);
 
 /// The terms of the energy, as tables and files have them.
 const std::vector<ColumnOf<fe2d::Energy>>& energy_columns();
+/// The same, and those of the joints' laws that are not zero in some row.
+std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::Energy>& rows);
 
 /// Columns of contact_run_table(); runs on few modes share them.
 using ContactColumn = ColumnOf<ContactRun>;
@@ -26,6 +28,10 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
 Table contact_slip_table(const std::vector<ContactRun>& runs); ///< slip along the base, rocking, opening
 /// Without rows where the scene has no lift joint.
 Table contact_lift_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
+/// What the anchors came to; without rows where the scene has none.
+Table contact_anchor_table(const std::vector<ContactRun>& runs);
+/// Of a sequence, one row for each event that was reached; without rows where there is none.
+Table contact_event_table(const std::vector<ContactRun>& runs);
 Table contact_count_table(const std::vector<ContactRun>& runs);  ///< steps by the path of the contact solver
 Table contact_energy_table(const std::vector<ContactRun>& runs); ///< terms at the end
 /// Slip with the ground moving and at rest, and what pays for it (fe2d::SlideWatch).

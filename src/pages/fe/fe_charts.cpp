@@ -95,6 +95,14 @@ public:
         return chart;
     }
 
+    Chart anchors() const
+    {
+        Chart chart = empty("anchors", "force N", "kN/m", 240);
+        for (std::size_t k = 0; k < h_.anchors.size(); ++k)
+            add(chart, h_.anchors[k].name, h_.anchors[k].force, 1e3, static_cast<int>(k % 7));
+        return chart;
+    }
+
     Chart rocking() const
     {
         Chart chart = empty("rocking", "rotation", "mrad", 240);
@@ -132,12 +140,20 @@ public:
         term("scheme, dissipated", &fe2d::Energy::numerical, 3);
         if (!h_.energy.empty() && h_.energy.back().radiated != 0.0)
             term("radiated by water and rock", &fe2d::Energy::radiated, 6);
+        const auto of_joints = [&](const char* name, double fe2d::Energy::*member, int colour) {
+            const auto there = [=](const fe2d::Energy& e) { return e.*member != 0.0; };
+            if (std::any_of(h_.energy.begin(), h_.energy.end(), there)) term(name, member, colour, Mark::dashed);
+        };
+        of_joints("stored in joints", &fe2d::Energy::joint_stored, 5);
+        of_joints("anchors, plastic", &fe2d::Energy::anchor_plastic, 3);
+        of_joints("anchors, snapped", &fe2d::Energy::anchor_loss, 2);
         term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
         add(chart, "imbalance", h_.imbalance, 1e3, 7);
         chart.note =
             fmt::format("kinetic + strain + damping + scheme + friction + radiated = external + contact normal work; "
                         "what is left is the imbalance, at the end {:.1e} of the largest term.",
                         view_.run.fe.energy_error);
+        if (!h_.anchors.empty()) chart.note += " What anchors store and spend counts on the left.";
         return chart;
     }
 
@@ -185,8 +201,8 @@ private:
 std::vector<Chart> history_charts(const RunView& view)
 {
     const Charts make(view);
-    std::vector<Chart> charts{make.ground(),  make.slip(),    make.crest(), make.forces(),
-                              make.rocking(), make.lengths(), make.energy()};
+    std::vector<Chart> charts{make.ground(),  make.slip(),    make.crest(),   make.forces(),
+                              make.anchors(), make.rocking(), make.lengths(), make.energy()};
     std::erase_if(charts, [](const Chart& chart) { return chart.curves.empty(); });
     for (Chart& chart : charts) { // so that a run of 20 s at 0.005 s is whole, and many long ones stay small
         chart.thin_above = std::clamp<std::size_t>(16000 / std::max<std::size_t>(view.records, 1), 800, 4200);

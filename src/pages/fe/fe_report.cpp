@@ -1,6 +1,7 @@
 #include "pages/fe/fe_report.hpp"
 
 #include "core/units.hpp"
+#include "pages/fe/base_water.hpp"
 #include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_page.hpp"
 #include "pages/scene/record_charts.hpp"
@@ -210,6 +211,7 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
     section.parts.emplace_back(base_states(view));
     for (Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
+    if (auto chart = base_water_chart(view)) section.parts.emplace_back(std::move(*chart));
     sections_.push_back(std::move(section));
     if (stress_records_ < stress_records) {
         ++stress_records_;
@@ -247,7 +249,12 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     Section slip{"Slip",
                  {rows_part(answer_part(table)), rows_part(contact_slip_table(runs)), rows_part(run_out_table(runs))},
                  Fold::open};
+    if (Table events = contact_event_table(runs); !events.rows.empty())
+        slip.parts.push_back(rows_part(std::move(events)));
     if (!in_.scene.lift_joints.empty()) slip.parts.push_back(rows_part(contact_lift_table(runs, allowable)));
+    if (!in_.scene.anchors.empty()) slip.parts.push_back(rows_part(contact_anchor_table(runs)));
+    if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
+        slip.parts.push_back(rows_part(std::move(water)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
     page.sections.push_back(std::move(slip));
     page.sections.push_back(statics_section(runs));
@@ -260,6 +267,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     for (const Section& section : sections_) page.sections.push_back(section);
     std::vector<Table> how{without_seconds(solution_part(table))};
     if (with_exact_contact(in_.scene)) how.push_back(contact_law_table(runs));
+    if (Table flow = joint_flow_table(runs); !flow.rows.empty()) how.push_back(std::move(flow));
     how.push_back(contact_energy_table(runs));
     how.push_back(contact_count_table(runs));
     end_fe_page(frame, motions_, how, page);

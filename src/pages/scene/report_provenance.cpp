@@ -49,6 +49,10 @@ void add_record_provenance(const std::vector<RecordPair>& records,
                            std::vector<std::pair<std::string, std::string>>& list)
 {
     for (const RecordPair& pair : records) {
+        if (!pair.parts.empty()) {
+            add_record_provenance(pair.parts, list);
+            continue;
+        }
         list.emplace_back("record " + pair.files.name, component_text(pair.horizontal));
         if (pair.vertical)
             list.emplace_back("record " + pair.files.name + ", vertical", component_text(*pair.vertical));
@@ -58,10 +62,15 @@ void add_record_provenance(const std::vector<RecordPair>& records,
 std::vector<std::string> record_warnings(const std::vector<RecordPair>& records)
 {
     std::vector<std::string> list;
-    for (const RecordPair& pair : records)
+    for (const RecordPair& pair : records) {
+        if (!pair.parts.empty()) {
+            for (std::string& warning : record_warnings(pair.parts)) list.push_back(std::move(warning));
+            continue;
+        }
         for (const Record* r : {&pair.horizontal, pair.vertical ? &*pair.vertical : nullptr})
             if (r)
                 for (const std::string& w : r->warnings) list.push_back(pair.files.name + ": " + w);
+    }
     return list;
 }
 

@@ -199,6 +199,30 @@ void draw_lift_joints(Sketch& sketch, const Scene& scene)
     }
 }
 
+/// Each across its joint, as far up as the dam goes and down as the picture does; its ends are no data of the scene.
+void draw_anchors(Sketch& sketch, const Scene& scene, const Frame& f)
+{
+    for (const Anchor& anchor : scene.anchors) {
+        const double theta = anchor.joint.empty() ? base_inclination(scene.section) : 0.0;
+        Point at{anchor.distance * std::cos(theta), -anchor.distance * std::sin(theta)};
+        for (const LiftJoint& joint : scene.lift_joints) {
+            if (joint.name != anchor.joint) continue;
+            const Polyline up = below(upstream_face(scene.section), joint.elevation);
+            at = {(up.empty() ? 0.0 : up.back().x) + anchor.distance, joint.elevation};
+        }
+        const double x = std::sin(anchor.inclination + theta), y = std::cos(anchor.inclination + theta);
+        if (!(y > 0.05)) continue; // almost along the joint
+        const double rise = std::min(0.7 * anchor.free_length, (f.crest - at.y) / y),
+                     fall =
+                         std::min(std::max(0.3 * anchor.free_length, sketch.metres(10)), 0.5 * (at.y - f.bottom) / y);
+        const Point head{at.x + rise * x, at.y + rise * y};
+        sketch.line({{at.x - fall * x, at.y - fall * y}, head}, "force");
+        sketch.circle(head, 3, "force");
+        const std::string force = anchor.prestress > 0.0 ? fmt::format(", P₀ {:.4g} kN/m", anchor.prestress / 1e3) : "";
+        sketch.text(head, anchor.name + force, Align::start, 7, 4, "small halo");
+    }
+}
+
 void draw_forces(Sketch& sketch, const Scene& scene, const Frame& f)
 {
     if (scene.ice) {
@@ -271,6 +295,7 @@ Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const
     draw_ground(sketch, f);
     draw_curtain_and_drains(sketch, scene, f);
     draw_lift_joints(sketch, scene);
+    draw_anchors(sketch, scene, f);
     draw_forces(sketch, scene, f);
     draw_dimensions(sketch, scene, f);
     draw_signs(sketch, f);

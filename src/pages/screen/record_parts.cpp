@@ -3,6 +3,7 @@
 #include "core/units.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/screen/screen_charts.hpp"
+#include "records/transform/sequence.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -18,6 +19,14 @@ std::vector<double> sample_times(const GroundMotion& motion)
     std::vector<double> t(motion.accel_h.size());
     for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<double>(i) * motion.dt;
     return t;
+}
+
+/// The motion with the pauses of this slide.
+GroundMotion played(const GroundMotion& motion, const sliding::SlideResult& slide)
+{
+    std::vector<double> starts;
+    for (const EventSlip& event : slide.events) starts.push_back(event.start);
+    return records::as_played(motion, starts);
 }
 
 Axis time_axis()
@@ -109,6 +118,7 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
                                std::size_t records)
 {
     const RecordHistories found = record_histories(scene, s, motion, number);
+    const GroundMotion shown = played(motion, found.horizontal.slide);
     const std::string together = fmt::format("record{}", number + 1);
     std::vector<Part> parts;
     const auto add = [&](Chart chart) {
@@ -117,11 +127,11 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
             return;
         }
         chart.together = together;
-        for (Curve& curve : chart.curves) on_record_grid(motion, curve);
+        for (Curve& curve : chart.curves) on_record_grid(shown, curve);
         thin_for(chart, records);
         parts.emplace_back(std::move(chart));
     };
-    add(acceleration_chart(motion));
+    add(acceleration_chart(shown));
 
     Chart slip;
     slip.title = motion.name + ": slip";
@@ -142,7 +152,7 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
         const sliding::SlideResult& both = found.with_vertical->slide;
         add_slip_curve(both, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1, slip);
         add(std::move(slip));
-        add(demand_chart(motion, both.history, hv->polarity));
+        add(demand_chart(played(motion, both), both.history, hv->polarity));
     }
     if (found.flexible) parts.emplace_back(flexible_chart(scene, s, *found.flexible, motion, number, records));
     if (auto regressions = regressions_beside(s, number)) {

@@ -4,6 +4,7 @@
 #include "core/file.hpp"
 #include "core/version.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/scene/anchor_tables.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/screen/screen_tables.hpp"
@@ -27,6 +28,10 @@ nlohmann::ordered_json record_provenance(const std::vector<RecordPair>& records)
             {"sha256", r.source.sha256}, {"samples", r.acceleration.size()}, {"dt_s", r.dt}};
     };
     for (const RecordPair& pair : records) {
+        if (!pair.parts.empty()) {
+            list.push_back({{"name", pair.files.name}, {"sequence", record_provenance(pair.parts)}});
+            continue;
+        }
         nlohmann::ordered_json entry{{"name", pair.files.name}, {"horizontal", component(pair.horizontal)}};
         if (pair.vertical) entry["vertical"] = component(*pair.vertical);
         list.push_back(std::move(entry));
@@ -71,9 +76,15 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
         j["verdicts"] = json_of(sliding::verdict_table(s.combinations));
         j["yield"] = json_of(yield_table(s));
         if (!in.given.lift_joints.empty()) j["lift_joints"] = json_of(lift_joint_table(in.given));
+        if (!in.given.anchors.empty()) j["anchors"] = json_of(anchor_list_table(in.given));
         j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     }
     j["displacements"] = json_of(slip_table(s, allowable));
+    if (has_rocking(s)) j["rocking_block"] = json_of(rocking_table(s, allowable));
+    if (!s.slips_without_bond.empty()) j["without_bond"] = json_of(bond_table(s, allowable));
+    if (!in.scene.anchors.empty()) j["anchor_forces"] = json_of(screened_anchor_table(s));
+    const Table events = event_table(s);
+    if (!events.rows.empty()) j["events"] = json_of(events);
     if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, allowable));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s));
@@ -104,10 +115,15 @@ std::string screen_text(const ScreenReportInput& in)
         show(verdicts);
         show(yield_table(s));
         show(lift_joint_table(in.given));
+        show(anchor_list_table(in.given));
         show(sliding::uplift_comparison_table(s.uplifts));
     }
     show(regression_summary(s));
     show(slip_table(s, allowable));
+    if (has_rocking(s)) show(rocking_table(s, allowable));
+    if (!s.slips_without_bond.empty()) show(bond_table(s, allowable));
+    show(screened_anchor_table(s));
+    if (const Table events = event_table(s); !events.rows.empty()) show(events);
     if (s.flexible) show(flexible_table(s, allowable));
     show(statistics_table(s));
     for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
@@ -120,6 +136,10 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
+    if (has_rocking(in.screening))
+        write_file(folder / "rocking_block.csv", csv(rocking_table(in.screening, allowable), comments));
+    if (const Table events = event_table(in.screening); !events.rows.empty())
+        write_file(folder / "events.csv", csv(events, comments));
     if (in.screening.flexible)
         write_file(folder / "flexible_block.csv", csv(flexible_table(in.screening, allowable), comments));
     write_file(folder / "scene.resolved.toml", resolved_toml(in.given));

@@ -5,6 +5,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "pages/report/page_html.hpp"
+#include "pages/scene/anchor_tables.hpp"
 #include "pages/scene/effect_table.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
@@ -92,7 +93,9 @@ std::string slip_sentence(const Scene& scene, const Screening& s)
         : slip > 0 ? fmt::format("The {} slides {:.4g} mm at most{} (record {}, polarity {:+d}{}{})",
                                  sliding_body(scene), slip / mm, n > 1 ? fmt::format(" over {} records", n) : "",
                                  worst->record, worst->polarity, worst->with_vertical ? ", with vertical motion" : "",
-                                 worst->flexible ? fmt::format(", flexible block, {}", worst->governing().method) : "")
+                                 worst->governing().method == "rocking" ? ", rocking and sliding"
+                                 : worst->flexible ? fmt::format(", flexible block, {}", worst->governing().method)
+                                                   : "")
                    : fmt::format("The {} does not slide in {}", sliding_body(scene),
                                  n > 1 ? fmt::format("any of the {} records", n) : "the record " + worst->record);
     const std::string without = without_slip_words(s);
@@ -178,6 +181,7 @@ Section yield_section(const Scene& scene, const Screening& s)
     section.parts.push_back(rows_part(yield_table(s)));
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
+    if (!scene.anchors.empty()) section.parts.push_back(rows_part(anchor_list_table(scene)));
     if (!s.uplifts.empty()) section.parts.push_back(rows_part(sliding::uplift_comparison_table(s.uplifts)));
     return section;
 }
@@ -187,6 +191,12 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(rows_part(slip_table(s, in.scene.criteria.allowable_slip)));
+    if (has_rocking(s)) section.parts.push_back(rows_part(rocking_table(s, in.scene.criteria.allowable_slip)));
+    if (!s.slips_without_bond.empty())
+        section.parts.push_back(rows_part(bond_table(s, in.scene.criteria.allowable_slip)));
+    if (Table anchors = screened_anchor_table(s); !anchors.rows.empty())
+        section.parts.push_back(rows_part(std::move(anchors)));
+    if (Table events = event_table(s); !events.rows.empty()) section.parts.push_back(rows_part(std::move(events)));
     const bool slides = !largest(s); // nothing to draw
     if (s.flexible) section.parts.push_back(rows_part(flexible_table(s, in.scene.criteria.allowable_slip)));
     if (motions.size() > 1) section.parts.push_back(rows_part(statistics_table(s)));
@@ -240,8 +250,9 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
         const SlipRow* worst = largest(s);
-        list.emplace_back(worst && s.flexible ? fmt::format("Largest slip, {}", worst->governing().method)
-                                              : "Largest slip",
+        list.emplace_back(worst && worst->governing().method != "rigid"
+                              ? fmt::format("Largest slip, {}", worst->governing().method)
+                              : "Largest slip",
                           worst ? fmt::format("{:.4g} mm", worst->judged().max_slip / mm) : "–");
         if (!without_slip_words(s).empty()) list.emplace_back("Statuses", judged_statuses(s).words());
     }
@@ -306,12 +317,18 @@ Headline screen_headline(const Scene& scene, const Screening& s)
     };
     if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
-    if (!premises.empty())
-        return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
+    const bool broken = std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& row) {
+        return !row.broken_premises.empty() && row.governing().method != "rocking";
+    });
+    if (broken) return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
     if (any(Verdict::undecided))
         return {sentence, Outcome::unresolved,
                 s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
                            : "Undecided: the error of SLAMMER's scheme is not known."};
+    const bool by_bond = std::any_of(s.slips_without_bond.begin(), s.slips_without_bond.end(), [&](const SlipRow& row) {
+        return judge(row, scene.criteria.allowable_slip) != Verdict::pass;
+    });
+    if (by_bond) return {sentence, Outcome::unresolved, "PASS with its bond only: not for c = 0."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
     return {sentence, Outcome::pass, pass};
 }

@@ -1,6 +1,7 @@
 #include "pages/screen/screen_tables.hpp"
 
 #include "core/units.hpp"
+#include "pages/scene/anchor_tables.hpp"
 #include "pages/screen/wedge_tables.hpp"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ void note_static_sliding(const Screening& s, Table& table)
 /// A mass that is flexible is not judged by the rigid block.
 Cell rigid_verdict_cell(const SlipRow& row, const std::optional<double>& allowable)
 {
-    if (row.flexible) return fmt::format("judged by {}", row.governing().method);
+    if (row.governing().method != "rigid") return fmt::format("judged by {}", row.governing().method);
     return verdict_cell(judge(row, allowable));
 }
 
@@ -70,7 +71,11 @@ void note_premises(const Screening& s, const std::optional<double>& allowable, T
 {
     if (allowable && s.dry_base)
         table.notes.push_back("verdict: of a base taken as dry although there is water on the dam.");
-    for (const std::string& premise : broken_premises(s)) table.notes.push_back("no PASS: the dam " + premise + ".");
+    const bool rocks = std::any_of(s.slips.begin(), s.slips.end(),
+                                   [](const SlipRow& row) { return row.governing().method == "rocking"; });
+    for (const std::string& premise : broken_premises(s))
+        table.notes.push_back((rocks ? "judged by the block that rocks and slides: the dam " : "no PASS: the dam ") +
+                              premise + ".");
 }
 
 /// What a verdict says, and what it cannot say.
@@ -123,6 +128,10 @@ Table yield_table(const Screening& s)
           [=](const R& r) { return downstream(r) / standard_gravity; }},
          {{"yield_acceleration_upstream_m_s2", "a_y upstream", "m/s²", 6},
           [](const R& r) { return r.model.upstream.law.constant; }},
+         {{"yield_with_crack_m_s2", "a_y with crack", "m/s²", 6},
+          [](const R& r) { return finite_cell(r.limits.yield_with_crack); }},
+         {{"yield_with_crack_g", "a_y with crack", "g", 4},
+          [](const R& r) { return finite_cell(r.limits.yield_with_crack / standard_gravity); }},
          {{"tips_m_s2", "a tips", "m/s²", 4}, [](const R& r) { return r.limits.tips; }},
          {{"tips_g", "a tips", "g", 4}, [](const R& r) { return r.limits.tips / standard_gravity; }},
          {{"opens_m_s2", "a opens base", "m/s²", 4}, [](const R& r) { return r.limits.opens; }},
@@ -132,6 +141,8 @@ Table yield_table(const Screening& s)
         s.bases,
         {"a_y: ground acceleration at which it starts to slide; critical μ: friction that just holds it without an "
          "earthquake.",
+         "a_y with crack: the same with the crack that this acceleration opens (by uplift.crack) and the bond of the "
+         "rest.",
          "a tips: constant ground acceleration at which the dam tips about its toe, uplift unchanged; a opens base: at "
          "which its joint is open from heel to toe (by uplift.crack) and its bond lost."});
 }
@@ -166,22 +177,28 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     const auto with_vertical = [](const R& r) {
         return r.with_vertical ? slip_cell(*r.with_vertical, r.with_vertical->slip / mm) : Cell();
     };
-    Table t = table_of<R>(
-        wedge ? "Displacement of the wedge" : "Rigid-block displacement",
-        {{{"record", "record"}, &R::record},
-         {{"polarity", "polarity"}, &R::polarity},
-         {{"pga_m_s2", "PGA", "m/s²", 4}, &R::pga},
-         {{"yield_over_pga", "a_y/PGA", "–", 4},
-          [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
-         {{"slip_h_mm", "slip h", "mm", 5}, [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
-         {{"slip_hv_mm", "slip h+v", "mm", 5}, with_vertical},
-         {{"max_slip_m", "largest slip", "m", 5}, [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
-         {{"upstream_slip_mm", "upstream", "mm", 4},
-          [](const R& r) { return slip_cell(r.rigid(), r.rigid().upstream_slip / mm); }},
-         {{"lift_offs", "lift-offs"}, [](const R& r) { return count_cell(r.rigid().lift_offs); }},
-         {{"status", "status"}, [](const R& r) { return word(r.rigid().status); }},
-         {{"verdict", "verdict"}, [&](const R& r) { return rigid_verdict_cell(r, allowable); }}},
-        s.slips);
+    std::vector<ColumnOf<R>> columns{
+        {{"record", "record"}, &R::record},
+        {{"polarity", "polarity"}, &R::polarity},
+        {{"pga_m_s2", "PGA", "m/s²", 4}, &R::pga},
+        {{"yield_over_pga", "a_y/PGA", "–", 4},
+         [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
+        {{"slip_h_mm", "slip h", "mm", 5}, [](const R& r) { return slip_cell(r.horizontal, r.horizontal.slip / mm); }},
+        {{"slip_hv_mm", "slip h+v", "mm", 5}, with_vertical},
+        {{"max_slip_m", "largest slip", "m", 5}, [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip); }},
+        {{"upstream_slip_mm", "upstream", "mm", 4},
+         [](const R& r) { return slip_cell(r.rigid(), r.rigid().upstream_slip / mm); }},
+        {{"lift_offs", "lift-offs"}, [](const R& r) { return count_cell(r.rigid().lift_offs); }},
+        {{"status", "status"}, [](const R& r) { return word(r.rigid().status); }},
+        {{"verdict", "verdict"}, [&](const R& r) { return rigid_verdict_cell(r, allowable); }}};
+    const sliding::SlipStages& stages = s.bases.front().model.stages;
+    if (!stages.empty() && stages.front().restitution > 0.0) {
+        const std::vector<ColumnOf<R>> rebounds{
+            {{"landings", "landings"}, [](const R& r) { return count_cell(r.rigid().landings); }},
+            {{"impact_J_m", "lost in landings", "J/m", 4}, [](const R& r) { return r.rigid().impact_loss; }}};
+        columns.insert(columns.end() - 2, rebounds.begin(), rebounds.end());
+    }
+    Table t = table_of<R>(wedge ? "Displacement of the wedge" : "Rigid-block displacement", columns, s.slips);
     if (wedge)
         t.notes.push_back("slip: along the way of sliding at the yield, " +
                           direction_words(s.bases.front().model.wedge->yields.at_rest.state.direction) +
@@ -193,6 +210,38 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     note_verdict(s, allowable, t);
     note_premises(s, allowable, t);
     return t;
+}
+
+Table screened_anchor_table(const Screening& s)
+{
+    std::vector<AnchorRow> rows;
+    for (const SlipRow& row : s.slips)
+        for (const AnchorOutcome& anchor : row.rigid().anchors) rows.push_back({row.record, row.polarity, anchor});
+    return anchor_run_table(rows);
+}
+
+Table event_table(const Screening& s)
+{
+    struct Row {
+        const SlipRow& of;
+        const EventSlip& event;
+    };
+    std::vector<Row> rows;
+    for (const SlipRow& row : s.slips)
+        for (const EventSlip& event : row.rigid().events) rows.push_back({row, event});
+    return table_of<Row>("Slip by event",
+                         {{{"record", "sequence"}, [](const Row& r) { return r.of.record; }},
+                          {{"polarity", "polarity"}, [](const Row& r) { return Cell(r.of.polarity); }},
+                          {{"event", "event"}, [](const Row& r) { return r.event.name; }},
+                          {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
+                          {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
+                          {{"slip_of_event_mm", "slip of it", "mm", 5},
+                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.change / mm); }},
+                          {{"slip_so_far_mm", "slip so far", "mm", 5},
+                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.slip / mm); }}},
+                         rows,
+                         {"slip: positive downstream, the run to rest after each event included; with the vertical "
+                          "component where the records have one."});
 }
 
 Table flexible_table(const Screening& s, const std::optional<double>& allowable)
@@ -244,6 +293,64 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
                                       "criteria.allowable_slip = {:.4g} mm; the rigid slip has none of its own.",
                                       *allowable / mm));
     note_premises(s, allowable, t);
+    return t;
+}
+
+Table rocking_table(const Screening& s, const std::optional<double>& allowable)
+{
+    using R = SlipRow;
+    const double length = s.bases.front().model.length.value_or(0.0);
+    const auto slide = [](const R& r) -> const sliding::SlideResult& { return r.rocking->slide; };
+    const auto opening = [=](const R& r, double rotation) {
+        return optional_cell(reported(slide(r).status, length * std::sin(rotation) / mm));
+    };
+    const auto lost = [](double work) { return Cell(work / 1e3); };
+    Table t = table_of<R>(
+        "Displacement of the block that rocks and slides",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"slip_mm", "slip", "mm", 5}, [=](const R& r) { return slip_cell(slide(r), slide(r).slip / mm); }},
+         {{"max_slip_mm", "largest slip", "mm", 5},
+          [=](const R& r) { return slip_cell(slide(r), slide(r).max_slip / mm); }},
+         {{"heel_opening_mm", "heel opens", "mm", 4},
+          [=](const R& r) { return opening(r, r.rocking->max_toe_rotation); }},
+         {{"toe_opening_mm", "toe opens", "mm", 4},
+          [=](const R& r) { return opening(r, r.rocking->max_heel_rotation); }},
+         {{"landings", "landings"}, [](const R& r) { return count_cell(r.rocking->landings); }},
+         {{"friction_work_kJ_m", "friction", "kJ/m", 4}, [=](const R& r) { return lost(r.rocking->energy.friction); }},
+         {{"landing_loss_kJ_m", "landing loss", "kJ/m", 4},
+          [=](const R& r) { return lost(r.rocking->energy.landings); }},
+         {{"energy_imbalance", "energy imbalance", "–", 1}, [](const R& r) { return r.rocking->energy.imbalance; }},
+         {{"status", "status"}, [=](const R& r) { return word(slide(r).status); }},
+         {{"verdict", "verdict"}, [&, slide](const R& r) { return verdict_cell(judge(slide(r), allowable)); }}},
+        s.slips | std::views::filter([](const R& r) { return r.rocking.has_value(); }));
+    t.notes.push_back("free to stand on toe or heel, with the vertical component where the record has one; slip of the "
+                      "corner that stands, largest rise of heel and toe (docs/rocking.md).");
+    if (allowable)
+        t.notes.push_back("verdict: of the slip alone; a base that opens may pass water, whatever the slip.");
+    t.notes.push_back(
+        "energy imbalance: what ground and loads put in less kinetic energy, friction and landings, over the "
+        "largest of them.");
+    return t;
+}
+
+Table bond_table(const Screening& s, const std::optional<double>& allowable)
+{
+    using R = SlipRow;
+    Table t = table_of<R>(
+        "Displacement without the bond (c = 0)",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
+         {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_cell(r.judged(), r.judged().slip / mm); }},
+         {{"max_slip_mm", "largest slip", "mm", 5},
+          [](const R& r) { return slip_cell(r.judged(), r.judged().max_slip / mm); }},
+         {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
+         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}},
+        s.slips_without_bond);
+    t.notes.push_back(fmt::format("the bond is {:.0f} % of the resistance before the earthquake; from a third on (a "
+                                  "judgement) the slip is judged without it, too.",
+                                  100.0 * s.bond_share));
     return t;
 }
 

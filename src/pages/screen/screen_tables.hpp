@@ -9,6 +9,14 @@ Table yield_table(const Screening& s);
 /// The rigid block above each lift joint: static safety and yield acceleration. Empty without lift joints.
 Table lift_joint_table(const Scene& scene);
 Table slip_table(const Screening& s, const std::optional<double>& allowable);
+/// The block that rocks and slides, with its energies.
+Table rocking_table(const Screening& s, const std::optional<double>& allowable);
+/// The slip without bond, where much of the resistance is bond.
+Table bond_table(const Screening& s, const std::optional<double>& allowable);
+/// What the anchors through the base came to in each slide, with the vertical component where there is one.
+Table screened_anchor_table(const Screening& s);
+/// Of a sequence, one row for each event and polarity; without rows where there is none.
+Table event_table(const Screening& s);
 /// Slip of the flexible block beside the rigid one, with its verdict.
 Table flexible_table(const Screening& s, const std::optional<double>& allowable);
 

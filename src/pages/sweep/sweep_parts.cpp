@@ -171,7 +171,7 @@ std::string without_apostrophe(const std::string& field)
 
 Cell cell_of(const std::string& key, const std::string& field)
 {
-    for (const char* word : {"uplift", "reservoir", "record", "method", "status"})
+    for (const char* word : {"uplift", "opening_water", "reservoir", "record", "method", "status"})
         if (key == word) return without_apostrophe(field);
     if (field.empty()) return {};
     const std::optional<double> number = parse_number(field);
@@ -192,6 +192,8 @@ Table sweep_rows_of(const std::string& csv)
         at = end + 1;
         if (line.starts_with("#")) continue;
         const std::vector<std::string> fields = fields_of(line);
+        if (header && std::find(fields.begin(), fields.end(), "opening_water") != fields.end())
+            table.columns = sweep_columns(true);
         bool fits = fields.size() == table.columns.size();
         for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
         if (!fits)

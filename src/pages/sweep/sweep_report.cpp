@@ -11,6 +11,7 @@
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
 #include "pages/screen/wedge_drawing.hpp"
+#include "pages/sweep/opening_water_table.hpp"
 #include "pages/sweep/sweep_charts.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
@@ -100,14 +101,13 @@ Table variant_table(const SweepView& view)
                                       [&](const SweepRow& r) { return r.variant == number && r.critical_friction; });
         return row == view.rows.end() ? Cell() : Cell(*row->critical_friction);
     };
-    return table_of<V>("Variants",
-                       {{{"level_m", "level", "m", 4}, &V::level},
-                        {{"uplift", "uplift"}, &V::uplift},
-                        {{"reservoir", "water"}, &V::reservoir},
-                        {{"size", "size", "–", 4}, &V::size},
-                        {{"scale", "motion ×", "–", 4}, &V::scale},
-                        {{"critical_friction", "stands from μ", "–", 5}, stands_from}},
-                       view.variants);
+    std::vector<ColumnOf<V>> columns{
+        {{"level_m", "level", "m", 4}, &V::level},  {{"uplift", "uplift"}, &V::uplift},
+        {{"reservoir", "water"}, &V::reservoir},    {{"size", "size", "–", 4}, &V::size},
+        {{"scale", "motion ×", "–", 4}, &V::scale}, {{"critical_friction", "stands from μ", "–", 5}, stands_from}};
+    if (!view.variants.empty() && !view.variants.front().opening.empty())
+        columns.insert(columns.begin() + 2, {{"opening_water", "opening water"}, &V::opening});
+    return table_of("Variants", columns, view.variants);
 }
 
 const SweepRow* worst_of(const SweepView& view)
@@ -335,6 +335,7 @@ Page sweep_page(const SweepReportInput& in)
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
     if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));
     page.sections.push_back(variant_section(view, allowable));
+    if (auto rules = opening_water_section(in.rows)) page.sections.push_back(std::move(*rules));
     Section methods{"Methods", {rows_part(method_table(view, allowable))}, Fold::open};
     if (auto chart = fe_over_rigid(view)) methods.parts.emplace_back(std::move(*chart));
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));

@@ -61,6 +61,7 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
         if (differs(&SweepVariant::size)) parts.push_back(fmt::format("size {:g}", v.size));
         if (differs(&SweepVariant::level)) parts.push_back(fmt::format("level {:g} m", v.level));
         if (differs(&SweepVariant::uplift)) parts.push_back("uplift " + v.uplift);
+        if (differs(&SweepVariant::opening)) parts.push_back("opening water " + v.opening);
         if (differs(&SweepVariant::reservoir)) parts.push_back("water " + v.reservoir);
         if (differs(&SweepVariant::scale)) parts.push_back(fmt::format("motion × {:g}", v.scale));
         std::string name;
@@ -78,10 +79,10 @@ SweepView sweep_view(const Table& table)
     SweepView view;
     for (const std::vector<Cell>& row : table.rows) {
         SweepRow r;
-        r.variant =
-            place_of(view.variants, SweepVariant{cells.number(row, "level_m").value_or(0.0), cells.word(row, "uplift"),
-                                                 cells.word(row, "reservoir"), cells.number(row, "size").value_or(1.0),
-                                                 cells.number(row, "scale").value_or(1.0)});
+        r.variant = place_of(view.variants,
+                             SweepVariant{cells.number(row, "level_m").value_or(0.0), cells.word(row, "uplift"),
+                                          cells.word(row, "reservoir"), cells.number(row, "size").value_or(1.0),
+                                          cells.number(row, "scale").value_or(1.0), cells.word(row, "opening_water")});
         r.friction = cells.number(row, "friction").value_or(0.0);
         r.polarity = static_cast<int>(cells.number(row, "polarity").value_or(1.0));
         r.record = cells.word(row, "record");

@@ -17,6 +17,7 @@ struct SweepVariant {
     double level = 0.0; ///< [m]
     std::string uplift, reservoir;
     double size = 1.0, scale = 1.0; ///< [-]
+    std::string opening = {};       ///< uplift.opening; empty: the scene's
 
     friend auto operator<=>(const SweepVariant&, const SweepVariant&) = default;
 };

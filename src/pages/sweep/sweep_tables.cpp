@@ -1,5 +1,7 @@
 #include "pages/sweep/sweep_tables.hpp"
 
+#include "pages/sweep/opening_water_table.hpp"
+
 #include "analysis/prepare/contact_law.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
@@ -39,7 +41,8 @@ Cell rock(const Grid& grid, const GridIndex& at)
     return words.empty() ? Cell() : Cell(words);
 }
 
-std::vector<ColumnOf<SweepLine>> columns()
+/// @param opening  with the column of that axis
+std::vector<ColumnOf<SweepLine>> columns(bool opening)
 {
     using L = SweepLine;
     using units::standard_gravity;
@@ -47,7 +50,7 @@ std::vector<ColumnOf<SweepLine>> columns()
         return [=](const L& l) { return optional_cell(l.results.*number); };
     };
     using R = RowResults;
-    return {
+    std::vector<ColumnOf<L>> all{
         {{"id", "id"}, [](const L& l) { return count_cell(l.id); }},
         {{"friction", "μ", "–", 4}, [](const L& l) { return l.axes().friction[l.at.friction]; }},
         {{"level_m", "level", "m", 4},
@@ -82,6 +85,11 @@ std::vector<ColumnOf<SweepLine>> columns()
         {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
         {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
         {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
+    const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
+    if (opening)
+        all.insert(after,
+                   {{"opening_water", "opening water"}, [](const L& l) { return l.axes().opening[l.at.opening]; }});
+    return all;
 }
 
 } // namespace
@@ -93,12 +101,12 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
         const FinishedRow* row = outcome.find(id);
         lines.push_back({grid, id, grid.tasks.index(id), row ? row->results : not_run()});
     }
-    return table_of("", columns(), lines);
+    return table_of("", columns(has_opening_axis(grid.axes)), lines);
 }
 
-std::vector<Column> sweep_columns()
+std::vector<Column> sweep_columns(bool opening)
 {
-    return table_of("", columns(), std::vector<SweepLine>{}).columns;
+    return table_of("", columns(opening), std::vector<SweepLine>{}).columns;
 }
 
 Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)
@@ -109,28 +117,31 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
         return [=](const C& c) { return c.motions ? Cell(1e3 * (c.*slip)) : Cell(); };
     };
     const auto error = [](const C& c) { return c.largest_error && c.motions ? Cell(1e3 * *c.largest_error) : Cell(); };
+    std::vector<ColumnOf<C>> all{
+        {{"friction", "μ", "–", 4}, [&](const C& c) { return axes.friction[c.at.friction]; }},
+        {{"level_m", "level", "m", 4}, [&](const C& c) { return axes.level[c.at.level] * axes.size[c.at.size]; }},
+        {{"uplift", "uplift"}, [&](const C& c) { return axes.uplift[c.at.uplift]; }},
+        {{"reservoir", "reservoir"}, [&](const C& c) { return axes.reservoir[c.at.reservoir]; }},
+        {{"size", "size", "–", 4}, [&](const C& c) { return axes.size[c.at.size]; }},
+        {{"scale", "scale", "–", 4}, [&](const C& c) { return axes.scale[c.at.scale]; }},
+        {{"method", "method"}, [&](const C& c) { return axes.method[c.at.method].id; }},
+        {{"motions", "motions"}, &C::motions},
+        {{"static_failures", "static failures"}, &C::static_failures},
+        {{"critical_friction", "critical μ", "–", 6}, [](const C& c) { return optional_cell(c.critical_friction); }},
+        {{"mean_fe_mm", "FE mean", "mm", 5}, in_mm(&C::mean_fe)},
+        {{"mean_rigid_mm", "rigid mean", "mm", 5}, in_mm(&C::mean_rigid)},
+        {{"ratio_of_means", "ratio", "–", 4}, [](const C& c) { return optional_cell(c.ratio_of_means); }},
+        {{"largest_fe_mm", "FE largest", "mm", 5}, in_mm(&C::largest_fe)},
+        {{"largest_rigid_mm", "rigid largest", "mm", 5}, in_mm(&C::largest_rigid)},
+        {{"largest_slip_error_mm", "± step", "mm", 2}, error},
+        {{"without_slip", "not compared"},
+         [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }},
+        {{"rock", "rock"}, [&](const C& c) { return rock(grid, c.at); }}};
+    if (has_opening_axis(axes))
+        all.insert(all.begin() + 3,
+                   {{"opening_water", "opening water"}, [&](const C& c) { return axes.opening[c.at.opening]; }});
     return table_of<C>(
-        "Slip by finite elements against the rigid block",
-        {{{"friction", "μ", "–", 4}, [&](const C& c) { return axes.friction[c.at.friction]; }},
-         {{"level_m", "level", "m", 4}, [&](const C& c) { return axes.level[c.at.level] * axes.size[c.at.size]; }},
-         {{"uplift", "uplift"}, [&](const C& c) { return axes.uplift[c.at.uplift]; }},
-         {{"reservoir", "reservoir"}, [&](const C& c) { return axes.reservoir[c.at.reservoir]; }},
-         {{"size", "size", "–", 4}, [&](const C& c) { return axes.size[c.at.size]; }},
-         {{"scale", "scale", "–", 4}, [&](const C& c) { return axes.scale[c.at.scale]; }},
-         {{"method", "method"}, [&](const C& c) { return axes.method[c.at.method].id; }},
-         {{"motions", "motions"}, &C::motions},
-         {{"static_failures", "static failures"}, &C::static_failures},
-         {{"critical_friction", "critical μ", "–", 6}, [](const C& c) { return optional_cell(c.critical_friction); }},
-         {{"mean_fe_mm", "FE mean", "mm", 5}, in_mm(&C::mean_fe)},
-         {{"mean_rigid_mm", "rigid mean", "mm", 5}, in_mm(&C::mean_rigid)},
-         {{"ratio_of_means", "ratio", "–", 4}, [](const C& c) { return optional_cell(c.ratio_of_means); }},
-         {{"largest_fe_mm", "FE largest", "mm", 5}, in_mm(&C::largest_fe)},
-         {{"largest_rigid_mm", "rigid largest", "mm", 5}, in_mm(&C::largest_rigid)},
-         {{"largest_slip_error_mm", "± step", "mm", 2}, error},
-         {{"without_slip", "not compared"},
-          [](const C& c) { return c.without.empty() ? Cell() : Cell(c.without.words()); }},
-         {{"rock", "rock"}, [&](const C& c) { return rock(grid, c.at); }}},
-        compared,
+        "Slip by finite elements against the rigid block", all, compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
          "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
 }
@@ -160,6 +171,7 @@ nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const T
     if (const std::optional<std::string> note = base_note(given); note && outcome.fe) notes.push_back(*note + ".");
     for (std::string& note : note_texts(given.notes)) notes.push_back(std::move(note));
     j["notes"] = notes;
+    if (const std::optional<Table> rules = opening_water_table(rows)) j["opening_water"] = json_of(*rules);
     if (outcome.fe) {
         j["comparison"] = json_of(compared);
         j["counts"] = json_of(count_table(*outcome.fe))[0];

@@ -12,8 +12,8 @@ namespace damslip::pages {
 /// what the method gave.
 Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome);
 
-/// Its columns.
-std::vector<Column> sweep_columns();
+/// Its columns. @param opening  of a grid over uplift.opening
+std::vector<Column> sweep_columns(bool opening = false);
 
 /// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.
 inline constexpr const char* no_error_estimate = "no error estimate: fixed sub-steps";

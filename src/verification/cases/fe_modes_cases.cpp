@@ -109,7 +109,7 @@ AddedMassLaw law_of(const Scene& scene)
     };
 }
 
-std::vector<Check> reference_dam()
+std::vector<Check> modes_of_the_reference_dam()
 {
     const Scene scene = thesis_dam();
     const NaturalModes modes = natural_modes(build_model(scene, {.added_mass = law_of(scene)}), 5);
@@ -139,7 +139,7 @@ std::vector<Check> reference_dam()
     return checks;
 }
 
-std::vector<Check> added_mass_totals()
+std::vector<Check> moving_mass_totals()
 {
     Scene scene = thesis_dam();
     const Model simplified = build_model(scene, {.added_mass = law_of(scene)});
@@ -209,14 +209,14 @@ void add_fe_modes_cases(Registry& registry)
     registry.push_back({"fe.modes.added-mass-total", "The added mass on the face integrates to its closed totals.",
                         "Goldgruber (2015), (3-5): 7/12 rho h^2; series (3-1), T = infinity: 16 rho h^2/pi^3 sum of "
                         "1/n^3 over odd n = 0.5428 rho h^2",
-                        "Five Gauss points per edge; the square root at the surface costs 1e-5. ", added_mass_totals});
+                        "Five Gauss points per edge; the square root at the surface costs 1e-5. ", moving_mass_totals});
     registry.push_back({"fe.modes.reference-dam", "Dam of 62.5 m on massless rock with Westergaard's added mass.",
                         "Goldgruber (2015), chapter 4: 3.6, 8.4, 10.6, 14.9 (15.9) Hz, cumulative effective masses "
                         "59.5, 89.8, 91.3, 97.7 %; 125 m: 1.8, 4.3, 5.3, 8.1 Hz",
                         "The section's figure is missing in the source; with this one modes 1 to 3 agree within 6 %, "
                         "mode 4 is 11 % high. The published mode of "
                         "15.9 Hz has no counterpart with massless rock.",
-                        reference_dam});
+                        modes_of_the_reference_dam});
     registry.push_back({"fe.modes.koyna", "Koyna dam, empty reservoir, rigid base, plane stress.",
                         "Chopra & Chakrabarti, Bull. Seism. Soc. Am. 63 (1973) 381-397: 19.27, 51.50, 67.56, 99.73 "
                         "rad/s; E = 31.027 GPa, 2643 kg/m^3, nu = 0.2",

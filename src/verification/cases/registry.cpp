@@ -30,11 +30,14 @@ Registry all_cases()
     Registry registry;
     add_record_cases(registry);
     add_block_cases(registry);
+    add_block_rate_cases(registry);
     add_empirical_cases(registry);
     add_load_cases(registry);
     add_equilibrium_cases(registry);
+    add_rocking_cases(registry);
     add_neighbour_cases(registry);
     add_wedge_cases(registry);
+    add_anchor_cases(registry);
     add_fe_core_cases(registry);
     add_fe_quadratic_cases(registry);
     add_fe_import_cases(registry);
@@ -44,7 +47,11 @@ Registry all_cases()
     add_fe_integrator_cases(registry);
     add_fe_contact_cases(registry);
     add_fe_friction_cases(registry);
+    add_fe_rate_cases(registry);
     add_fe_joint_cases(registry);
+    add_fe_bond_cases(registry);
+    add_fe_joint_water_cases(registry);
+    add_opening_block_cases(registry);
     add_fe_rock_cases(registry);
     add_fe_radiating_cases(registry);
     add_fe_radiating_tied_cases(registry);
@@ -55,6 +62,7 @@ Registry all_cases()
     add_fe_explicit_contact_cases(registry);
     add_fe_reduction_cases(registry);
     add_fe_seepage_cases(registry);
+    add_fe_anchor_cases(registry);
     return registry;
 }
 

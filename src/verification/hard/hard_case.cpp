@@ -23,6 +23,8 @@ HardCases all_hard_cases()
     add_water_cases(cases);
     add_law_cases(cases);
     add_self_excited_cases(cases);
+    add_anchor_cases(cases);
+    add_rate_cases(cases);
     return cases;
 }
 

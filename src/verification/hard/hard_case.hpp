@@ -49,5 +49,7 @@ void add_record_cases(HardCases& cases);
 void add_water_cases(HardCases& cases);
 void add_law_cases(HardCases& cases);
 void add_self_excited_cases(HardCases& cases);
+void add_anchor_cases(HardCases& cases);
+void add_rate_cases(HardCases& cases);
 
 } // namespace damslip::hard

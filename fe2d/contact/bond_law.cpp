@@ -1,0 +1,298 @@
+#include "fe2d/contact/bond_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// κ of a pair that has just reached its strength: 999 times the stiffness of a bond half broken. The law's limit κ -> 0 is
+/// rigid; this much gives way by a thousandth of w and costs a thousandth of the fracture work.
+constexpr double smallest_damage = 1e-3;
+constexpr double damage_tolerance = 1e-9; ///< |κ - ε| of a solution [-]
+constexpr double step_damage_tolerance =
+    1e-7; ///< the same within a step in time: of its strength a pair is off by this share
+/// After so many solutions of a step damage only grows from one to the next, which ends for certain.
+constexpr int free_solutions = 40;
+/// Damage beyond the strain that a step may keep then; else it is too long [-].
+constexpr double largest_overshoot = 1e-3;
+constexpr int most_solutions = 400;
+constexpr int most_solutions_of_step = 100; ///< then a step in time is better made in halves
+/// Where a bond has no strength across the joint, tension beyond this share of its shear strength parts it: round-off [-].
+constexpr double no_tension = 1e-9;
+
+double square(double x)
+{
+    return x * x;
+}
+
+double softness(double damage)
+{
+    return (1.0 - damage) / damage;
+}
+
+} // namespace
+
+BondStrength bond_strength(double area, double friction, double cohesion, const Bond& bond)
+{
+    BondStrength b;
+    b.area = area;
+    b.friction = friction;
+    b.unloading = bond.unloading;
+    b.tension = bond.tensile_strength * area;
+    b.shear = cohesion * area;
+    if (b.tension > 0.0) {
+        b.tension_energy = bond.tension_energy.value() * area;
+        b.opening = 2.0 * b.tension_energy / b.tension;
+    }
+    if (b.shear > 0.0) {
+        b.shear_energy = bond.shear_energy.value() * area;
+        b.slip = 2.0 * b.shear_energy / b.shear;
+    }
+    if (b.tension == 0.0) b.opening = b.slip;
+    if (b.shear == 0.0) b.slip = b.opening;
+    return b;
+}
+
+BondLaw::BondLaw(std::vector<BondStrength> pairs) : strength_(std::move(pairs))
+{
+    const auto m = static_cast<Index>(strength_.size());
+    damage_ = reference_ = path_ = start_damage_ = slip_ = VectorXd::Zero(m);
+    for (Index i = 0; i < m; ++i)
+        if (!strength_[static_cast<std::size_t>(i)].any()) damage_[i] = 1.0;
+    yield_.assign(strength_.size(), Yield::none);
+}
+
+double BondLaw::Strain::size() const
+{
+    return std::hypot(across, along);
+}
+
+bool BondLaw::plastic(Index pair) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    return b.unloading == BondUnloading::plastic && b.shear > 0.0;
+}
+
+double BondLaw::initial_stiffness(Index pair) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    return softness(smallest_damage) * b.shear / b.slip;
+}
+
+/// Slip from where the bond of plastic unloading carries no shear [m].
+double BondLaw::elastic_slip(Index pair, const ContactSolution& solution) const
+{
+    return slip_[pair] + solution.displacement[solution.displacement.size() / 2 + pair] - reference_[pair];
+}
+
+BondLaw::Strain BondLaw::strain(Index pair, const ContactSolution& solution) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const double across = std::max(0.0, solution.displacement[pair]) / b.opening;
+    const double slip = elastic_slip(pair, solution);
+    if (!plastic(pair)) return {across, slip / b.slip};
+    const double limit = b.shear * (1.0 - damage_[pair]) / initial_stiffness(pair);
+    const double yielded =
+        yield_[static_cast<std::size_t>(pair)] == Yield::none ? 0.0 : std::max(0.0, std::abs(slip) - limit);
+    return {across, (path_[pair] + yielded) / b.slip};
+}
+
+double BondLaw::first_damage(Index pair, const ContactSolution& solution) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    const Index m = damage_.size();
+    const double normal = solution.force[pair], tension = std::max(0.0, -normal),
+                 shear = std::max(0.0, std::abs(solution.force[m + pair]) - b.friction * std::max(0.0, normal));
+    const double scale = b.tension + b.shear;
+    const auto share = [scale](double force, double strength) {
+        return force / (strength > 0.0 ? strength : no_tension * scale);
+    };
+    return std::hypot(share(tension, b.tension), share(shear, b.shear));
+}
+
+/// G_I ε_n² + G_II ε_s² of the pair [J/m].
+double BondLaw::energy_of(Index pair, const Strain& e) const
+{
+    const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
+    return b.tension_energy * square(e.across) + b.shear_energy * square(e.along);
+}
+
+void BondLaw::begin(const JointStart& start)
+{
+    if (!held_) start_damage_ = damage_;
+    slip_ = start.slip;
+    static_ = start.dt == 0.0;
+    yield_.assign(strength_.size(), Yield::none);
+    tried_damage_ = damage_;
+    tried_strain_ = VectorXd::Constant(damage_.size(), -1.0);
+    solutions_ = 0;
+}
+
+void BondLaw::add(JointTerms& terms) const
+{
+    const Index m = damage_.size();
+    for (Index i = 0; i < m; ++i) {
+        const BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        if (!b.any() || damage_[i] >= 1.0) continue;
+        if (damage_[i] == 0.0) {
+            terms.bonded[static_cast<std::size_t>(i)] = 1;
+            continue;
+        }
+        const double h = softness(damage_[i]);
+        terms.stiffness(i, i) += h * b.tension / b.opening;
+        const Yield yield = yield_[static_cast<std::size_t>(i)];
+        if (yield != Yield::none) {
+            terms.force[m + i] += static_cast<double>(yield) * b.shear * (1.0 - damage_[i]);
+            continue;
+        }
+        const double along = plastic(i) ? initial_stiffness(i) : h * b.shear / b.slip;
+        terms.stiffness(m + i, m + i) += along;
+        terms.force[m + i] += along * (slip_[i] - reference_[i]);
+    }
+}
+
+/// Where κ = ε(κ) lies by the last two solutions, each pair by itself: the bond gives way by ε h(κ) + V ε = D, in its strength,
+/// with the stiffness V that what is around shows it and the drive D; beyond V = 1 it snaps through.
+double BondLaw::guess(Index pair, double wanted, double strain) const
+{
+    const double before = tried_damage_[pair], now = damage_[pair], last = tried_strain_[pair];
+    if (last < 0.0 || before == now || strain == last || plastic(pair)) return wanted;
+    const double around = (strain * softness(now) - last * softness(before)) / (last - strain);
+    const double drive = strain * (around + softness(now));
+    if (!std::isfinite(around) || around < 0.0) return wanted;
+    if (drive > 1.0 && around <= 1.0) return 1.0;
+    const double balance = (drive - 1.0) / (around - 1.0);
+    return (balance - now) * (wanted - now) > 0.0 ? balance : wanted;
+}
+
+/// The bond yields where its trial force is beyond its strength, and sticks again where that turns round.
+bool BondLaw::revise_yield(Index pair, const ContactSolution& solution)
+{
+    if (!plastic(pair)) return false;
+    Yield& yield = yield_[static_cast<std::size_t>(pair)];
+    const double strength = strength_[static_cast<std::size_t>(pair)].shear * (1.0 - damage_[pair]);
+    const double trial = initial_stiffness(pair) * elastic_slip(pair, solution);
+    const Yield wanted = std::abs(trial) <= strength * (1.0 + 1e-12) ? Yield::none
+                         : trial > 0.0                               ? Yield::downstream
+                                                                     : Yield::upstream;
+    if (wanted == yield) return false;
+    yield = wanted;
+    return true;
+}
+
+JointFit BondLaw::revise_pair(Index pair, const ContactSolution& solution)
+{
+    const double now = damage_[pair];
+    if (now == 0.0) {
+        if (first_damage(pair, solution) <= 1.0 + 1e-10) return JointFit::fits;
+        damage_[pair] = smallest_damage;
+        return JointFit::changed;
+    }
+    if (revise_yield(pair, solution)) return JointFit::changed;
+    const double least = std::max(start_damage_[pair], smallest_damage);
+    const double strain_now = strain(pair, solution).size();
+    double wanted = std::clamp(strain_now, least, 1.0);
+    if (solutions_ > free_solutions) wanted = std::max(wanted, now);
+    if (std::abs(wanted - now) <= (static_ ? damage_tolerance : step_damage_tolerance)) return JointFit::fits;
+    const double next = solutions_ > free_solutions ? wanted : std::clamp(guess(pair, wanted, strain_now), least, 1.0);
+    tried_damage_[pair] = now;
+    tried_strain_[pair] = strain_now;
+    damage_[pair] = next;
+    return JointFit::changed;
+}
+
+JointFit BondLaw::revise(const ContactSolution& solution)
+{
+    if (held_) return JointFit::fits;
+    ++solutions_;
+    JointFit fit = JointFit::fits;
+    for (Index i = 0; i < damage_.size(); ++i)
+        if (strength_[static_cast<std::size_t>(i)].any() && start_damage_[i] < 1.0)
+            fit = std::max(fit, revise_pair(i, solution));
+    if (fit == JointFit::changed)
+        return solutions_ < (static_ ? most_solutions : most_solutions_of_step) ? fit : JointFit::too_far;
+    if (solutions_ > free_solutions)
+        for (Index i = 0; i < damage_.size(); ++i)
+            if (damage_[i] >
+                std::max({strain(i, solution).size(), start_damage_[i], smallest_damage}) + largest_overshoot)
+                return JointFit::too_far;
+    return fit;
+}
+
+void BondLaw::end(const ContactSolution& solution)
+{
+    stored_ = 0.0;
+    for (Index i = 0; i < damage_.size(); ++i) {
+        const BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        if (!b.any() || (damage_[i] == 0.0 && start_damage_[i] == 0.0)) continue;
+        const Strain e = strain(i, solution);
+        const double size = e.size();
+        const double mix = size > 0.0 ? energy_of(i, e) / square(size) : std::max(b.tension_energy, b.shear_energy);
+        fracture_ += mix * (damage_[i] - start_damage_[i]);
+        if (plastic(i) && yield_[static_cast<std::size_t>(i)] != Yield::none) {
+            const double limit = b.shear * (1.0 - damage_[i]) / initial_stiffness(i);
+            const double slip = elastic_slip(i, solution), yielded = std::max(0.0, std::abs(slip) - limit);
+            path_[i] += yielded;
+            reference_[i] += std::copysign(yielded, slip);
+        }
+        if (damage_[i] < 1.0 && damage_[i] > 0.0 && !plastic(i)) stored_ += softness(damage_[i]) * energy_of(i, e);
+    }
+    start_damage_ = damage_;
+}
+
+JointEnergy BondLaw::energy() const
+{
+    JointEnergy e;
+    e.stored = stored_;
+    e.bond_fracture = fracture_;
+    return e;
+}
+
+double BondLaw::broken(Index first, Index pairs) const
+{
+    double spent = 0.0, all = 0.0;
+    for (Index i = first; i < first + pairs; ++i) {
+        const BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        spent += damage_[i] * (b.tension_energy + b.shear_energy);
+        all += b.tension_energy + b.shear_energy;
+    }
+    return all > 0.0 ? spent / all : 0.0;
+}
+
+VectorXd BondLaw::excess(const ContactSolution& solution) const
+{
+    VectorXd result = VectorXd::Zero(damage_.size());
+    for (Index i = 0; i < damage_.size(); ++i) {
+        if (!strength_[static_cast<std::size_t>(i)].any() || damage_[i] >= 1.0) continue;
+        result[i] = damage_[i] == 0.0 ? first_damage(i, solution) : strain(i, solution).size() / damage_[i];
+    }
+    return result;
+}
+
+void BondLaw::damage_more(Index pair, double share)
+{
+    double& damage = damage_[pair];
+    damage = damage == 0.0 ? smallest_damage : std::min(1.0, (1.0 + share) * damage);
+}
+
+std::unique_ptr<BondLaw> BondLaw::released() const
+{
+    auto copy = std::make_unique<BondLaw>(*this);
+    copy->held_ = false;
+    return copy;
+}
+
+std::unique_ptr<BondLaw> BondLaw::held() const
+{
+    auto copy = std::make_unique<BondLaw>(*this);
+    copy->held_ = true;
+    return copy;
+}
+
+} // namespace damslip::fe2d

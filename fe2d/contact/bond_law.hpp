@@ -1,0 +1,101 @@
+#pragma once
+
+#include "fe2d/contact/joint_law.hpp"
+#include "scene/joint_laws.hpp"
+
+#include <vector>
+
+namespace damslip::fe2d {
+
+/// Strength of the bond of one pair; areas counted in.
+struct BondStrength {
+    double area = 0.0;           ///< A [m]
+    double tension = 0.0;        ///< f_t A [N/m]
+    double shear = 0.0;          ///< c A [N/m]
+    double tension_energy = 0.0; ///< G_I A [J/m]
+    double shear_energy = 0.0;   ///< G_II A [J/m]
+    double opening = 0.0;        ///< w_I = 2 G_I/f_t: opening that breaks it [m]
+    double slip = 0.0;           ///< w_II = 2 G_II/c [m]
+    double friction = 0.0;       ///< mu for the first damage [-]
+    BondUnloading unloading = BondUnloading::origin;
+
+    bool any() const { return tension > 0.0 || shear > 0.0; }
+};
+
+/// The bond of one pair. Without tensile strength opening breaks it as slip does, w_I = w_II, and takes no work across the
+/// joint; without cohesion the other way round.
+/// @param area  [m] @param friction  mu [-] @pre an energy for each strength
+BondStrength bond_strength(double area, double friction, double cohesion, const Bond& bond);
+
+/// Bond with fracture energy (JOINTS 1): a cohesive law in two modes beside Coulomb's friction. With g⁺ = max(g, 0) and the
+/// largest damage κ ever,
+///
+///     ε = √((g⁺/w_I)² + (s/w_II)²),   κ = max(κ, min(ε, 1)),   h = (1 - κ)/κ,
+///
+/// the bond pulls with f_t h g⁺/w_I and c h s/w_II: its strength falls linearly along any straight path, which costs
+/// G_I cos²ψ + G_II sin²ψ (Camanho & Dávila 2002; beside friction Alfano & Sacco 2006). A pair is rigid until tension and
+/// shear beyond friction reach √((-λ_n/f_tA)² + (|λ_t|/cA)²) = 1. Unloading goes to the origin; `plastic` unloads along
+/// the joint with the stiffness at first damage.
+///
+/// A step finds the damage by fixed points κ = ε(x(κ)), pair by pair with a secant: each solution has a fixed Z.
+class BondLaw final : public JointLaw {
+public:
+    explicit BondLaw(std::vector<BondStrength> pairs);
+
+    std::unique_ptr<JointLaw> clone() const override { return std::make_unique<BondLaw>(*this); }
+    void begin(const JointStart& start) override;
+    void add(JointTerms& terms) const override;
+    JointFit revise(const ContactSolution& solution) override;
+    void end(const ContactSolution& solution) override;
+    JointEnergy energy() const override;
+
+    const std::vector<BondStrength>& strength() const { return strength_; }
+    const Eigen::VectorXd& damage() const { return damage_; }    ///< κ of each pair: 0 intact, 1 broken [-]
+    double broken(Eigen::Index first, Eigen::Index pairs) const; ///< share of the bond's fracture work spent [-]
+
+    /// For path following, where the caller decides which pair breaks next. How far a solution is beyond the damage of
+    /// each pair: ε/κ, or the first-damage measure of rigid pairs; 0 of broken ones [-].
+    Eigen::VectorXd excess(const ContactSolution& solution) const;
+    /// Damages a pair for the first time, or by a share of the damage it has.
+    void damage_more(Eigen::Index pair, double share);
+    /// A copy that keeps its damage whatever the solution: revise() fits always.
+    std::unique_ptr<BondLaw> held() const;
+    std::unique_ptr<BondLaw> released() const; ///< a copy whose damage follows the solutions again
+
+private:
+    /// Opening and slip of a pair over what breaks it.
+    struct Strain {
+        double across = 0.0, along = 0.0;
+        double size() const;
+    };
+    /// Which way a bond of plastic unloading yields.
+    enum class Yield : signed char { upstream = -1, none = 0, downstream = 1 };
+
+    Strain strain(Eigen::Index pair, const ContactSolution& solution) const;
+    double first_damage(Eigen::Index pair, const ContactSolution& solution) const;
+    double energy_of(Eigen::Index pair, const Strain& strain) const;
+    double guess(Eigen::Index pair, double wanted, double strain) const;
+    JointFit revise_pair(Eigen::Index pair, const ContactSolution& solution);
+    bool revise_yield(Eigen::Index pair, const ContactSolution& solution);
+    double elastic_slip(Eigen::Index pair, const ContactSolution& solution) const;
+    double initial_stiffness(Eigen::Index pair) const;
+    bool plastic(Eigen::Index pair) const;
+
+    std::vector<BondStrength> strength_;
+    Eigen::VectorXd damage_;    ///< κ
+    Eigen::VectorXd reference_; ///< slip without shear in the bond: moves where it unloads plastically [m]
+    Eigen::VectorXd path_;      ///< plastic slip so far, its way [m]
+    double fracture_ = 0.0;     ///< spent [J/m]
+    double stored_ = 0.0;       ///< [J/m]
+
+    // Of the step at hand.
+    Eigen::VectorXd start_damage_;
+    Eigen::VectorXd slip_; ///< at its start [m]
+    std::vector<Yield> yield_;
+    Eigen::VectorXd tried_damage_, tried_strain_; ///< of the solution before the last; strain < 0: none
+    int solutions_ = 0;
+    bool held_ = false;
+    bool static_ = true;
+};
+
+} // namespace damslip::fe2d

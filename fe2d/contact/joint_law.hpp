@@ -1,0 +1,74 @@
+#pragma once
+
+#include "fe2d/contact/contact_problem.hpp"
+
+#include <memory>
+
+namespace damslip::fe2d {
+
+/// Energy of the laws of a joint beside hard contact and Coulomb's friction, summed up from the start [J/m].
+struct JointEnergy {
+    double stored = 0.0;         ///< in bonds and anchors; given back
+    double bond_fracture = 0.0;  ///< spent on breaking bonds
+    double anchor_plastic = 0.0; ///< spent on yielding anchors
+    double anchor_loss = 0.0;    ///< stored in anchors that snapped
+    double water = 0.0;          ///< done by the water in the joint, beyond its pressure before the earthquake
+
+    /// What forces of the laws have taken from dam and rock.
+    double taken() const { return stored + bond_fracture + anchor_plastic + anchor_loss - water; }
+    JointEnergy& operator+=(const JointEnergy& other);
+};
+
+/// What a law does to the contact problem in its present state. Contact forces become
+///
+///     λ_c = λ⁰ + r + (V + Z) x,   x = (opening g_N at the end of the step, slip s within it),
+///
+/// so the law's own force on the upper side is -(r + Z x), and all that crosses the joint λ = λ_c - (r + Z x) = λ⁰ + V x.
+struct JointTerms {
+    Eigen::MatrixXd stiffness; ///< Z, 2m x 2m, symmetric, positive semi-definite [N/m²]
+    Eigen::VectorXd force;     ///< r, 2m [N/m]
+    ContactLaw strength;       ///< of λ_c: a law may change friction and cohesion of pairs
+    std::vector<char> bonded;  ///< m: not 0, x of the pair is zero whatever the force
+};
+
+/// What laws need of the start of a step. References live as long as the step.
+struct JointStart {
+    double dt = 0.0;                ///< [s]; 0: a static stage
+    const Eigen::VectorXd& opening; ///< m [m]
+    const Eigen::VectorXd& slip;    ///< sum so far, m [m]
+    const ContactStates& states;
+    /// Rate of the slip at the end of the step: rate_slope s + rate_known [1/s], m [m/s]; static: 0, empty
+    double rate_slope = 0.0;
+    Eigen::VectorXd rate_known = {};
+    const Eigen::MatrixXd* stiffness = nullptr; ///< V; JointLaws::solve() knows it
+    const ContactLaw* strength = nullptr;       ///< of the pairs without the laws; the same
+};
+
+/// How a law takes the solution of a contact problem.
+enum class JointFit {
+    fits,    ///< its state is that of the solution
+    changed, ///< the state is another one: solve again
+    too_far  ///< it gives up: the step is too long (made in halves), a static stage needs another way
+};
+
+/// A law of the joint beside hard contact and Coulomb's friction: bond, anchor, water in the opening joint, friction over
+/// the rate. Its state belongs to ContactMemory and is copied with it, so a step that is given up leaves no trace.
+///
+/// A step: begin(), then { add(), the contact problem, revise() } until it fits, then end(). A static stage is a step without
+/// time, dt = 0.
+class JointLaw {
+public:
+    virtual ~JointLaw() = default;
+    virtual std::unique_ptr<JointLaw> clone() const = 0;
+
+    virtual void begin(const JointStart& start) = 0;
+    /// Adds its part in its present state.
+    virtual void add(JointTerms& terms) const = 0;
+    /// @param solution  x, and λ_c as force
+    virtual JointFit revise(const ContactSolution& solution) = 0;
+    /// The step is made. @param solution  as of revise(), the last one
+    virtual void end(const ContactSolution& solution) = 0;
+    virtual JointEnergy energy() const = 0; ///< after end()
+};
+
+} // namespace damslip::fe2d

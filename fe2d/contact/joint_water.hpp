@@ -1,0 +1,79 @@
+#pragma once
+
+#include "fe2d/contact/joint_flow.hpp"
+#include "fe2d/contact/joint_law.hpp"
+#include "scene/joint_laws.hpp"
+#include "scene/pressure_profile.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace damslip::fe2d {
+
+/// A joint with water in it, as the laws of that water see it.
+struct WetJoint {
+    Eigen::Index first = 0;                                    ///< its first pair among all
+    Eigen::VectorXd distance;                                  ///< of its m pairs from the upstream end [m]
+    Eigen::VectorXd area;                                      ///< length that belongs to each [m]
+    PressureProfile before;                                    ///< before the earthquake: a load, outside of the laws
+    double upstream_pressure = 0.0, downstream_pressure = 0.0; ///< of the water before its ends; 0: dry [Pa]
+    double fall = 0.0;                                         ///< sin θ of its slope, positive: dips downstream [-]
+    /// With cracks of these lengths from the upstream and the downstream end: full head in them, and what that makes of
+    /// the pressure beyond.
+    std::function<PressureProfile(double upstream, double downstream)> cracked;
+    std::optional<Eigen::Index> drain; ///< pair at the drains
+    JointFluid fluid;                  ///< of JointWaterLaw
+
+    Eigen::Index pairs() const { return area.size(); }
+    double length() const { return area.sum(); }
+};
+
+/// Mean pressure on each pair: ∫ p N ds over its area, N linear between the pairs [Pa].
+Eigen::VectorXd pair_pressure(const WetJoint& joint, const PressureProfile& profile);
+
+/// Lengths of the runs of open pairs that begin at the two ends [m]: up to the place where the opening, continued linearly
+/// from the last two open pairs, is zero, at most up to the first shut pair; of a single open pair half the way to it.
+struct CrackLengths {
+    double upstream = 0.0, downstream = 0.0;
+};
+/// @param opening, states  of the joint's pairs
+CrackLengths crack_lengths(const WetJoint& joint, const Eigen::VectorXd& opening, const ContactStates& states);
+
+/// What the water in a joint has come to, for people.
+struct JointWaterReport {
+    CrackLengths crack;            ///< now [m]
+    CrackLengths largest;          ///< so far [m]
+    double wet_length = 0.0;       ///< how far the water has come from the upstream end (opening mouth) [m]
+    Eigen::VectorXd pressure;      ///< by pair now [Pa]
+    Eigen::VectorXd force;         ///< on both faces of each pair, beyond that of the pressure before [N/m]
+    double least_pressure = 0.0;   ///< so far [Pa]
+    double largest_pressure = 0.0; ///< so far [Pa]
+    double reynolds_number = 0.0;  ///< largest so far, opening reynolds [-]
+    double cracked_through = 0.0;  ///< time during which a crack went from end to end [s]
+    JointFlowWork flow;            ///< opening reynolds, since the start [J/m]
+};
+
+/// Water that follows the opening of a joint: a change of the pressure before the earthquake, on both faces. It acts while
+/// it shakes only; static stages (dt = 0) have the pressure of their load.
+class CrackWater : public JointLaw {
+public:
+    virtual const JointWaterReport& report() const = 0;
+    /// Pressure of the reservoir's waves at the upstream end, on top of the water at rest [Pa].
+    virtual void set_wave_pressure(double) {}
+    JointEnergy energy() const override { return energy_; }
+
+protected:
+    explicit CrackWater(std::shared_ptr<const WetJoint> joint);
+    void look(double dt, const Eigen::VectorXd& opening, const ContactStates& states);
+    void add_work(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& opened);
+
+    std::shared_ptr<const WetJoint> joint_;
+    Eigen::VectorXd at_rest_; ///< pressure before the earthquake by pair [Pa]
+    JointWaterReport report_;
+    JointEnergy energy_;
+};
+
+/// @returns null for water that does not follow (JointWaterLaw::follows())
+std::unique_ptr<CrackWater> make_joint_water(const JointWaterLaw& law, std::shared_ptr<const WetJoint> joint);
+
+} // namespace damslip::fe2d

@@ -1,0 +1,314 @@
+#include "sliding/block/anchored_step.hpp"
+
+#include "sliding/block/roots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace damslip::sliding {
+namespace {
+
+using std::numbers::pi;
+
+/// Slip at which the bar has a stretch, on the side where moving along d lengthens (or shortens) it; the other end of the real
+/// line where it never has.
+double slip_at(const AnchorBar& bar, double stretch, double side)
+{
+    const double more = stretch * (2.0 * bar.length + stretch), start = bar.length * bar.sine;
+    const double square = start * start + more; // (L sin ψ + s)²
+    if (!(square >= 0.0)) return side > 0.0 ? -HUGE_VAL : HUGE_VAL;
+    const double root = std::sqrt(square);
+    // side root - start, without cancellation where they have the same sign.
+    return side * start > 0.0 ? side * more / (root + side * start) : side * root - start;
+}
+
+/// Does a slide along d lengthen the bar? Yes at its shortest, round-off apart.
+bool lengthens_along(const AnchorBar& bar, double d, double s)
+{
+    return d * (bar.length * bar.sine + s) >= -1e-12 * bar.length;
+}
+
+} // namespace
+
+void BlockAnchor::face(double d, double s)
+{
+    if (history.state == AnchorState::snapped) return;
+    const double at = bar.stretch(0.0, s), trial = history.trial_force(bar, at);
+    const bool lengthens = lengthens_along(bar, d, s);
+    const double round_off = 1e-13 * bar.axial_stiffness;
+    if (lengthens && trial >= bar.yield_force - round_off)
+        history.state = AnchorState::yields;
+    else if (trial < -round_off || (trial <= round_off && !lengthens))
+        history.state = AnchorState::slack;
+    else
+        history.state = AnchorState::elastic;
+    if (bar.dowel > 0.0) {
+        const double place = std::asin(std::clamp(trial / bar.yield_force, 0.0, 1.0)) / (0.5 * pi) * dowel_chords;
+        chord = std::clamp(static_cast<int>(lengthens ? std::floor(place + 1e-9) : std::ceil(place - 1e-9) - 1.0), 0,
+                           dowel_chords - 1);
+    }
+}
+
+double BlockAnchor::next_change(double d, double s)
+{
+    next_ = Change::none;
+    if (history.state == AnchorState::snapped) return never;
+    double nearest = never;
+    const bool lengthens = lengthens_along(bar, d, s);
+    const auto look = [&](Change change, double strain) {
+        const double stretch = bar.length * (strain - bar.prestress / bar.axial_stiffness);
+        const double way = d * (slip_at(bar, stretch, lengthens ? d : -d) - s);
+        if (!(way < nearest)) return;
+        nearest = std::max(0.0, way);
+        next_ = change;
+    };
+    if (!lengthens) { // its shortest length
+        nearest = std::abs(bar.length * bar.sine + s);
+        next_ = Change::turn;
+    }
+    const double slack_at = history.plastic_strain, yield_at = slack_at + bar.yield_strain();
+    switch (history.state) {
+    case AnchorState::elastic:
+        look(lengthens ? Change::yields : Change::slack, lengthens ? yield_at : slack_at);
+        if (bar.dowel > 0.0) {
+            const DowelChord c = dowel_chord(chord);
+            const bool last = lengthens ? chord + 1 == dowel_chords : chord == 0;
+            if (!last) look(Change::chord, slack_at + bar.yield_strain() * (lengthens ? c.to : c.from));
+        }
+        break;
+    case AnchorState::slack:
+        if (lengthens) look(Change::tight, slack_at);
+        break;
+    case AnchorState::yields:
+    case AnchorState::snapped:
+        break;
+    }
+    if (lengthens && bar.rupture_strain) look(Change::snaps, *bar.rupture_strain);
+    return nearest;
+}
+
+void BlockAnchor::change(double s, double time)
+{
+    switch (next_) {
+    case Change::yields:
+        history.state = AnchorState::yields;
+        break;
+    case Change::slack:
+        history.state = AnchorState::slack;
+        break;
+    case Change::tight:
+        history.state = AnchorState::elastic;
+        break;
+    case Change::snaps:
+        go_to(s);
+        history.snap(bar, time);
+        break;
+    case Change::none:
+    case Change::chord:
+    case Change::turn:
+        break;
+    }
+}
+
+void BlockAnchor::go_to(double s)
+{
+    history.stretch_to(bar, bar.stretch(0.0, s));
+}
+
+double BlockAnchor::tangential(double s) const
+{
+    return history.force * bar.direction(0.0, s).along;
+}
+
+double BlockAnchor::normal(double s) const
+{
+    return history.force * bar.direction(0.0, s).normal;
+}
+
+double BlockAnchor::dowel() const
+{
+    if (bar.dowel == 0.0 || history.state == AnchorState::snapped) return 0.0;
+    return bar.dowel * dowel_share(history.force / bar.yield_force);
+}
+
+namespace {
+
+/// Σ_{j=0..i} a_j b_{i-j}
+template <class Series>
+double product(const Series& a, const Series& b, int i)
+{
+    double sum = 0.0;
+    for (int j = 0; j <= i; ++j) sum += a[j] * b[i - j];
+    return sum;
+}
+
+/// One bar as series in time, term by term behind the slip's.
+template <class Series>
+class BarSeries {
+public:
+    BarSeries(const BlockAnchor& anchor, double s) : a_(anchor), s_(s) {}
+
+    /// Term i of N sin ψ', N cos ψ', D. @param slip  terms of s up to i
+    void next(const Series& slip, int i)
+    {
+        const AnchorBar& bar = a_.bar;
+        const AnchorState state = a_.history.state;
+        if (state == AnchorState::snapped) return;
+        if (state == AnchorState::slack) {
+            if (i == 0) dowel[0] = bar.dowel;
+            return;
+        }
+        u_[i] = slip[i] + (i == 0 ? bar.length * bar.sine : 0.0);
+        const double across = bar.length * bar.cosine;
+        double square = product(u_, u_, i) + (i == 0 ? across * across : 0.0); // of l²
+        if (i == 0) {
+            length_[0] = std::sqrt(square);
+            inverse_[0] = 1.0 / length_[0];
+        } else {
+            for (int j = 1; j < i; ++j) square -= length_[j] * length_[i - j];
+            length_[i] = square / (2.0 * length_[0]);
+            double sum = 0.0;
+            for (int j = 1; j <= i; ++j) sum += length_[j] * inverse_[i - j];
+            inverse_[i] = -sum / length_[0];
+        }
+        if (state == AnchorState::yields)
+            force_[i] = i == 0 ? bar.yield_force : 0.0;
+        else
+            force_[i] = i == 0 ? a_.history.trial_force(bar, bar.stretch(0.0, s_)) : bar.stiffness() * length_[i];
+        sine_[i] = product(u_, inverse_, i);
+        tangential[i] = product(force_, sine_, i);
+        normal[i] = across * product(force_, inverse_, i);
+        if (bar.dowel > 0.0 && state == AnchorState::elastic) {
+            const DowelChord c = dowel_chord(a_.chord);
+            dowel[i] = bar.dowel * (c.per_share * force_[i] / bar.yield_force + (i == 0 ? c.constant : 0.0));
+        }
+    }
+
+    Series tangential{}, normal{}, dowel{};
+
+private:
+    const BlockAnchor& a_;
+    double s_;
+    Series u_{}, length_{}, inverse_{}, force_{}, sine_{};
+};
+
+/// Terms of the derivative.
+template <class Series>
+std::vector<double> rate_of(const Series& c)
+{
+    std::vector<double> d(c.size() - 1);
+    for (std::size_t i = 1; i < c.size(); ++i) d[i - 1] = static_cast<double>(i) * c[i];
+    return d;
+}
+
+} // namespace
+
+AnchoredStep::AnchoredStep(const AnchoredSlip& anchored, std::span<const BlockAnchor> anchors)
+    : touching_(anchored.touching)
+{
+    const SlopedSlip& slip = anchored.slip;
+    const double d = anchored.direction, ratio = slip.mass_tn / slip.mass_tt;
+    const double drive_rate = (slip.drive.end - slip.drive.now) / slip.span;
+    const double normal_rate = (slip.normal.end - slip.normal.now) / slip.span;
+    std::vector<BarSeries<Series>> bars;
+    for (const BlockAnchor& anchor : anchors) bars.emplace_back(anchor, anchored.slip_now);
+
+    // As SlopedStep: with D = mass_tt + mass_tn mu, D w'' = right side, term by term; s = s_now + d w.
+    Series mu{}, mass{}, accel{}, drive{}, normal{}, s{};
+    w_[1] = slip.rate;
+    int terms = 0; // of accel
+    for (int i = 0; i <= order; ++i) {
+        s[i] = (i == 0 ? anchored.slip_now : 0.0) + d * w_[i];
+        drive[i] = i == 0 ? slip.drive.now + d * anchored.initial_tangential : i == 1 ? drive_rate : 0.0;
+        normal[i] = i == 0 ? slip.normal.now - anchored.initial_normal : i == 1 ? normal_rate : 0.0;
+        double held = i == 0 ? slip.cohesion : 0.0;
+        for (BarSeries<Series>& bar : bars) {
+            bar.next(s, i);
+            drive[i] -= d * bar.tangential[i];
+            normal[i] += bar.normal[i];
+            held += bar.dowel[i];
+        }
+        free_normal_[i] = normal[i] + ratio * drive[i];
+        if (i + 2 > order) continue;
+        double right = drive[i];
+        if (touching_) {
+            mu[i] = i == 0 ? slip.friction : slip.slope * w_[i];
+            mass[i] = (i == 0 ? slip.mass_tt : 0.0) + slip.mass_tn * mu[i];
+            right -= held + product(mu, normal, i);
+        } else {
+            mass[i] = i == 0 ? slip.mass_tt : 0.0;
+        }
+        for (int j = 1; j <= i; ++j) right -= mass[j] * accel[i - j];
+        accel[i] = right / mass[0];
+        if (i == 0 && slip.from_rest) accel[0] = std::max(accel[0], 0.0);
+        w_[i + 2] = accel[i] / (static_cast<double>(i + 2) * (i + 1));
+        terms = i + 1;
+    }
+    for (const BarSeries<Series>& bar : bars) dowels_.push_back(bar.dowel);
+
+    // The last two terms of w'' stay below round-off of its largest one.
+    length_ = slip.span;
+    for (int halvings = 0; halvings < 200; ++halvings) {
+        double largest = 0.0, last = 0.0, power = 1.0;
+        for (int i = 0; i < terms; ++i, power *= length_) {
+            const double term = std::abs(accel[i]) * power;
+            largest = std::max(largest, term);
+            if (i + 2 >= terms) last = std::max(last, term);
+        }
+        if (last <= 1e-17 * largest) break;
+        length_ *= 0.5;
+    }
+}
+
+double AnchoredStep::path(double h) const
+{
+    return polynomial(w_, h);
+}
+
+double AnchoredStep::rate(double h) const
+{
+    return polynomial(rate_of(w_), h);
+}
+
+double AnchoredStep::accel(double h) const
+{
+    return polynomial(rate_of(rate_of(w_)), h);
+}
+
+double AnchoredStep::time_of_stop() const
+{
+    return first_fall_to_zero(rate_of(w_), length_);
+}
+
+double AnchoredStep::time_of_path(double target, double until) const
+{
+    return bracketed_root([&](double h) { return path(h) - target; }, 0.0, until);
+}
+
+double AnchoredStep::time_of_contact_change() const
+{
+    // The state says on which side of zero N' is now, whatever round-off says just after an event.
+    Series side = free_normal_;
+    if (!touching_)
+        for (double& term : side) term = -term;
+    side[0] = std::max(side[0], 0.0);
+    return first_fall_to_zero(side, length_);
+}
+
+double AnchoredStep::dowel_work(std::size_t k, double h) const
+{
+    if (!touching_) return 0.0;
+    // ∫ D w' dh
+    const std::vector<double> rate = rate_of(w_);
+    const Series& dowel = dowels_[k];
+    double sum = 0.0;
+    for (std::size_t i = 0; i < dowel.size(); ++i) {
+        if (dowel[i] == 0.0) continue;
+        for (std::size_t j = 0; j < rate.size(); ++j)
+            sum += dowel[i] * rate[j] * std::pow(h, static_cast<double>(i + j + 1)) / static_cast<double>(i + j + 1);
+    }
+    return sum;
+}
+
+} // namespace damslip::sliding

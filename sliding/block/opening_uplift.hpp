@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+namespace damslip::sliding {
+
+enum class SlipDirection { downstream = 1, upstream = -1 };
+
+/// Change of the uplift of a block by the crack that its own motion opens, for each direction of sliding [N/m]. While a block
+/// slides it has the acceleration at which it began to, whatever the ground does, and so one crack: only the vertical
+/// acceleration changes it. Below that it rests, and how much it is pressed does not matter.
+struct OpeningUplift {
+    std::vector<double> accel_v;              ///< a_v, ascending, at least one [m/s²]
+    std::vector<double> downstream, upstream; ///< change of U there, linear between, constant beyond [N/m]
+
+    double at(SlipDirection direction, double a_v) const;
+    double per_accel_v(SlipDirection direction) const; ///< about a_v = 0 [kg/m]
+    double largest() const;                            ///< of both directions, at least 0
+};
+
+} // namespace damslip::sliding

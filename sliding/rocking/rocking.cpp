@@ -1,0 +1,85 @@
+#include "sliding/rocking/rocking.hpp"
+
+#include "core/number.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/rocking/rocking_motion.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace damslip::sliding {
+
+namespace {
+
+/// The resultant of the static loads acts outside the base.
+bool tips_statically(const RockingBlock& block)
+{
+    const RockingStage& first = block.stages.front();
+    return corner(block, first, Stance::toe).moment > 0.0 || corner(block, first, Stance::heel).moment < 0.0;
+}
+
+Status status_of(const RockingMotion& motion, const RockingBlock& block, StaticState state)
+{
+    if (motion.unresolved()) return Status::not_resolved;
+    if (state != StaticState::at_rest) return status_of(state);
+    if (tips_statically(block)) return Status::overturns;
+    if (motion.overturned()) return Status::overturned;
+    return motion.at_rest() ? Status::at_rest : Status::sliding_at_end;
+}
+
+void add_notes(const RockingMotion& motion, const SlideOptions& options, RockingResult& result)
+{
+    std::vector<std::string>& notes = result.slide.notes;
+    if (result.slide.status == Status::overturned)
+        notes.push_back("It turns by 90 degrees at " + shortest(result.overturned_time) + " s.");
+    if (result.slide.status == Status::sliding_at_end)
+        notes.push_back("Still moving " + shortest(options.sliding.run_out_max) +
+                        " s after the record's end: the slip is a lower bound.");
+    if (result.slide.status == Status::not_resolved)
+        notes.push_back((motion.jammed()
+                             ? std::string("Friction holds the corner that slides however hard it is driven "
+                                           "(Painlevé's paradox)")
+                             : std::string("More events in one sample interval than a motion can have")) +
+                        " at " + shortest(result.slide.end_time) + " s.");
+    if (result.slide.lift_offs > 0)
+        notes.push_back("The block lost its weight " + std::to_string(result.slide.lift_offs) +
+                        " times (N' = 0): no resistance then, and no flight.");
+}
+
+} // namespace
+
+RockingResult rock_and_slide(const GroundMotion& motion, const RockingBlock& block, const SlideOptions& options,
+                             const RockingStart& start)
+{
+    check_motion(motion);
+    SlipStages stages;
+    for (const RockingStage& stage : block.stages) stages.push_back(stage.slip);
+    check_stages(stages);
+    const bool vertical = !motion.accel_v.empty();
+    const auto a_h = [&](std::size_t k) { return options.polarity * motion.accel_h[k]; };
+    const auto a_v = [&](std::size_t k) { return vertical ? motion.accel_v[k] : 0.0; };
+    const bool keep = options.history == HistoryOutput::samples;
+
+    RockingResult result;
+    RockingMotion state(block, options, start);
+    const std::size_t last = motion.accel_h.size() - 1;
+    if (keep) state.add_sample(0.0, result);
+    for (std::size_t k = 0; k < last && !state.finished(); ++k) {
+        state.cross(static_cast<double>(k) * motion.dt, motion.dt, {a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
+        if (keep) state.add_sample(static_cast<double>(k + 1) * motion.dt, result);
+    }
+    const StaticState standing = static_state(stages.front().block);
+    const double end = static_cast<double>(last) * motion.dt, longest = options.sliding.run_out_max;
+    if (standing == StaticState::at_rest && !tips_statically(block))
+        for (double elapsed = 0.0; elapsed < longest && !state.at_rest() && !state.finished(); elapsed += motion.dt) {
+            const double step = std::min(motion.dt, longest - elapsed);
+            state.cross(end + elapsed, step, {}, {});
+            if (keep) state.add_sample(end + elapsed + step, result);
+        }
+    state.write(result);
+    result.slide.status = status_of(state, block, standing);
+    add_notes(state, options, result);
+    return result;
+}
+
+} // namespace damslip::sliding

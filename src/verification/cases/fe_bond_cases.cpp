@@ -1,0 +1,314 @@
+#include "verification/cases/modules.hpp"
+
+#include "fe2d/contact/bond_law.hpp"
+#include "fe2d/run/static_path.hpp"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <numbers>
+
+namespace damslip::verification {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using fe2d::BondLaw;
+using fe2d::BondStrength;
+using fe2d::ContactMemory;
+using fe2d::ContactSolution;
+using std::numbers::pi;
+
+Bond bond_of(double tensile_strength, double tension_energy, double shear_energy)
+{
+    Bond bond;
+    bond.tensile_strength = tensile_strength;
+    bond.tension_energy = tension_energy;
+    bond.shear_energy = shear_energy;
+    return bond;
+}
+
+fe2d::JointLaws laws_of(std::vector<BondStrength> pairs)
+{
+    fe2d::JointLaws laws;
+    laws.add(std::make_unique<BondLaw>(std::move(pairs)));
+    return laws;
+}
+
+std::shared_ptr<const MatrixXd> shared(MatrixXd stiffness)
+{
+    return std::make_shared<const MatrixXd>(std::move(stiffness));
+}
+
+/// A bar above one bonded pair, its far end pulled away: the contact problem of one pair, solved step by step.
+class PulledBar {
+public:
+    PulledBar(double stiffness, const BondStrength& bond)
+        : stiffness_(stiffness), solver_(shared(stiffness * MatrixXd::Identity(2, 2)), {}), memory_(1)
+    {
+        memory_.laws = laws_of({bond});
+    }
+    /// @param pull  of the bar's far end, away and along [m] @returns forces that the bond carries, away and along [N/m]
+    Vector2d pull(double away, double along = 0.0)
+    {
+        VectorXd stuck(2);
+        stuck << -stiffness_ * away, stiffness_ * (memory_.slip[0] - along);
+        ContactSolution solution{memory_.states, {}, {}};
+        const auto report = memory_.laws.solve(solver_, stuck, {0.0, memory_.opening, memory_.slip, memory_.states},
+                                               fe2d::uniform_law(1, 0.0), solution);
+        if (!report.resolved()) return Vector2d::Constant(std::nan(""));
+        memory_.laws.end();
+        memory_.states = solution.states;
+        memory_.opening[0] = solution.displacement[0];
+        memory_.slip[0] += solution.displacement[1];
+        return -solution.force;
+    }
+    const BondLaw& bond() const { return *memory_.laws.find<BondLaw>(); }
+
+private:
+    double stiffness_;
+    fe2d::JointLawSolver solver_;
+    ContactMemory memory_;
+};
+
+/// (JOINTS 8.1) Bar of stiffness k = EA/L in series with a bond in mode I.
+std::vector<Check> pulled_bar()
+{
+    const double area = 0.5, f_t = 1.5e6, energy = 150.0, strength = f_t * area, width = 2 * energy / f_t;
+    const BondStrength bond = fe2d::bond_strength(area, 0.0, 0.0, bond_of(f_t, energy, 1.0));
+    std::vector<Check> checks;
+    const double stiff = 4.0 * strength / width; // no snap-back
+    PulledBar bar(stiff, bond);
+    const double at_peak = strength / stiff;
+    checks.push_back({"force just before the peak", "N/m", strength * (1 - 1e-6), bar.pull(at_peak * (1 - 1e-6))[0],
+                      1e-8, Measure::relative});
+    for (const double share : {0.3, 0.6, 0.9}) {
+        const double away = at_peak + share * (width - at_peak);
+        const double strain = (stiff * away - strength) / (stiff * width - strength);
+        checks.push_back({"force, " + std::to_string(share).substr(0, 3) + " of the way down", "N/m",
+                          strength * (1 - strain), bar.pull(away)[0], 1e-8, Measure::relative});
+    }
+    checks.push_back({"force of a broken bond over the peak", "-", 0.0, bar.pull(1.1 * width)[0] / strength, 1e-12,
+                      Measure::absolute});
+    checks.push_back(
+        {"work of fracture", "J/m", energy * area, bar.bond().energy().bond_fracture, 1e-8, Measure::relative});
+    for (const double ratio : {0.9, 1.1}) { // of L to E w_I/f_t
+        PulledBar other(strength / width / ratio, bond);
+        const double peak = width * ratio;
+        other.pull(peak * (1 + 1e-3));
+        checks.push_back(
+            {ratio < 1 ? "damage just after the peak, L = 0.9 E w/f" : "damage just after the peak, L = 1.1 E w/f", "-",
+             ratio < 1 ? 1e-3 * ratio / (1 - ratio) : 1.0, other.bond().damage()[0], ratio < 1 ? 1e-6 : 1e-12,
+             Measure::relative});
+    }
+    return checks;
+}
+
+/// (JOINTS 8.2, 8.3) Straight paths in both modes, and unloading.
+std::vector<Check> mixed_paths()
+{
+    const double area = 2.0, G1 = 150.0, G2 = 1500.0;
+    const BondStrength bond = fe2d::bond_strength(area, 0.0, 1e6, bond_of(1.5e6, G1, G2));
+    std::vector<Check> checks;
+    const double very_stiff = 1e6 * bond.tension / bond.opening; // the bond goes where it is pulled
+    for (const double degrees : {0.0, 25.0, 60.0, 89.0}) {
+        const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+        PulledBar bar(very_stiff, bond);
+        for (const double part : {0.2, 0.55, 1.2}) bar.pull(part * c * bond.opening, part * s * bond.slip);
+        checks.push_back({"work of fracture at " + std::to_string(static_cast<int>(degrees)) + " degrees", "J/m",
+                          area * (G1 * c * c + G2 * s * s), bar.bond().energy().bond_fracture, 1e-5,
+                          Measure::relative});
+    }
+    for (const bool along : {false, true}) {
+        PulledBar bar(very_stiff, bond);
+        const double kappa = 0.4, G = (along ? G2 : G1) * area;
+        bar.pull(along ? 0.0 : kappa * bond.opening, along ? kappa * bond.slip : 0.0);
+        const double reached = bar.bond().damage()[0];
+        checks.push_back({along ? "stored at damage, shear" : "stored at damage, tension", "J/m",
+                          G * reached * (1 - reached), bar.bond().energy().stored, 1e-5, Measure::relative});
+        bar.pull(0.0, 0.0);
+        checks.push_back({"dissipated when unloaded", "J/m", G * reached, bar.bond().energy().bond_fracture, 1e-8,
+                          Measure::relative});
+        checks.push_back(
+            {"stored when unloaded, over it", "-", 0.0, bar.bond().energy().stored / G, 1e-12, Measure::absolute});
+    }
+    return checks;
+}
+
+/// Largest share of `load` that pairs with these bonds carry on a body of stiffness V.
+double largest_load(const MatrixXd& stiffness, const VectorXd& load, std::vector<BondStrength> pairs, double step)
+{
+    const Index m = static_cast<Index>(pairs.size());
+    fe2d::JointLawSolver solver(shared(stiffness), {});
+    ContactMemory memory(m);
+    memory.laws = laws_of(std::move(pairs));
+    VectorXd at_rest = VectorXd::Zero(2 * m);
+    if (load.head(m).isZero()) at_rest.head(m).setOnes(); // something to press, without friction
+    return fe2d::follow_damage(solver, at_rest, at_rest + load, fe2d::uniform_law(m, 0.0), memory, step).largest_load;
+}
+
+/// Stiffness of a beam's nodes across, its rotations free (Hermite's cubic elements).
+MatrixXd beam(const VectorXd& lengths, double rigidity)
+{
+    const Index n = lengths.size() + 1;
+    MatrixXd k = MatrixXd::Zero(2 * n, 2 * n); // deflections, then rotations
+    for (Index e = 0; e + 1 < n; ++e) {
+        const double l = lengths[e], f = rigidity / (l * l * l);
+        const Index at[4] = {e, n + e, e + 1, n + e + 1};
+        const double own[4][4] = {{12, 6 * l, -12, 6 * l},
+                                  {6 * l, 4 * l * l, -6 * l, 2 * l * l},
+                                  {-12, -6 * l, 12, -6 * l},
+                                  {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) k(at[i], at[j]) += f * own[i][j];
+    }
+    const MatrixXd turned = k.bottomRightCorner(n, n).partialPivLu().solve(k.bottomLeftCorner(n, n));
+    const MatrixXd across = k.topLeftCorner(n, n) - k.topRightCorner(n, n) * turned;
+    return 0.5 * (across + across.transpose());
+}
+
+/// (JOINTS 8.4) A cantilever glued to a rigid base but for its first part a, pulled off at its free end.
+std::vector<Check> peeled_arm()
+{
+    std::vector<Check> checks;
+    const double energy = 1.0, rigidity = 1.0, f_t = 500.0;
+    for (const double arm : {10.0, 20.0}) {
+        const Index cells = 40;
+        VectorXd lengths = VectorXd::Constant(cells + 1, 0.01);
+        lengths[0] = arm;
+        const Index m = cells + 2;
+        MatrixXd stiffness = MatrixXd::Zero(2 * m, 2 * m);
+        stiffness.topLeftCorner(m, m) = beam(lengths, rigidity);
+        stiffness.bottomRightCorner(m, m) = 1e6 * MatrixXd::Identity(m, m);
+        std::vector<BondStrength> pairs(static_cast<std::size_t>(m));
+        for (Index i = 1; i < m; ++i)
+            pairs[static_cast<std::size_t>(i)] =
+                fe2d::bond_strength(i == 1 || i + 1 == m ? 0.005 : 0.01, 0.0, 0.0, bond_of(f_t, energy, energy));
+        const double exact = std::sqrt(2 * rigidity * energy) / arm;
+        VectorXd load = VectorXd::Zero(2 * m);
+        load[0] = -3.0 * exact;
+        checks.push_back({"pull at which it peels, a = " + std::to_string(static_cast<int>(arm)), "N/m", exact,
+                          3.0 * exact * largest_load(stiffness, load, pairs, 0.05), 0.03, Measure::relative});
+    }
+    return checks;
+}
+
+/// (JOINTS 8.5) A plate glued along its length to a rigid plane, pulled along at one end (Volkersen 1938).
+std::vector<Check> sheared_plate()
+{
+    std::vector<Check> checks;
+    const double c = 1e6, energy = 1000.0, width = 2 * energy / c, rigidity = 30e9 * 1.0; // E' t
+    const double l = std::sqrt(rigidity * width / c);
+    for (const double share : {0.5, 1.0, 1.5, 4.0}) {
+        const double length = share * l;
+        const Index m = 41;
+        const double h = length / static_cast<double>(m - 1), k = rigidity / h;
+        MatrixXd stiffness = MatrixXd::Zero(2 * m, 2 * m);
+        stiffness.topLeftCorner(m, m) = 1e3 * k * MatrixXd::Identity(m, m);
+        for (Index i = 0; i + 1 < m; ++i) {
+            stiffness.block(m + i, m + i, 2, 2) += k * Eigen::Matrix2d::Identity();
+            stiffness(m + i, m + i + 1) -= k;
+            stiffness(m + i + 1, m + i) -= k;
+        }
+        std::vector<BondStrength> pairs;
+        for (Index i = 0; i < m; ++i)
+            pairs.push_back(
+                fe2d::bond_strength(i == 0 || i + 1 == m ? 0.5 * h : h, 0.0, c, bond_of(0.0, energy, energy)));
+        const double exact = share < pi / 2 ? c * l * std::sin(share) : std::sqrt(2 * rigidity * energy);
+        VectorXd load = VectorXd::Zero(2 * m);
+        load[2 * m - 1] = -2.0 * exact;
+        checks.push_back({"largest pull, L = " + std::to_string(share).substr(0, 3) + " l", "N/m", exact,
+                          2.0 * exact * largest_load(stiffness, load, pairs, 0.01), 0.02, Measure::relative});
+    }
+    return checks;
+}
+
+/// (JOINTS 8.6) A rigid block under a constant push that its bond and friction do not hold.
+std::vector<Check> pushed_block()
+{
+    const double mass = 1e6, strength = 2e6, width = 2e-3, friction = 1e6, push = 4e6;
+    const BondStrength bond = fe2d::bond_strength(1.0, 0.0, strength, bond_of(0.0, 1.0, 0.5 * strength * width));
+    const double dt = 2e-5, stiffness = 4 * mass / (dt * dt), end = 0.08;
+    MatrixXd v = stiffness * MatrixXd::Identity(2, 2);
+    fe2d::JointLawSolver solver(shared(v), {});
+    ContactMemory memory(1);
+    memory.laws = laws_of({bond});
+    double rate = 0.0, accel = 0.0, rate_at_width = 0.0, at_half = 0.0;
+    const double omega = std::sqrt(strength / (mass * width));
+    const double half = std::acosh(1.0 + 0.5 * strength / (push - friction - strength)) / omega;
+    for (double time = dt; time < end && rate_at_width == 0.0; time += dt) {
+        VectorXd stuck(2);
+        stuck << 1e6, -push - 4 * mass / dt * rate - mass * accel;
+        ContactSolution solution{memory.states, {}, {}};
+        memory.laws.solve(solver, stuck, {dt, memory.opening, memory.slip, memory.states},
+                          fe2d::uniform_law(1, friction / 1e6), solution);
+        memory.laws.end();
+        memory.states = solution.states;
+        const double slip = solution.displacement[1], before = memory.slip[0], rate_before = rate;
+        accel = 4 / (dt * dt) * slip - 4 / dt * rate - accel;
+        rate = 2 * slip / dt - rate;
+        memory.slip[0] += slip;
+        if (before < 0.5 * width && memory.slip[0] >= 0.5 * width)
+            at_half = time - dt * (memory.slip[0] - 0.5 * width) / slip;
+        if (memory.slip[0] >= width) rate_at_width = rate_before + (rate - rate_before) * (width - before) / slip;
+    }
+    const double work = (push - friction) * width - 0.5 * strength * width;
+    return {
+        {"time to half the width", "s", half, at_half, 4e-2, Measure::relative},
+        {"rate at which the bond is gone", "m/s", std::sqrt(2 * work / mass), rate_at_width, 1e-3, Measure::relative},
+        {"work of fracture", "J/m", 0.5 * strength * width, memory.laws.energy().bond_fracture, 1e-8,
+         Measure::relative}};
+}
+
+/// (JOINTS 8.7) All strength at once: limit load of a plane, and a bond that cannot break.
+std::vector<Check> limit_loads()
+{
+    const fe2d::PlaneLimit plane{2e6, 0.0, 0.7, 10.0};
+    const fe2d::PlaneLoad before{10e6, 1e6, 50e6}, load{8e6, 9e6, 50e6};
+    const double exact = (2e6 + 0.7 * 10e6 - 1e6) / ((9e6 - 1e6) - 0.7 * (8e6 - 10e6));
+    std::vector<Check> checks{
+        {"limit load of sliding", "-", exact, fe2d::limit_load(plane, before, load), 1e-12, Measure::relative}};
+    const Index m = 21;
+    MatrixXd stiffness = 1e9 * MatrixXd::Identity(2 * m, 2 * m);
+    std::vector<BondStrength> pairs;
+    VectorXd pull = VectorXd::Zero(2 * m);
+    for (Index i = 0; i < m; ++i) {
+        pairs.push_back(fe2d::bond_strength(0.1, 0.0, 1e6, bond_of(0.0, 1.0, 1e12)));
+        for (Index j = 0; j < m; ++j) stiffness(m + i, m + j) = (i == j ? 1e9 : 0.0) - 1e9 / static_cast<double>(m);
+        pull[m + i] = -2e5 * (1.0 + 0.5 * std::sin(static_cast<double>(i)));
+    }
+    const double all = 0.1e6 * static_cast<double>(m) / -pull.tail(m).sum();
+    checks.push_back({"largest load over the limit load, tough bond", "-", 1.0,
+                      largest_load(stiffness, pull, pairs, 0.05) / all, 2e-3, Measure::relative});
+    return checks;
+}
+
+} // namespace
+
+void add_fe_bond_cases(Registry& cases)
+{
+    const std::string one_pair = "one pair: round-off of the fixed point of the damage, 1e-9";
+    cases.push_back({"fe2d.bond.bar",
+                     "A bond in series with a bar peaks at f_t A, softens by G_I, and snaps back iff L > E w/f_t.",
+                     "closed form, linear softening", one_pair + "", pulled_bar});
+    cases.push_back(
+        {"fe2d.bond.mixed",
+         "Straight paths in both modes cost G_I cos^2 + G_II sin^2; unloaded bonds give back what they stored.",
+         "Camanho & Davila (2002)", "1e-5: the bond is pulled by a spring a million times as stiff", mixed_paths});
+    cases.push_back({"fe2d.bond.peel", "A cantilever peels off its base at sqrt(2 E I G)/a.", "beam theory, Griffith",
+                     "3 %: the process zone at the tip, 0.05 long, counts to the arm", peeled_arm});
+    cases.push_back({"fe2d.bond.plate", "A glued plate is pulled off at c l sin(L/l), long ones at sqrt(2 E t G).",
+                     "Volkersen (1938), linear softening", "2 %: 40 cells, damage in steps of 1 %", sheared_plate});
+    cases.push_back(
+        {"fe2d.bond.block", "A block pushed off its bond: s = (P-R-cA) w/(cA) (cosh Omega t - 1).", "closed form",
+         "4 % in time: the first thousandth of the damage is elastic; energy 1e-3 by steps of 0.02 ms", pushed_block});
+    cases.push_back({"fe2d.bond.limit",
+                     "No plane carries more than all its strength at once; a bond that cannot break carries that.",
+                     "Radenkovic (1961)", "2e-3: the first thousandth of the damage costs as much strength",
+                     limit_loads});
+}
+
+} // namespace damslip::verification
