@@ -24,11 +24,14 @@ function(damslip_install_package)
   add_library(damslip_analysis INTERFACE)
   target_link_libraries(damslip_analysis INTERFACE
     analysis_prepare analysis_screen analysis_fe analysis_sweep analysis_accuracy analysis_ablation)
-  foreach(target damslip_records damslip_sliding fe2d damslip_analysis)
+  add_library(damslip_probability INTERFACE)
+  target_link_libraries(damslip_probability INTERFACE
+    probability_laws probability_sampling probability_fit probability_estimate probability_hazard probability_sensitivity probability_export)
+  foreach(target damslip_records damslip_sliding fe2d damslip_probability damslip_analysis)
     damslip_install_library(${target})
   endforeach()
 
-  foreach(folder src/core src/scene records sliding fe2d src/analysis)
+  foreach(folder src/core src/scene records sliding fe2d src/probability src/analysis)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/damslip COMPONENT development
             FILES_MATCHING PATTERN "*.hpp" PATTERN data EXCLUDE)
   endforeach()

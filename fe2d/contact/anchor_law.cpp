@@ -96,7 +96,7 @@ void AnchorLaw::add(JointTerms& terms) const
         pull(row.history.trial_force(bar, row.stretch_start) - bar.stiffness() * row.direction.normal * row.gap_start);
         for (int k = 0; k < 4; ++k)
             for (int j = 0; j < 4; ++j)
-                if (used(k) && used(j)) terms.stiffness(places[k], places[j]) += bar.stiffness() * b[k] * b[j];
+                if (used(k) && used(j)) terms.entries.push_back({places[k], places[j], bar.stiffness() * b[k] * b[j]});
     }
 }
 
@@ -166,6 +166,62 @@ JointEnergy AnchorLaw::energy() const
         sum.anchor_loss += row.history.loss;
     }
     return sum;
+}
+
+namespace {
+
+constexpr double not_snapped = -1.0; ///< as a time
+
+} // namespace
+
+void AnchorLaw::save(JointLawState& state) const
+{
+    const auto list = [&](const char* key, auto&& value) {
+        std::vector<double>& values = state[key];
+        for (const Row& row : rows_) values.push_back(value(row));
+    };
+    list("anchor_state", [](const Row& r) { return static_cast<double>(r.history.state); });
+    list("anchor_force_N_m", [](const Row& r) { return r.history.force; });
+    list("anchor_stretch_m", [](const Row& r) { return r.history.stretch; });
+    list("anchor_plastic_strain", [](const Row& r) { return r.history.plastic_strain; });
+    list("anchor_largest_force_N_m", [](const Row& r) { return r.history.largest_force; });
+    list("anchor_largest_stretch_m", [](const Row& r) { return r.history.largest_stretch; });
+    list("anchor_snapped_s", [](const Row& r) { return r.history.snapped_at.value_or(not_snapped); });
+    list("anchor_plastic_work_J_m", [](const Row& r) { return r.history.plastic_work; });
+    list("anchor_loss_J_m", [](const Row& r) { return r.history.loss; });
+    list("anchor_dowel_work_J_m", [](const Row& r) { return r.dowel_work; });
+    list("anchor_lock_off_opening_m", [](const Row& r) { return r.gap_zero; });
+    list("anchor_lock_off_slip_m", [](const Row& r) { return r.slip_zero; });
+    list("anchor_direction_opening_m", [](const Row& r) { return r.gap_of_direction; });
+    list("anchor_direction_slip_m", [](const Row& r) { return r.slip_of_direction; });
+    state["anchor_time_s"] = {time_};
+}
+
+void AnchorLaw::restore(const JointLawState& state)
+{
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Row& row = rows_[k];
+        const auto value = [&](const char* key) { return state.at(key)[k]; };
+        AnchorHistory& h = row.history;
+        h.state = static_cast<AnchorState>(static_cast<int>(value("anchor_state")));
+        h.force = value("anchor_force_N_m");
+        h.stretch = value("anchor_stretch_m");
+        h.plastic_strain = value("anchor_plastic_strain");
+        h.largest_force = value("anchor_largest_force_N_m");
+        h.largest_stretch = value("anchor_largest_stretch_m");
+        const double snapped = value("anchor_snapped_s");
+        h.snapped_at = snapped == not_snapped ? std::nullopt : std::optional(snapped);
+        h.plastic_work = value("anchor_plastic_work_J_m");
+        h.loss = value("anchor_loss_J_m");
+        row.dowel_work = value("anchor_dowel_work_J_m");
+        row.gap_zero = value("anchor_lock_off_opening_m");
+        row.slip_zero = value("anchor_lock_off_slip_m");
+        row.gap_of_direction = value("anchor_direction_opening_m");
+        row.slip_of_direction = value("anchor_direction_slip_m");
+        row.direction = row.at.bar.direction(row.gap_of_direction, row.slip_of_direction);
+    }
+    time_ = state.at("anchor_time_s").front();
+    phase_ = Phase::locked;
 }
 
 AnchorLaw::Support AnchorLaw::support(Force force, Index first, Index count, const VectorXd& pair_distance) const

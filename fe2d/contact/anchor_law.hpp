@@ -40,6 +40,8 @@ public:
     JointFit revise(const ContactSolution& solution) override;
     void end(const ContactSolution& solution) override;
     JointEnergy energy() const override;
+    void save(JointLawState& state) const override;
+    void restore(const JointLawState& state) override;
 
     /// What the anchors of some pairs can do for a plane.
     struct Support {

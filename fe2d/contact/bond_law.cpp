@@ -1,5 +1,7 @@
 #include "fe2d/contact/bond_law.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 namespace damslip::fe2d {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -128,6 +131,7 @@ void BondLaw::begin(const JointStart& start)
     if (!held_) start_damage_ = damage_;
     slip_ = start.slip;
     static_ = start.dt == 0.0;
+    stiffness_ = start.stiffness;
     yield_.assign(strength_.size(), Yield::none);
     tried_damage_ = damage_;
     tried_strain_ = VectorXd::Constant(damage_.size(), -1.0);
@@ -145,14 +149,14 @@ void BondLaw::add(JointTerms& terms) const
             continue;
         }
         const double h = softness(damage_[i]);
-        terms.stiffness(i, i) += h * b.tension / b.opening;
+        terms.diagonal[i] += h * b.tension / b.opening;
         const Yield yield = yield_[static_cast<std::size_t>(i)];
         if (yield != Yield::none) {
             terms.force[m + i] += static_cast<double>(yield) * b.shear * (1.0 - damage_[i]);
             continue;
         }
         const double along = plastic(i) ? initial_stiffness(i) : h * b.shear / b.slip;
-        terms.stiffness(m + i, m + i) += along;
+        terms.diagonal[m + i] += along;
         terms.force[m + i] += along * (slip_[i] - reference_[i]);
     }
 }
@@ -222,7 +226,32 @@ JointFit BondLaw::revise(const ContactSolution& solution)
             if (damage_[i] >
                 std::max({strain(i, solution).size(), start_damage_[i], smallest_damage}) + largest_overshoot)
                 return JointFit::too_far;
-    return fit;
+    return static_ || unique(solution) ? fit : JointFit::too_far;
+}
+
+/// Of the pairs whose damage has grown: their openings, and their slips.
+bool BondLaw::unique(const ContactSolution& solution) const
+{
+    if (!stiffness_) return true;
+    const Index m = damage_.size();
+    std::vector<Index> breaking;
+    std::vector<double> softening;
+    for (Index i = 0; i < m; ++i) {
+        const BondStrength& b = strength_[static_cast<std::size_t>(i)];
+        if (!(damage_[i] > start_damage_[i]) || damage_[i] >= 1.0) continue;
+        if (b.tension > 0.0 && solution.displacement[i] > 0.0) {
+            breaking.push_back(i);
+            softening.push_back(b.tension / b.opening);
+        }
+        if (b.shear > 0.0 && solution.displacement[m + i] != 0.0) {
+            breaking.push_back(m + i);
+            softening.push_back(b.shear / b.slip);
+        }
+    }
+    if (breaking.empty()) return true;
+    MatrixXd left = (*stiffness_)(breaking, breaking);
+    left.diagonal() -= VectorXd::Map(softening.data(), left.rows());
+    return left.llt().info() == Eigen::Success;
 }
 
 void BondLaw::end(const ContactSolution& solution)
@@ -244,6 +273,7 @@ void BondLaw::end(const ContactSolution& solution)
         if (damage_[i] < 1.0 && damage_[i] > 0.0 && !plastic(i)) stored_ += softness(damage_[i]) * energy_of(i, e);
     }
     start_damage_ = damage_;
+    stiffness_ = nullptr;
 }
 
 JointEnergy BondLaw::energy() const
@@ -252,6 +282,29 @@ JointEnergy BondLaw::energy() const
     e.stored = stored_;
     e.bond_fracture = fracture_;
     return e;
+}
+
+void BondLaw::save(JointLawState& state) const
+{
+    const auto list = [](const VectorXd& values) { return std::vector<double>(values.begin(), values.end()); };
+    state["bond_damage"] = list(damage_);
+    state["bond_reference_m"] = list(reference_);
+    state["bond_path_m"] = list(path_);
+    state["bond_fracture_J_m"] = {fracture_};
+    state["bond_stored_J_m"] = {stored_};
+}
+
+void BondLaw::restore(const JointLawState& state)
+{
+    const auto vector = [&state](const char* key) {
+        const std::vector<double>& values = state.at(key);
+        return VectorXd(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size())));
+    };
+    damage_ = start_damage_ = vector("bond_damage");
+    reference_ = vector("bond_reference_m");
+    path_ = vector("bond_path_m");
+    fracture_ = state.at("bond_fracture_J_m").front();
+    stored_ = state.at("bond_stored_J_m").front();
 }
 
 double BondLaw::broken(Index first, Index pairs) const

@@ -37,7 +37,9 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
 /// shear beyond friction reach √((-λ_n/f_tA)² + (|λ_t|/cA)²) = 1. Unloading goes to the origin; `plastic` unloads along
 /// the joint with the stiffness at first damage.
 ///
-/// A step finds the damage by fixed points κ = ε(x(κ)), pair by pair with a secant: each solution has a fixed Z.
+/// A step finds the damage by fixed points κ = ε(x(κ)), pair by pair with a secant: each solution has a fixed Z. A step in
+/// time is too long where the bond softens faster than what is around unloads, V - diag(A f_t/w_I, A c/w_II) not positive
+/// definite on the pairs that break: there it may have more than one answer. V grows as 1/Δt².
 class BondLaw final : public JointLaw {
 public:
     explicit BondLaw(std::vector<BondStrength> pairs);
@@ -48,6 +50,8 @@ public:
     JointFit revise(const ContactSolution& solution) override;
     void end(const ContactSolution& solution) override;
     JointEnergy energy() const override;
+    void save(JointLawState& state) const override;
+    void restore(const JointLawState& state) override;
 
     const std::vector<BondStrength>& strength() const { return strength_; }
     const Eigen::VectorXd& damage() const { return damage_; }    ///< κ of each pair: 0 intact, 1 broken [-]
@@ -77,6 +81,7 @@ private:
     double guess(Eigen::Index pair, double wanted, double strain) const;
     JointFit revise_pair(Eigen::Index pair, const ContactSolution& solution);
     bool revise_yield(Eigen::Index pair, const ContactSolution& solution);
+    bool unique(const ContactSolution& solution) const;
     double elastic_slip(Eigen::Index pair, const ContactSolution& solution) const;
     double initial_stiffness(Eigen::Index pair) const;
     bool plastic(Eigen::Index pair) const;
@@ -93,6 +98,7 @@ private:
     Eigen::VectorXd slip_; ///< at its start [m]
     std::vector<Yield> yield_;
     Eigen::VectorXd tried_damage_, tried_strain_; ///< of the solution before the last; strain < 0: none
+    const Eigen::MatrixXd* stiffness_ = nullptr;  ///< V; null: not known
     int solutions_ = 0;
     bool held_ = false;
     bool static_ = true;

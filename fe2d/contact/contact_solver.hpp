@@ -71,6 +71,9 @@ public:
     /// The owner of V has changed V_kk. @param by  [N/m²]
     void diagonal_changed(Eigen::Index unknown, double by) { system_.diagonal_changed(unknown, by); }
 
+    /// The owner of V has changed it anyhow.
+    void stiffness_changed() { system_.stiffness_changed(); }
+
     const ReleasedSystem& system() const { return system_; }
 
 private:

@@ -2,7 +2,10 @@
 
 #include "fe2d/contact/contact_problem.hpp"
 
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -24,11 +27,32 @@ struct JointEnergy {
 ///     λ_c = λ⁰ + r + (V + Z) x,   x = (opening g_N at the end of the step, slip s within it),
 ///
 /// so the law's own force on the upper side is -(r + Z x), and all that crosses the joint λ = λ_c - (r + Z x) = λ⁰ + V x.
+///
+/// Z is symmetric and positive semi-definite. It is kept as sparse as the laws are: a dense Z would cost as much as a step.
 struct JointTerms {
-    Eigen::MatrixXd stiffness; ///< Z, 2m x 2m, symmetric, positive semi-definite [N/m²]
-    Eigen::VectorXd force;     ///< r, 2m [N/m]
-    ContactLaw strength;       ///< of λ_c: a law may change friction and cohesion of pairs
-    std::vector<char> bonded;  ///< m: not 0, x of the pair is zero whatever the force
+    /// Part of Z on unknowns that follow each other, from `first` on [N/m²].
+    struct Block {
+        Eigen::Index first = 0;
+        std::shared_ptr<const Eigen::MatrixXd> stiffness; ///< another one whenever it changes
+        bool operator==(const Block&) const = default;
+    };
+    /// One entry of Z beside the diagonal and the blocks [N/m²]; its mirror image is one more.
+    struct Entry {
+        Eigen::Index row = 0, column = 0;
+        double value = 0.0;
+        bool operator==(const Entry&) const = default;
+    };
+
+    Eigen::VectorXd diagonal; ///< of Z, 2m [N/m²]; the blocks' and entries' own diagonals come on top
+    std::vector<Block> blocks;
+    std::vector<Entry> entries;
+    Eigen::VectorXd force;    ///< r, 2m [N/m]
+    ContactLaw strength;      ///< of λ_c: a law may change friction and cohesion of pairs
+    std::vector<char> bonded; ///< m: not 0, x of the pair is zero whatever the force
+
+    void clear(const ContactLaw& plain);                                         ///< no laws: Z = 0, r = 0
+    void add_stiffness(const Eigen::VectorXd& x, Eigen::VectorXd& f) const;      ///< f += Z x
+    void subtract_stiffness(const Eigen::VectorXd& x, Eigen::VectorXd& f) const; ///< f -= Z x
 };
 
 /// What laws need of the start of a step. References live as long as the step.
@@ -43,6 +67,9 @@ struct JointStart {
     const Eigen::MatrixXd* stiffness = nullptr; ///< V; JointLaws::solve() knows it
     const ContactLaw* strength = nullptr;       ///< of the pairs without the laws; the same
 };
+
+/// What laws keep of a dam at rest, as numbers by name: the key says what and in which unit.
+using JointLawState = std::map<std::string, std::vector<double>>;
 
 /// How a law takes the solution of a contact problem.
 enum class JointFit {
@@ -69,6 +96,11 @@ public:
     /// The step is made. @param solution  as of revise(), the last one
     virtual void end(const ContactSolution& solution) = 0;
     virtual JointEnergy energy() const = 0; ///< after end()
+
+    /// Adds what it keeps of a dam at rest.
+    virtual void save(JointLawState&) const {}
+    /// Goes on from what the law of the same scene saved. @pre numbers that save() would write
+    virtual void restore(const JointLawState&) {}
 };
 
 } // namespace damslip::fe2d

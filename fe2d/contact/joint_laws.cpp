@@ -13,6 +13,8 @@ namespace {
 
 /// Solutions of one step: damage can only grow and anchors yield once in each, so this many are never needed.
 constexpr int most_rounds = 500;
+constexpr double first_preload = 16.0; ///< of bonded pairs, over the largest stuck force; more where it does not do [-]
+constexpr int most_preloads = 5;
 
 } // namespace
 
@@ -31,76 +33,105 @@ JointLawSolver::JointLawSolver(std::shared_ptr<const MatrixXd> stiffness, const 
 {
 }
 
-/// Damage changes Z on its diagonal alone, mostly of few pairs. @returns false: V + Z is better made anew
-bool JointLawSolver::change_diagonal(const MatrixXd& added)
+void JointTerms::clear(const ContactLaw& plain)
 {
-    MatrixXd change = added - added_;
-    const VectorXd on_diagonal = change.diagonal();
-    change.diagonal().setZero();
-    if (!change.isZero(0.0)) return false;
-    const auto size = static_cast<Index>(unknowns_.size());
-    if (3 * (on_diagonal.array() != 0.0).count() > size) return false;
-    for (Index k = 0; k < size; ++k) {
-        const double by = on_diagonal[unknowns_[static_cast<std::size_t>(k)]];
-        if (by == 0.0) continue;
-        (*seen_)(k, k) += by;
-        solver_->diagonal_changed(k, by);
+    const Index m = plain.pairs();
+    diagonal.setZero(2 * m);
+    blocks.clear();
+    entries.clear();
+    force.setZero(2 * m);
+    strength = plain;
+    bonded.assign(static_cast<std::size_t>(m), 0);
+}
+
+void JointTerms::add_stiffness(const VectorXd& x, VectorXd& f) const
+{
+    f.array() += diagonal.array() * x.array();
+    for (const Block& block : blocks) {
+        const Index n = block.stiffness->rows();
+        if (!x.segment(block.first, n).isZero(0.0))
+            f.segment(block.first, n).noalias() += *block.stiffness * x.segment(block.first, n);
     }
-    added_ = added;
+    for (const Entry& entry : entries) f[entry.row] += entry.value * x[entry.column];
+}
+
+void JointTerms::subtract_stiffness(const VectorXd& x, VectorXd& f) const
+{
+    f = -f;
+    add_stiffness(x, f);
+    f = -f;
+}
+
+void JointLawSolver::fill()
+{
+    *seen_ = *stiffness_;
+    seen_->diagonal() += diagonal_;
+    for (const JointTerms::Block& block : blocks_)
+        seen_->block(block.first, block.first, block.stiffness->rows(), block.stiffness->cols()) += *block.stiffness;
+    for (const JointTerms::Entry& entry : entries_) (*seen_)(entry.row, entry.column) += entry.value;
+}
+
+/// @returns false: so much has changed that the inverse is better made anew
+bool JointLawSolver::change_diagonal(const VectorXd& diagonal)
+{
+    const VectorXd by = diagonal - diagonal_;
+    if (3 * (by.array() != 0.0).count() > by.size()) return false;
+    for (Index k = 0; k < by.size(); ++k) {
+        if (by[k] == 0.0) continue;
+        (*seen_)(k, k) += by[k];
+        solver_->diagonal_changed(k, by[k]);
+    }
+    diagonal_ = diagonal;
     return true;
 }
 
 void JointLawSolver::prepare(const JointTerms& terms)
 {
-    if (!bonded_.empty() && bonded_ == terms.bonded) {
-        if (added_ == terms.stiffness) return;
-        if (solver_ && change_diagonal(terms.stiffness)) return;
-    }
-    bonded_ = terms.bonded;
-    added_ = terms.stiffness;
-    unknowns_.clear();
-    const auto m = static_cast<Index>(bonded_.size());
-    for (const Index shift : {Index{0}, m})
-        for (Index i = 0; i < m; ++i)
-            if (!bonded_[static_cast<std::size_t>(i)]) unknowns_.push_back(shift + i);
-    solver_.reset();
-    if (unknowns_.empty()) return;
-    seen_ = std::make_shared<MatrixXd>((*stiffness_)(unknowns_, unknowns_));
-    *seen_ += added_(unknowns_, unknowns_);
-    solver_ = std::make_unique<ContactSolver>(seen_, options_);
+    if (solver_ && blocks_ == terms.blocks && entries_ == terms.entries &&
+        (diagonal_ == terms.diagonal || change_diagonal(terms.diagonal)))
+        return;
+    diagonal_ = terms.diagonal;
+    blocks_ = terms.blocks;
+    entries_ = terms.entries;
+    if (!seen_) seen_ = std::make_shared<MatrixXd>();
+    fill();
+    if (solver_)
+        solver_->stiffness_changed();
+    else
+        solver_ = std::make_unique<ContactSolver>(seen_, options_);
 }
 
 ContactReport JointLawSolver::solve(const VectorXd& stuck_force, const JointTerms& terms, ContactSolution& solution)
 {
     prepare(terms);
-    const auto m = static_cast<Index>(terms.bonded.size());
     const VectorXd stuck = stuck_force + terms.force;
-    ContactReport report;
-    solution.states.resize(terms.bonded.size(), ContactState::stick);
-    solution.displacement.setZero(2 * m);
+    std::vector<Index> bonded;
     for (std::size_t i = 0; i < terms.bonded.size(); ++i)
-        if (terms.bonded[i]) solution.states[i] = ContactState::stick;
-    if (solver_) {
-        const auto free = static_cast<Index>(unknowns_.size() / 2);
-        ContactLaw law = uniform_law(free, 0.0);
-        law.separation = terms.strength.separation;
-        ContactSolution part;
-        part.states.resize(static_cast<std::size_t>(free));
-        for (Index k = 0; k < free; ++k) {
-            const Index pair = unknowns_[static_cast<std::size_t>(k)];
-            law.friction[k] = terms.strength.friction[pair];
-            law.cohesion[k] = terms.strength.cohesion[pair];
-            part.states[static_cast<std::size_t>(k)] = solution.states[static_cast<std::size_t>(pair)];
+        if (terms.bonded[i]) bonded.push_back(static_cast<Index>(i));
+    if (bonded.empty()) return solver_->solve(stuck, terms.strength, solution);
+
+    // Bonded pairs are pressed together by more than pulls or shears them, so they stick and stay out of the active set:
+    // one that breaks is one more in it, and the inverse goes on.
+    solution.states.resize(terms.bonded.size(), ContactState::stick);
+    const ContactStates start = solution.states;
+    ContactReport report;
+    double preload = first_preload * stuck.cwiseAbs().maxCoeff();
+    for (int attempt = 0; attempt < most_preloads; ++attempt, preload *= first_preload) {
+        ContactLaw law = terms.strength;
+        VectorXd pressed = stuck;
+        solution.states = start;
+        for (const Index i : bonded) {
+            solution.states[static_cast<std::size_t>(i)] = ContactState::stick;
+            pressed[i] += preload;
+            law.cohesion[i] = preload;
         }
-        report = solver_->solve(stuck(unknowns_), law, part);
-        for (Index k = 0; k < free; ++k)
-            solution.states[static_cast<std::size_t>(unknowns_[static_cast<std::size_t>(k)])] =
-                part.states[static_cast<std::size_t>(k)];
-        solution.displacement(unknowns_) = part.displacement;
+        report = solver_->solve(pressed, law, solution);
+        for (const Index i : bonded) solution.force[i] -= preload;
+        if (std::all_of(bonded.begin(), bonded.end(),
+                        [&](Index i) { return solution.states[static_cast<std::size_t>(i)] == ContactState::stick; }))
+            return report;
     }
-    solution.force = stuck;
-    solution.force.noalias() += *stiffness_ * solution.displacement;
-    solution.force.noalias() += terms.stiffness * solution.displacement;
+    report.path = ContactPath::unresolved;
     return report;
 }
 
@@ -127,16 +158,6 @@ void JointLaws::replace(std::unique_ptr<JointLaw> law)
     }
 }
 
-void JointLaws::terms_of(const ContactLaw& strength, JointTerms& terms) const
-{
-    const Index m = strength.pairs();
-    terms.stiffness.setZero(2 * m, 2 * m);
-    terms.force.setZero(2 * m);
-    terms.strength = strength;
-    terms.bonded.assign(static_cast<std::size_t>(m), 0);
-    for (const auto& law : laws_) law->add(terms);
-}
-
 ContactReport JointLaws::solve(JointLawSolver& solver, const VectorXd& stuck_force, const JointStart& start,
                                const ContactLaw& strength, ContactSolution& solution)
 {
@@ -149,12 +170,13 @@ ContactReport JointLaws::solve(JointLawSolver& solver, const VectorXd& stuck_for
     JointTerms terms;
     contact_.states = solution.states;
     for (int k = 0; k < most_rounds; ++k) {
-        terms_of(strength, terms);
+        terms.clear(strength);
+        for (const auto& law : laws_) law->add(terms);
         report = solver.solve(stuck_force, terms, contact_);
         iterations += std::max(1, report.iterations);
         report.iterations = iterations;
         force_ = -terms.force;
-        force_.noalias() -= terms.stiffness * contact_.displacement;
+        terms.subtract_stiffness(contact_.displacement, force_);
         JointFit fit = JointFit::fits;
         if (report.resolved())
             for (const auto& law : laws_) fit = std::max(fit, law->revise(contact_));
@@ -183,6 +205,18 @@ JointEnergy JointLaws::energy() const
     JointEnergy sum;
     for (const auto& law : laws_) sum += law->energy();
     return sum;
+}
+
+JointLawState JointLaws::save() const
+{
+    JointLawState state;
+    for (const auto& law : laws_) law->save(state);
+    return state;
+}
+
+void JointLaws::restore(const JointLawState& state)
+{
+    for (const auto& law : laws_) law->restore(state);
 }
 
 } // namespace damslip::fe2d

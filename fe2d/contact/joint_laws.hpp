@@ -4,32 +4,35 @@
 #include "fe2d/contact/joint_law.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace damslip::fe2d {
 
-/// Solvers of contact problems V + Z, kept from one solution to the next: most differ in λ⁰ alone.
+/// Solvers of contact problems V + Z, kept from one solution to the next: most differ in λ⁰ alone. Damage that grows changes
+/// the diagonal of Z, which the factor follows; water in the joint changes a block of it.
 class JointLawSolver {
 public:
     JointLawSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const ContactOptions& options);
 
     const std::shared_ptr<const Eigen::MatrixXd>& stiffness() const { return stiffness_; } ///< V
 
-    /// Hard contact with Coulomb's friction and the terms of the laws; bonded pairs stay out of the problem.
+    /// Hard contact with Coulomb's friction and the terms of the laws; bonded pairs keep x = 0.
     /// @param stuck_force  λ⁰, 2m [N/m] @param solution  on entry where to start; after: x, λ_c
     ContactReport solve(const Eigen::VectorXd& stuck_force, const JointTerms& terms, ContactSolution& solution);
 
 private:
     void prepare(const JointTerms& terms);
-    bool change_diagonal(const Eigen::MatrixXd& added);
+    bool change_diagonal(const Eigen::VectorXd& diagonal);
+    void fill();
 
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ContactOptions options_;
-    std::vector<char> bonded_;              ///< of the solver at hand
-    Eigen::MatrixXd added_;                 ///< its Z
-    std::vector<Eigen::Index> unknowns_;    ///< of the 2m, those of pairs that are not bonded
-    std::shared_ptr<Eigen::MatrixXd> seen_; ///< V + Z of them
-    std::unique_ptr<ContactSolver> solver_; ///< null: none made, or nothing to solve
+    Eigen::VectorXd diagonal_; ///< Z of the solver at hand
+    std::vector<JointTerms::Block> blocks_;
+    std::vector<JointTerms::Entry> entries_;
+    std::shared_ptr<Eigen::MatrixXd> seen_; ///< V + Z
+    std::unique_ptr<ContactSolver> solver_; ///< null: none made so far
 };
 
 /// The laws of all joints of a run, with their states. A copy has states of its own.
@@ -58,6 +61,9 @@ public:
     const Eigen::VectorXd& force() const { return force_; }
     JointEnergy energy() const;
 
+    JointLawState save() const; ///< of a dam at rest
+    void restore(const JointLawState& state);
+
     /// The only law of a type; null: none.
     template <class Law>
     const Law* find() const
@@ -67,9 +73,13 @@ public:
         return nullptr;
     }
 
-private:
-    void terms_of(const ContactLaw& strength, JointTerms& terms) const;
+    template <class Law>
+    Law* find()
+    {
+        return const_cast<Law*>(std::as_const(*this).template find<Law>());
+    }
 
+private:
     std::vector<std::unique_ptr<JointLaw>> laws_;
     ContactSolution contact_; ///< x and λ_c of the last solution
     Eigen::VectorXd force_;

@@ -96,6 +96,48 @@ void CrackWater::add_work(const VectorXd& before, const VectorXd& after, const V
     energy_.water += 0.5 * (before + after).cwiseProduct(joint_->area).dot(opened);
 }
 
+void CrackWater::rest_with(const PressureProfile& pressure)
+{
+    WetJoint joint = *joint_;
+    joint.before = pressure;
+    joint_ = std::make_shared<const WetJoint>(std::move(joint));
+    at_rest_ = pair_pressure(*joint_, pressure);
+    report_.pressure = at_rest_;
+}
+
+namespace {
+
+using FlowTerm = double JointFlowWork::*;
+constexpr FlowTerm flow_terms[] = {&JointFlowWork::walls,  &JointFlowWork::ends,    &JointFlowWork::drain,
+                                   &JointFlowWork::rock,   &JointFlowWork::gravity, &JointFlowWork::viscous,
+                                   &JointFlowWork::stored, &JointFlowWork::cavities};
+
+} // namespace
+
+void CrackWater::save(JointLawState& state) const
+{
+    state["water_largest_crack_m"] = {report_.largest.upstream, report_.largest.downstream};
+    state["water_pressures_Pa"] = {report_.least_pressure, report_.largest_pressure};
+    state["water_reynolds_number"] = {report_.reynolds_number};
+    state["water_cracked_through_s"] = {report_.cracked_through};
+    state["water_work_J_m"] = {energy_.water};
+    std::vector<double>& flow = state["water_flow_J_m"];
+    for (const FlowTerm term : flow_terms) flow.push_back(report_.flow.*term);
+}
+
+void CrackWater::restore(const JointLawState& state)
+{
+    const std::vector<double>&crack = state.at("water_largest_crack_m"), &pressures = state.at("water_pressures_Pa");
+    report_.largest = {crack[0], crack[1]};
+    report_.least_pressure = pressures[0];
+    report_.largest_pressure = pressures[1];
+    report_.reynolds_number = state.at("water_reynolds_number").front();
+    report_.cracked_through = state.at("water_cracked_through_s").front();
+    energy_.water = state.at("water_work_J_m").front();
+    const std::vector<double>& flow = state.at("water_flow_J_m");
+    for (std::size_t k = 0; k < std::size(flow_terms); ++k) report_.flow.*flow_terms[k] = flow[k];
+}
+
 std::unique_ptr<CrackWater> make_joint_water(const JointWaterLaw& law, std::shared_ptr<const WetJoint> joint)
 {
     if (!law.follows()) return nullptr;

@@ -62,6 +62,12 @@ public:
     virtual void set_wave_pressure(double) {}
     JointEnergy energy() const override { return energy_; }
 
+    /// Another pressure at rest, part of the static load from now on: that after an earthquake, before the next one.
+    virtual void rest_with(const PressureProfile& pressure);
+    /// How far the joint has cracked, and sums and extremes for people. The water itself comes to rest.
+    void save(JointLawState& state) const override;
+    void restore(const JointLawState& state) override;
+
 protected:
     explicit CrackWater(std::shared_ptr<const WetJoint> joint);
     void look(double dt, const Eigen::VectorXd& opening, const ContactStates& states);

@@ -172,8 +172,7 @@ void ReleasedSystem::diagonal_changed(Index unknown, double by)
     const auto inverse = inverse_.topLeftCorner(size, size);
     const double pivot = 1.0 + by * inverse(place, place);
     if (!(std::abs(pivot) > smallest_pivot)) {
-        clear(); // nothing released: the next set() starts from there
-        rows_.assign(rows_.size(), {});
+        stiffness_changed();
         return;
     }
     column_ = inverse.col(place) * (by / pivot);
@@ -181,6 +180,13 @@ void ReleasedSystem::diagonal_changed(Index unknown, double by)
     inverse_.topLeftCorner(size, size).noalias() -= column_ * line;
     ++updates_;
     ++updates_since_rebuild_;
+}
+
+void ReleasedSystem::stiffness_changed()
+{
+    clear(); // nothing released: the next set() starts from there
+    rows_.assign(rows_.size(), {});
+    regular_ = true;
 }
 
 void ReleasedSystem::clear()

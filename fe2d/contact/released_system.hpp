@@ -24,6 +24,9 @@ public:
     /// V_kk has grown by so much [N/m²]: the system follows at the price of one rank-one update.
     void diagonal_changed(Eigen::Index unknown, double by);
 
+    /// V has changed anyhow: the inverse is made anew when it is needed next.
+    void stiffness_changed();
+
     int updates() const { return updates_; }   ///< rank-one updates so far
     int rebuilds() const { return rebuilds_; } ///< inverses made from scratch so far
 

@@ -26,6 +26,14 @@ ReynoldsWater::ReynoldsWater(const JointWaterLaw& law, std::shared_ptr<const Wet
     change_ = force_ = VectorXd::Zero(joint_->pairs());
 }
 
+void ReynoldsWater::rest_with(const PressureProfile& pressure)
+{
+    CrackWater::rest_with(pressure);
+    if (joint_->drain) held_.drain = at_rest_[*joint_->drain];
+    water_ = {at_rest_, VectorXd::Zero(joint_->pairs())};
+    source_.resize(0);
+}
+
 VectorXd ReynoldsWater::width(const VectorXd& opening) const
 {
     return opening.cwiseMax(0.0).array() + clearance_;
@@ -76,7 +84,7 @@ void ReynoldsWater::add(JointTerms& terms) const
     if (dt_ == 0.0) return;
     const Index first = joint_->first, m = joint_->pairs();
     terms.force.segment(first, m) += force_;
-    terms.stiffness.block(first, first, m, m) += linear_->stiffness;
+    terms.blocks.push_back({first, {linear_, &linear_->stiffness}});
 }
 
 JointFit ReynoldsWater::revise(const ContactSolution& solution)

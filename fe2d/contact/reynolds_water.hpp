@@ -27,6 +27,7 @@ public:
     JointFit revise(const ContactSolution& solution) override;
     void end(const ContactSolution& solution) override;
     const JointWaterReport& report() const override { return report_; }
+    void rest_with(const PressureProfile& pressure) override;
     void set_wave_pressure(double pressure) override { waves_ = with_waves_ ? pressure : 0.0; }
 
 private:

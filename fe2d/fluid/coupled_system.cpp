@@ -79,4 +79,11 @@ CoupledSystem couple(const SparseMatrix& mass, const SparseMatrix& damping, cons
     return system;
 }
 
+std::vector<Index> unknowns_of_floor(const CoupledSystem& system, const FluidModel& water)
+{
+    std::vector<Index> unknowns = water.floor;
+    for (Index& unknown : unknowns) unknown += system.structure_unknowns;
+    return unknowns;
+}
+
 } // namespace damslip::fe2d

@@ -41,4 +41,8 @@ struct CoupledSystem {
 CoupledSystem couple(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& stiffness,
                      const SparseMatrix& coupling, const FluidModel& water);
 
+/// Of a floor that is the rock's (FluidModel::floor) among the unknowns of the system; empty: it is not. What its rates v̇ do to the
+/// water is s v̇ on the right side of these rows; the force of the pressures on v is s φ̇.
+std::vector<Eigen::Index> unknowns_of_floor(const CoupledSystem& system, const FluidModel& water);
+
 } // namespace damslip::fe2d

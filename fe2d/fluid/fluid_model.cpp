@@ -94,7 +94,8 @@ FluidModel build_fluid(ReservoirMesh reservoir, const FluidOptions& options)
     const double admittance = options.bottom_reflection == -1.0 || options.bottom_reflection == 1.0
                                   ? 0.0
                                   : wave_admittance(options.density, c, options.bottom_reflection);
-    if (admittance != 0.0) add_chain_mass(r.mesh, model.dofs, r.bottom, admittance, boundary.damping);
+    if (admittance != 0.0 && !options.floor_on_rock)
+        add_chain_mass(r.mesh, model.dofs, r.bottom, admittance, boundary.damping);
     if (options.far_end == FarEnd::damper)
         add_chain_mass(r.mesh, model.dofs, r.far_end, 1.0 / (options.density * c), boundary.damping);
     AbsorbingEnd end;
@@ -114,6 +115,8 @@ FluidModel build_fluid(ReservoirMesh reservoir, const FluidOptions& options)
     model.damping = from_triplets(boundary.damping, n);
     model.stiffness = model.body_stiffness + from_triplets(boundary.stiffness, n);
 
+    if (options.floor_on_rock)
+        for (const int node : r.bottom) model.floor.push_back(model.dofs(node));
     model.force_x = boundary_flux(r.mesh, model.dofs, r.face, {1.0, 0.0}, n);
     model.force_y = boundary_flux(r.mesh, model.dofs, r.face, {0.0, 1.0}, n);
     model.flux_x = model.force_x;

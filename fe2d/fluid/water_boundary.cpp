@@ -1,5 +1,7 @@
 #include "fe2d/fluid/water_boundary.hpp"
 
+#include "scene/rock_mass.hpp"
+
 #include <cassert>
 #include <cmath>
 
@@ -25,6 +27,8 @@ FluidOptions fluid_options(const Scene& scene)
         water.bottom_density && water.bottom_modulus
             ? reflection_of_bottom(water.density, options.sound_speed(), *water.bottom_density, *water.bottom_modulus)
             : water.bottom_reflection;
+    if (water.floor == ReservoirFloor::rock && scene.foundation) options.bottom_reflection = rock_reflection(scene);
+    options.floor_on_rock = floor_on_rock(scene);
     return options;
 }
 

@@ -23,6 +23,9 @@ struct FluidOptions {
     FarEnd far_end = FarEnd::absorbing;
     BottomMotion bottom_motion = BottomMotion::still;
     AbsorbingLayers layers = {};
+    bool floor_on_rock =
+        false; ///< the floor of the mesh is the rock's (FluidModel::floor); α is then of the bottom beyond the
+               ///< far end alone
 
     double sound_speed() const; ///< c = √(K_w/ρ) [m/s]
 };

@@ -14,12 +14,28 @@ namespace damslip::fe2d {
 
 namespace {
 
-/// F(ω)⁻¹ of the rock [N/m²]; empty without.
-Eigen::MatrixXcd dynamic_stiffness(const RockBelow* below, double frequency)
+/// What the rock puts on the unknowns of the base and on φ of the water's floor, where that is its own; empty without. With its
+/// compliance F = [F_b, F_bf; F_fb, F_f], p = h φ, h = iω s on v: the base's forces eliminated,
+///
+///     [K, -K F_bf h; -h F_fb K, -h² (F_f - F_fb K F_bf)],   K = F_b⁻¹
+/// @param scale  s [Pa s/m]
+Eigen::MatrixXcd dynamic_stiffness(const RockBelow* below, double frequency, double scale)
 {
     if (!below) return {};
-    const Eigen::Index n = below->rock.interface();
-    return below->rock.response(frequency, below->stiffness_damping, Eigen::MatrixXd::Identity(n, n)).inverse();
+    const Eigen::Index n = below->rock.interface(), base = below->rock.base(), floor = below->rock.floor;
+    const Eigen::MatrixXcd compliance =
+        below->rock.response(frequency, below->stiffness_damping, Eigen::MatrixXd::Identity(n, n));
+    if (floor == 0) return compliance.inverse();
+    const std::complex<double> h(0.0, frequency * scale);
+    const Eigen::MatrixXcd stiffness = compliance.topLeftCorner(base, base).inverse(),
+                           across = stiffness * compliance.topRightCorner(base, floor);
+    Eigen::MatrixXcd block(n, n);
+    block.topLeftCorner(base, base) = stiffness;
+    block.topRightCorner(base, floor) = -h * across;
+    block.bottomLeftCorner(floor, base) = -h * across.transpose();
+    block.bottomRightCorner(floor, floor) =
+        -h * h * (compliance.bottomRightCorner(floor, floor) - compliance.bottomLeftCorner(floor, base) * across);
+    return block;
 }
 
 /// Displacement of the crest's upstream end in x beyond the rigid motion that fits the base's nodes best.
@@ -64,8 +80,10 @@ std::vector<TransferPoint> transfer_functions(const Model& model, const LinearSy
         system.structure_unknowns = n;
         system.velocity_x = Eigen::VectorXd::Zero(n);
     }
-    HarmonicSolver solver(system.mass, system.damping, system.stiffness,
-                          rock ? unknowns_of_base(model) : std::vector<Eigen::Index>());
+    std::vector<Eigen::Index> moved = rock ? unknowns_of_base(model) : std::vector<Eigen::Index>();
+    if (water)
+        for (const Eigen::Index unknown : unknowns_of_floor(system, *water)) moved.push_back(unknown);
+    HarmonicSolver solver(system.mass, system.damping, system.stiffness, moved);
     const int crest = model.dofs(model.mesh.crest.back(), 0);
     std::vector<TransferPoint> points;
     for (const double frequency : frequencies) {
@@ -73,7 +91,7 @@ std::vector<TransferPoint> transfer_functions(const Model& model, const LinearSy
         point.frequency = frequency;
         const double w = 2.0 * std::numbers::pi * frequency;
         const std::complex<double> rate(0.0, w);
-        point.regular = solver.factorise(w, dynamic_stiffness(rock, w));
+        point.regular = solver.factorise(w, dynamic_stiffness(rock, w, system.scale));
         if (point.regular) {
             Eigen::VectorXcd load = system.velocity_x.cast<std::complex<double>>() / rate;
             load.head(n) -= model.inertia_x.head(n);

@@ -25,7 +25,7 @@ struct TransferPoint {
 /// Radiating rock below the dam: its dynamic stiffness, the inverse of ReducedRock::response(), stands on the unknowns of
 /// the base.
 struct RockBelow {
-    const ReducedRock& rock;        ///< rows as unknowns_of_base()
+    const ReducedRock& rock; ///< rows as unknowns_of_base(), then those of the water's floor where it is the rock's
     double stiffness_damping = 0.0; ///< b_K [s]
 };
 

@@ -31,6 +31,13 @@ WaveBoxInput dimensionless(const RadiatingRockInput& input, double length)
     const double highest = frequency_band(input.highest_frequency * length / elastic_waves(input.rock).s);
     box.highest_frequency = highest * elastic_waves(box.rock).s;
     box.shape = wave_box_shape(highest, input.box_size);
+    box.floor = input.floor;
+    if (input.floor > 0) { // inside is longer by the floor, the sponge stays
+        const double floor = box.surface[static_cast<std::size_t>(input.floor)].x - box.surface.front().x;
+        box.middle = -0.5 * floor;
+        box.shape.width += floor;
+        box.shape.inner_width += floor;
+    }
     return box;
 }
 
@@ -43,6 +50,7 @@ std::string key_of(const WaveBoxInput& box, const ReductionOptions& r)
                                   s.inner_depth, s.growth, s.per_wave, s.per_sponge, s.sponge_wave, s.sponge);
     key +=
         fmt::format(" reduction {:a} {:a} {:a} {} {} nodes", r.wanted, r.kept, r.sampling, r.checks, r.largest_rounds);
+    if (box.floor > 0) key += fmt::format(" floor {}", box.floor);
     for (const Point& p : box.surface) key += fmt::format(" {:.0f} {:.0f}", p.x * grid, p.y * grid);
     return key;
 }
@@ -90,6 +98,7 @@ RadiatingRock radiating_rock(const RadiatingRockInput& input, const RockStore& s
         rock = from_bytes(bytes, key);
         assert(rock);
     }
+    rock->floor = box.floor > 0 ? box.floor + 1 : 0; // and the heel
     result.rock = rock->scaled(input.rock.young_modulus, input.rock.density, length);
     result.seconds = watch.seconds();
     return result;

@@ -9,9 +9,11 @@ namespace damslip::fe2d {
 
 /// The rock of one scene.
 struct RadiatingRockInput {
-    ElasticMaterial rock;           ///< density > 0
-    Point heel, toe;                ///< of the base
-    std::vector<Point> surface;     ///< interface nodes on the rock's surface, upstream to downstream, x increasing [m]
+    ElasticMaterial rock;       ///< density > 0
+    Point heel, toe;            ///< of the base
+    std::vector<Point> surface; ///< interface nodes on the rock's surface, upstream to downstream, x increasing [m]
+    int floor =
+        0; ///< so many of them, the first, are on the floor of acoustic water upstream of the base, whose pressure moves the rock
     double highest_frequency = 0.0; ///< ω up to which waves are to be right [rad/s]
     double box_size = 1.0;          ///< of the box, over the automatic one: wave_box_shape() [-]
     ReductionOptions reduction;
@@ -25,7 +27,7 @@ enum class RockOrigin {
 };
 
 struct RadiatingRock {
-    ReducedRock rock; ///< of the scene, rows (x, y) by node
+    ReducedRock rock; ///< of the scene, rows (x, y) by node of the base, then ReducedRock::floor
     RockOrigin origin = RockOrigin::made;
     double resolved = 0.0; ///< ω up to which waves are right: the wanted one or up to a quarter more [rad/s]
     WaveBoxShape box;

@@ -28,6 +28,10 @@ struct ReductionOptions {
 /// Everything is a congruence with real vectors: passive whatever is cut. Checked by the box itself for two loads,
 /// pseudo-random and always the same, at frequencies in between; where it fails the worst frequency's snapshots go in and a
 /// finer cut is made.
+///
+/// Where the first nodes are the water's floor (WaveBoxInput::floor) there are two groups of loads, tractions on the base and pressures
+/// on the floor, polynomials of the same kind over either length; rows of the floor are ReducedRock::floor; the check has two more
+/// loads, pseudo-random pressures on the floor alone.
 ReducedRock reduce_rock(const WaveBoxInput& input, const WaveBox& box, const ReductionOptions& options = {});
 
 /// Frequencies ω_k > 0, ascending, the last one the highest [rad/s].

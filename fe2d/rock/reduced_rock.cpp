@@ -1,11 +1,20 @@
 #include "fe2d/rock/reduced_rock.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 
 #include <cassert>
 #include <cmath>
 
 namespace damslip::fe2d {
+
+std::string ReductionReport::missed_gate() const
+{
+    return fmt::format("The radiating rock's reduction errs by {:.2g} %, {:.2g} % are allowed: give a smaller "
+                       "foundation.wave_frequency_Hz.",
+                       100.0 * error, 100.0 * wanted);
+}
 
 using Eigen::Index;
 using Eigen::MatrixXcd;
@@ -37,18 +46,24 @@ ReducedRock ReducedRock::scaled(double young_modulus, double density, double len
     result.damping *= rate;
     result.modes /= std::sqrt(density) * length;
     result.residual /= young_modulus;
+    if (floor > 0) { // volumes
+        result.modes.bottomRows(floor) *= length;
+        result.residual.bottomRows(floor) *= length;
+        result.residual.rightCols(floor) *= length;
+    }
     return result;
 }
 
 ReducedRock ReducedRock::on_plane(const Eigen::Vector2d& normal, const Eigen::Vector2d& tangent) const
 {
-    const Index n = interface() / 2;
+    const Index n = base() / 2;
     const auto rows = [&](const MatrixXd& m) {
         MatrixXd turned(m.rows(), m.cols());
         for (Index i = 0; i < n; ++i) {
             turned.row(i) = normal.transpose() * m.middleRows(2 * i, 2);
             turned.row(n + i) = tangent.transpose() * m.middleRows(2 * i, 2);
         }
+        turned.bottomRows(floor) = m.bottomRows(floor);
         return turned;
     };
     ReducedRock result = *this;

@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <span>
+#include <string>
 
 namespace damslip::fe2d {
 
@@ -19,6 +20,7 @@ struct ReductionReport {
     double seconds = 0.0;
 
     bool passed() const { return error <= wanted; }
+    std::string missed_gate() const; ///< of one that did not pass: a sentence with the figures and what to do
 };
 
 /// Rock with mass that lets waves out, reduced to its interface: two passive bodies in series,
@@ -33,16 +35,20 @@ struct ReducedRock {
     Eigen::MatrixXd modes;     ///< Φ, 2n x N, rows (x, y) by node [kg^-1/2 m^1/2]
     Eigen::MatrixXd residual;  ///< F_res, 2n x 2n [m²/N]
     ReductionReport report;
+    /// How many of the rows, the last ones, are of the water's floor: v_j = ∫ N_j n·u dS, n out of the water, N_j the shape of
+    /// the water's node j, far end to heel. The force on v_j is the pressure p_j [Pa].
+    Eigen::Index floor = 0;
 
     Eigen::Index count() const { return stiffness.size(); }
-    Eigen::Index interface() const { return modes.rows(); } ///< 2n
+    Eigen::Index interface() const { return modes.rows(); }    ///< 2n, and `floor`
+    Eigen::Index base() const { return modes.rows() - floor; } ///< 2n
 
     Eigen::MatrixXd static_flexibility() const; ///< Φ K̂⁻¹ Φᵀ + F_res
     /// u_c e^{iωt} for p e^{iωt}. @param frequency  ω [rad/s] @param stiffness_damping  b_K [s]
     Eigen::MatrixXcd response(double frequency, double stiffness_damping, const Eigen::MatrixXd& loads) const;
 
     /// The rock of another modulus, density and size whose geometry over size, Poisson's ratio and ω size/c_s are this
-    /// one's: K̂ ∝ E/(ρ L²), Ĉ ∝ √(E/ρ)/L, Φ ∝ 1/(√ρ L), F_res ∝ 1/E.
+    /// one's: K̂ ∝ E/(ρ L²), Ĉ ∝ √(E/ρ)/L, Φ ∝ 1/(√ρ L), F_res ∝ 1/E; rows of the floor times L.
     ReducedRock scaled(double young_modulus, double density, double length) const;
 
     /// With rows in the order of Plane: normal components of all nodes, then tangential ones.

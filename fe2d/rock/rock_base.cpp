@@ -33,6 +33,10 @@ public:
         return energy;
     }
 
+    Eigen::Index floor() const override { return step_.rock().floor; }
+    Eigen::VectorXd floor_velocity() const override { return motion_.velocity().tail(floor()); }
+    Eigen::VectorXd floor_acceleration() const override { return motion_.acceleration().tail(floor()); }
+
 private:
     RockStep step_;
     RockMotion motion_;

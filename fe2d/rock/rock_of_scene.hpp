@@ -7,7 +7,8 @@
 
 namespace damslip::fe2d {
 
-/// The radiating rock of a scene, reduced to nodes on its surface; rows (x, y) by these.
+/// The radiating rock of a scene, reduced to nodes on its surface; rows (x, y) by these; where the water's floor is the rock
+/// (floor_on_rock()), its nodes' rows too.
 /// @param nodes  of the mesh, upstream to downstream: those that the dam faces, or may come to face
 /// @param wave_frequency  up to which waves are to be right where the scene has none [Hz]
 /// @param cache  folder of reduced rock (RockStore); empty: none

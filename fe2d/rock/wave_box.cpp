@@ -31,7 +31,8 @@ struct Sizes {
         depth = s.depth * b;
         half_inner = 0.5 * s.inner_width * b;
         inner_depth = s.inner_depth * b;
-        first = (input.surface.back().x - input.surface.front().x) / static_cast<double>(input.surface.size() - 1);
+        const auto of_base = input.surface.begin() + input.floor;
+        first = (input.surface.back().x - of_base->x) / static_cast<double>(input.surface.end() - of_base - 1);
         inside = std::max(first, wave / s.per_wave);
         outside = std::max(inside, std::min((half_width - half_inner) / s.per_sponge, s.sponge_wave * wave));
         growth = s.growth;

@@ -28,6 +28,7 @@ struct WaveBoxInput {
     double middle = 0.0;        ///< x of mid-base [m]
     std::vector<Point> surface; ///< interface nodes on the rock's surface, upstream to downstream, x increasing; the
                                 ///< surface runs straight between them and level from the outer ones on [m]
+    int floor = 0;              ///< so many of them, the first, are on the water's floor; the base begins after them
     double highest_frequency = 0.0; ///< ω up to which waves are resolved [rad/s]
     WaveBoxShape shape;
 };

@@ -115,7 +115,7 @@ ContactLanding::Change ContactLanding::change_by(StepRock::Jump of, const Contac
 {
     DynamicOperator::Free free;
     free.dam = VectorXd::Zero(structure_.dam_unknowns());
-    free.interface = VectorXd::Zero(2 * structure_.interface());
+    free.interface = VectorXd::Zero(op.interface_unknowns());
     free.mean = VectorXd::Zero(structure_.planes().count());
     VectorXd tilde;
     op.finish(free, jumps.force, VectorXd::Zero(2 * structure_.pairs()), jumps.displacement, tilde);

@@ -16,7 +16,7 @@ ContactLedger::ContactLedger(const StepOperators& operators, const Contact& join
 {
     if (structure_.water()) {
         water_ledger_ = std::make_shared<const WaterLedger>(*structure_.water(), structure_.order());
-        water_ = water_before_ = water_before2_ = water_instant(start, dam);
+        water_ = water_before_ = water_before2_ = water_instant(start, dam, rock);
     }
     stored_ = stored(start.contact.opening);
     energy_.strain = dam.strain() + rock.strain(start) + stored_;
@@ -31,13 +31,14 @@ double ContactLedger::stored(const VectorXd& opening) const
     return stored_energy(joint_, structure_.planes().area(), opening);
 }
 
-WaterLedger::Instant ContactLedger::water_instant(const StepState& state, const StepDam& dam) const
+WaterLedger::Instant ContactLedger::water_instant(const StepState& state, const StepDam& dam,
+                                                  const StepRock& rock) const
 {
     const GroundAcceleration& g = state.ground;
     const Products& products = dam.products();
     // the water has no part in the translations that K u leaves out
     return water_ledger_->instant({state.u, state.v, state.a, products.stiffness_1, products.mass_1, products.mass_2},
-                                  g.velocity_h, g.velocity_v, g.displacement_v);
+                                  rock.floor(), g.velocity_h, g.velocity_v, g.displacement_v);
 }
 
 void ContactLedger::gather(const StepState& state, const StepDam& dam, const StepRock& rock, Forces& f) const
@@ -174,7 +175,7 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
     if (structure_.water()) {
         std::swap(water_before2_, water_before_);
         std::swap(water_before_, water_);
-        water_ = water_instant(state, dam);
+        water_ = water_instant(state, dam, rock);
         water_ledger_->add(c, water_before2_, water_before_, water_, e);
     }
     scale_ = std::max({scale_, e.kinetic, std::abs(e.damping), std::abs(e.friction), std::abs(e.external),
@@ -191,8 +192,9 @@ void ContactLedger::add_landing(LandingForces forces, const StepState& state, co
     of_rock_ = rock.energy();
     energy_.kinetic = 0.5 * velocity.dot(dam.products().mass_1) + of_rock_.kinetic;
     if (structure_.water()) {
-        WaterLedger::Instant now = water_instant(state, dam);
+        WaterLedger::Instant now = water_instant(state, dam, rock);
         now.jolt = now.force - water_.force;
+        now.jolt_rate = now.rate - water_.rate;
         energy_.strain += water_ledger_->compression(now) - water_ledger_->compression(water_);
         energy_.kinetic += water_ledger_->flow(now);
         water_ = std::move(now);

@@ -53,7 +53,7 @@ private:
     double stored(const Eigen::VectorXd& opening) const;
     Eigen::VectorXd add_laws(const StepState& state, const Eigen::VectorXd& gap_step);
     void note_laws(const JointEnergy& now);
-    WaterLedger::Instant water_instant(const StepState& state, const StepDam& dam) const;
+    WaterLedger::Instant water_instant(const StepState& state, const StepDam& dam, const StepRock& rock) const;
 
     const ContactStructure& structure_;
     RunDamping damping_;

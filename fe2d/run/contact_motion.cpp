@@ -17,6 +17,22 @@ void DynamicCounts::add(const ContactReport& report, double residual)
     largest_residual = std::max(largest_residual, residual);
 }
 
+DynamicCounts& DynamicCounts::operator+=(const DynamicCounts& other)
+{
+    steps += other.steps;
+    contact_iterations += other.contact_iterations;
+    largest_iterations = std::max(largest_iterations, other.largest_iterations);
+    unresolved += other.unresolved;
+    for (int k = 0; k < 5; ++k) by_path[k] += other.by_path[k];
+    landings += other.landings;
+    halved += other.halved;
+    refined += other.refined;
+    largest_residual = std::max(largest_residual, other.largest_residual);
+    factorisations = std::max(factorisations, other.factorisations); // shared
+    contact_seconds += other.contact_seconds;
+    return *this;
+}
+
 LargestSlips::LargestSlips(const ContactPlanes& planes, VectorXd start)
     : planes_(planes), start_(std::move(start)), largest_(VectorXd::Zero(planes.count()))
 {

@@ -3,6 +3,8 @@
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/time/energy.hpp"
 
+#include <utility>
+
 namespace damslip::fe2d {
 
 /// Ground acceleration of one instant, as records have it.
@@ -36,6 +38,7 @@ struct DynamicCounts {
 
     /// A step that was made. @param residual  of its contact over the static normal force [-]
     void add(const ContactReport& report, double residual);
+    DynamicCounts& operator+=(const DynamicCounts& other); ///< of the run before
 };
 
 /// Largest |mean slip| of each plane since the start of a motion, over all steps that were made, sub-steps and halves
@@ -44,7 +47,8 @@ class LargestSlips {
 public:
     /// @param planes  outlive this @param start  slips of all pairs before the motion [m]
     LargestSlips(const ContactPlanes& planes, Eigen::VectorXd start);
-    void look(const Eigen::VectorXd& slip);                         ///< of all pairs after a step [m]
+    void look(const Eigen::VectorXd& slip); ///< of all pairs after a step [m]
+    void count_from(Eigen::VectorXd start) { start_ = std::move(start); }
     double of(Eigen::Index plane) const { return largest_[plane]; } ///< [m]
 
 private:

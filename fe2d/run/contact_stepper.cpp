@@ -53,6 +53,7 @@ void ContactStepper::begin(const StepState& state, const GroundAcceleration& gro
         known_.tail(state.rate_t.size()) -= slip_damping_.weights * (slip_damping_.drag * slip - mean);
     }
     rock.begin_step(*op_, state);
+    rock.load_water(*op_, free_.dam);
 }
 
 ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& state, const StepRock& rock,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cassert>
 
 namespace damslip::fe2d {
@@ -71,7 +72,7 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
     size_ = water_ ? water_->size : solid;
     if (water_) {
         const SparseMatrix all = corner_and(stiffness, water_->stiffness) + water_->damping + water_->mass;
-        order_ = interface_last(all, planes_.nodes());
+        order_water(all);
         stiffness_ = order_.to_new(corner_and(stiffness, water_->stiffness));
         mass_ = order_.to_new(corner_and(mass, water_->mass));
         edge_damping_ = order_.to_new(corner_and(edges, SparseMatrix(size_, size_)));
@@ -115,6 +116,22 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
         condense_rock(slides_far_ ? contact.rock_line : contact.rock_nodes);
     }
     regular_ = static_factor_->regular() && (!has_rock() || (rock_factor_->regular() && rock_flexibility_.size() > 0));
+}
+
+/// Nodes of the water's floor behind all others inside, where it is the rock's.
+void ContactStructure::order_water(const SparseMatrix& pattern)
+{
+    std::vector<int> last;
+    for (const Index unknown : water_->water.floor) {
+        floor_.push_back(water_->place[static_cast<std::size_t>(unknown)]);
+        const int node = static_cast<int>(floor_.back() / 2);
+        if (std::find(last.begin(), last.end(), node) == last.end()) last.push_back(node);
+    }
+    floor_nodes_ = static_cast<int>(last.size());
+    last.insert(last.end(), planes_.nodes().begin(), planes_.nodes().end());
+    order_ = interface_last(pattern, last);
+    order_.inner += floor_nodes_;
+    for (Index& unknown : floor_) unknown = 2 * order_.new_node[static_cast<std::size_t>(unknown / 2)] + unknown % 2;
 }
 
 /// Upper blocks take theirs from the lower ones.

@@ -72,6 +72,10 @@ public:
     const Eigen::VectorXd& inertia_y() const { return inertia_y_; }
     const Eigen::VectorXd& dam_inertia_x() const { return dam_inertia_x_; } ///< M_dam r, horizontal ...
     const Eigen::VectorXd& dam_inertia_y() const { return dam_inertia_y_; } ///< ... and vertical
+    /// Pressures on a floor that is the rock's (FluidModel::floor), by their places in the order; empty: none. Their nodes are the
+    /// last floor_nodes() of the inner ones.
+    const std::vector<Eigen::Index>& floor() const { return floor_; }
+    int floor_nodes() const { return floor_nodes_; }
     bool has_rock() const { return rock_factor_.has_value(); }
     /// With finite sliding over rock: the rock's contact nodes are the whole line of the plane, past heel and toe.
     bool slides_far() const { return slides_far_; }
@@ -103,6 +107,7 @@ public:
 
 private:
     void condense_rock(const std::vector<int>& contact_nodes);
+    void order_water(const SparseMatrix& pattern);
     void find_anchors();
     void clear_rock(Eigen::VectorXd& vector) const;
 
@@ -115,6 +120,8 @@ private:
     SparseMatrix stiffness_, mass_, added_mass_, gyration_;
     Eigen::VectorXd inertia_x_, inertia_y_, dam_inertia_x_, dam_inertia_y_, velocity_x_, velocity_y_, displacement_y_;
     std::vector<Eigen::Index> water_nodes_, rock_nodes_; ///< in the dam's order
+    std::vector<Eigen::Index> floor_;
+    int floor_nodes_ = 0;
     SparseMatrix edge_damping_;
     bool rock_moves_ = false;
     Eigen::Index size_ = 0;                                     ///< unknowns

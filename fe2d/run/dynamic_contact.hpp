@@ -30,6 +30,8 @@ public:
 
     /// From the next step on. @param control  of the steps that advance() is asked for
     void control(const StepControl& control) { cuts_.control(control); }
+    /// Largest slips are counted from these of all pairs, in place of those at the start [m].
+    void count_slips_from(const Eigen::VectorXd& start) { largest_slips_.count_from(start); }
     const std::vector<double>& local_errors() const { return cuts_.local_errors(); }
 
     /// One of several runs that share their operators and ground and go on in step.

@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <cassert>
+
 namespace damslip::fe2d {
 
 using Eigen::Index;
@@ -49,20 +51,24 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
                                  const SlipDamping& slip_damping, const StepConstants& constants,
                                  const ReducedRock* radiating)
     : structure_(structure), slip_damping_(slip_damping), constants_(constants),
-      factor_(dam_matrix(structure, damping, constants), structure.order().inner, structure.water() ? -1 : 0)
+      factor_(dam_matrix(structure, damping, constants), structure.order().inner - structure.floor_nodes(),
+              structure.water() ? -1 : 0, structure.floor_nodes()),
+      gaps_(structure.planes().gaps())
 {
     if (!factor_.regular()) return;
     const double w = 1.0 + constants.scheme.alpha;
-    const ContactPlanes::Matrix& gaps = structure.planes().gaps();
-    interface_flexibility_ = symmetric_inverse(factor_.schur());
+    if (radiating) rock_step_.emplace(*radiating, damping.constants.stiffness, constants);
+    if (has_floor())
+        couple_floor();
+    else
+        interface_flexibility_ = symmetric_inverse(factor_.schur());
+    const ContactPlanes::Matrix& gaps = gaps_;
     pull_ = interface_flexibility_ * gaps.transpose();
     dam_flexibility_ = gaps * pull_;
-    if (radiating)
-        rock_step_.emplace(*radiating, damping.constants.stiffness, constants);
-    else if (structure.has_rock())
+    if (!radiating && structure.has_rock())
         rock_share_ = 1.0 / (w * (1.0 + constants.a1 * damping.constants.stiffness));
     if (slip_damping.active()) {
-        const Index planes = slip_damping.momentum.cols(), interface = 2 * structure.interface();
+        const Index planes = slip_damping.momentum.cols(), interface = interface_unknowns();
         momentum_ = w * constants.a1 * slip_damping.momentum;
         drag_ = w * constants.a1 * slip_damping.drag;
         for (Index k = 0; k < planes; ++k) {
@@ -82,13 +88,48 @@ DynamicOperator::DynamicOperator(const ContactStructure& structure, const RunDam
     contact_ = contact_at(structure.trace(0.0));
 }
 
+/// The floor's part of the step: pressures see the rock's compliance there, and contact forces reach them through it.
+void DynamicOperator::couple_floor()
+{
+    const ReducedRock& rock = rock_step_->rock();
+    const MatrixXd& compliance = rock_step_->compliance();
+    const Index base = rock.base(), floor = rock.floor, first = factor_.inner_unknowns(),
+                pressures = 2 * structure_.floor_nodes();
+    assert(floor == static_cast<Index>(structure_.floor().size()) && !structure_.slides_far());
+    floor_factor_ = (1.0 + constants_.scheme.alpha) * constants_.a1 * structure_.water()->scale;
+    MatrixXd places = MatrixXd::Zero(floor, pressures);
+    for (Index k = 0; k < floor; ++k) places(k, structure_.floor()[static_cast<std::size_t>(k)] - first) = 1.0;
+
+    MatrixXd schur = factor_.schur();
+    schur.topLeftCorner(pressures, pressures) -=
+        (floor_factor_ * floor_factor_) * (places.transpose() * compliance.bottomRightCorner(floor, floor) * places);
+    const MatrixXd inverse = schur.partialPivLu().inverse(); // of both signs
+    interface_flexibility_ = 0.5 * (inverse + inverse.transpose());
+
+    const ContactPlanes::Matrix& of_dam = structure_.planes().gaps();
+    MatrixXd gaps(of_dam.rows(), pressures + of_dam.cols());
+    gaps.rightCols(of_dam.cols()) = of_dam;
+    gaps.leftCols(pressures) =
+        -floor_factor_ * (structure_.trace(0.0) * (compliance.topRightCorner(base, floor) * places));
+    gaps_ = gaps.sparseView(0.0, 0.0);
+}
+
+VectorXd DynamicOperator::on_floor(const VectorXd& interface) const
+{
+    VectorXd values(static_cast<Index>(structure_.floor().size()));
+    for (Index k = 0; k < values.size(); ++k)
+        values[k] = interface[structure_.floor()[static_cast<std::size_t>(k)] - factor_.inner_unknowns()];
+    return values;
+}
+
 StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
     const Index m = structure_.pairs();
     MatrixXd flexibility = dam_flexibility_;
     if (rock_step_) {
-        const MatrixXd half = trace * rock_step_->compliance();
+        const Index base = rock_step_->rock().base();
+        const MatrixXd half = trace * rock_step_->compliance().topLeftCorner(base, base);
         flexibility += half * trace.transpose();
     } else if (structure_.has_rock()) {
         const MatrixXd half = trace * structure_.rock_flexibility();
@@ -114,7 +155,7 @@ void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
 {
     const Index interface = interface_flexibility_.rows();
     free.interface.noalias() = interface_flexibility_ * free.dam.tail(interface);
-    free.gap = structure_.planes().gaps() * free.interface;
+    free.gap = gaps_ * free.interface;
     if (rock_gap.size() > 0) free.gap -= rock_gap;
     if (!slip_damping_.active()) return;
     free.mean = momentum_.bottomRows(interface).transpose() * free.interface;
@@ -133,7 +174,7 @@ void DynamicOperator::stuck_force(const StepContact& contact, const Free& free, 
 void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
                              VectorXd& tilde) const
 {
-    const Index m = structure_.pairs(), inner = structure_.inner_unknowns();
+    const Index m = structure_.pairs(), inner = factor_.inner_unknowns();
     tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (slip_damping_.active()) {
         // λ̃ = w λ₁ - known - ω (κ' s - kᵀΔu),  kᵀΔu = mean + ζ s + zᵀλ̃

@@ -52,6 +52,15 @@ struct StepContact {
 /// λ₁ = λ⁰ + V Δg with
 ///
 ///     V = (1/w) [Eᵀ W⁻¹ E + ω (κ' - ζ) ωᵀ]
+///
+/// Where the water's floor is the rock's (ReducedRock::floor) the rock's step also feels p̃_f = h Δφ_f + (known) on the volumes v of the
+/// floor, and the water's rows there have h Δv, h = w a1 s, p = s φ̇ (CoupledSystem). The rock eliminated, with W_r = [W_b, W_bf;
+/// W_fb, W_f]
+///
+///     A_d - h² W_f on φ_f in place of A_d,   [D, -h P W_bf] on [u, φ_f] in place of D,   b_f + h v* - (known)
+///
+/// and all else stays: W_f is positive semi-definite, the pressures' block negative, so A_d stays quasi-definite. Pressures of the
+/// floor are then part of the interface, before the dam's nodes.
 class DynamicOperator {
 public:
     DynamicOperator(const ContactStructure& structure, const RunDamping& damping, const SlipDamping& slip_damping,
@@ -65,6 +74,12 @@ public:
     {
         return rock_step_ ? &*rock_step_ : nullptr;
     } ///< null: the rock does not radiate
+
+    bool has_floor() const { return structure_.floor_nodes() > 0; }
+    double floor_factor() const { return floor_factor_; } ///< h [Pa]
+    Eigen::VectorXd
+    on_floor(const Eigen::VectorXd& interface) const; ///< values of the floor's pressures among those of the interface
+    Eigen::Index interface_unknowns() const { return 2 * (structure_.interface() + structure_.floor_nodes()); }
 
     /// The contact problem before the dam has slid; the only one where it does not slide far.
     const StepContact& contact() const { return contact_; }
@@ -95,10 +110,14 @@ public:
     std::size_t bytes() const;
 
 private:
+    void couple_floor();
+
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;
     StepConstants constants_;
     InterfaceFactor factor_;
+    ContactPlanes::Matrix gaps_; ///< D on the interface, the floor's part included
+    double floor_factor_ = 0.0;
     Eigen::MatrixXd interface_flexibility_; ///< inverse of the Schur complement, interface
     Eigen::MatrixXd pull_;                  ///< of the interface by forces on the pairs: the same times Dᵀ
     Eigen::MatrixXd dam_flexibility_;       ///< D A_d⁻¹ Dᵀ

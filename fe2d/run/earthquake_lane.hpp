@@ -9,11 +9,17 @@ namespace damslip::fe2d {
 struct EarthquakeRun::Lane {
     Strength strength;
     ContactMemory memory;
+    Contact contact = {}; ///< strength of the base
     StaticState start = {};
+    Eigen::VectorXd load = {};   ///< static, on all unknowns, while it shakes [N/m]
+    PressureProfile uplift = {}; ///< under the base, part of `load`
     RunResult result = {};
+    std::optional<HistoryBefore> before = {};        ///< of a record of a sequence that begins from a static state
     int next = 0;                                    ///< halvings of the next pass; 0: none
     std::vector<std::vector<SlipAtStep>> slips = {}; ///< of the passes, by plane
     double local_error = 0.0;                        ///< of the worst steps of the first pass, for adaptive steps [m]
+    std::vector<double> later_errors = {};           ///< the same of the later records of a sequence
+    long steps_before = 0, steps_of_all = 0;         ///< of the records before, and of all; 0: of its motion
     std::optional<ChosenSteps> steps = {};           ///< in place of the options'
 
     /// Do the static stages end in equilibrium?

@@ -21,6 +21,17 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// What of the base stands under full head after an earthquake; empty: nothing has cracked.
+std::string water_in(const CrackLengths& crack)
+{
+    const double length = crack.upstream + crack.downstream;
+    return length > 0.0 ? fmt::format("full head on {:.4g} m of the base", length) : std::string();
+}
+
+} // namespace
+
+namespace {
+
 /// Energy that contact or the scheme has made up, beyond what the ground and the weights gave: of contact a twentieth of
 /// it, or what lifts the dam by a tenth of a millimetre (landings at the end of coarse steps give and take as much). A stable
 /// scheme with beta < gamma/2 lends some of the kinetic energy and takes it back; an unstable one soon has given many times
@@ -55,17 +66,39 @@ double worst(std::vector<double> errors)
 
 } // namespace
 
+/// A dam that nothing has loaded yet.
+EarthquakeRun::Lane EarthquakeRun::lane_of(const Contact& contact) const
+{
+    Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
+    lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
+    if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift))
+        lane.memory.laws.add(std::move(water));
+    lane.contact = contact;
+    lane.load = stages_.last();
+    lane.uplift = options_.uplift;
+    return lane;
+}
+
+/// What rests on the dam while it shakes.
+SplitLoad EarthquakeRun::load_of(const Lane& lane) const
+{
+    SplitLoad load = structure_->split(lane.load);
+    let_water_ride(*structure_, lane.uplift, load);
+    return load;
+}
+
 /// The static stages. Where they do not end in equilibrium, lane.result.status says why.
-void EarthquakeRun::stand(Lane& lane) const
+/// @param from  null: a dam that no earthquake has shaken
+void EarthquakeRun::stand(Lane& lane, const RunState* from) const
 {
     const Stopwatch clock;
     RunResult& result = lane.result;
     StaticContact contact_statics(statics_, scene_.contact, options_.contact);
     result.zero_displacement = zero_displacement(contact_statics, lane.strength);
     result.stages = statics(contact_statics, lane.strength, lane.memory);
-    if (result.stages.back().status == StageStatus::ok && options_.start) go_on(contact_statics, lane);
+    if (result.stages.back().status == StageStatus::ok && from) go_on(contact_statics, lane, *from);
     if (result.stages.back().status == StageStatus::ok) {
-        lane.start = contact_statics.displacements(split(stages_.loads.size() - 1), lane.memory);
+        lane.start = contact_statics.displacements(load_of(lane), lane.memory);
     } else {
         result.status = status_of(result.stages.back().status);
         result.message = result.stages.back().text();
@@ -73,26 +106,35 @@ void EarthquakeRun::stand(Lane& lane) const
     result.seconds.statics = clock.seconds();
 }
 
-/// The joints as an earthquake before has left them, in equilibrium under the static loads.
-void EarthquakeRun::go_on(StaticContact& statics, Lane& lane) const
+/// The joints as an earthquake before has left them, in equilibrium under the static loads; with full head in what has cracked
+/// where uplift.after says so.
+void EarthquakeRun::go_on(StaticContact& statics, Lane& lane, const RunState& from) const
 {
-    const RunState& from = *options_.start;
     lane.memory.force = from.force;
     lane.memory.opening = from.opening;
     lane.memory.slip = from.slip;
     lane.memory.states = from.states;
     lane.strength.restore(from);
-    lane.result.stages.push_back(solve_stage(statics, *structure_, "as it was left", split(stages_.loads.size() - 1),
-                                             lane.strength, lane.memory));
+    lane.memory.laws.restore(from.laws);
+    const SplitLoad before = load_of(lane);
+    if (auto* water = lane.memory.laws.find<CrackWater>(); water && options_.cracked_uplift_after) {
+        const CrackLengths& crack = water->report().largest;
+        lane.uplift = options_.cracked_uplift_after(crack.upstream, crack.downstream);
+        lane.load = load_with(stages_, *model_, lane.uplift);
+        water->rest_with(lane.uplift);
+    }
+    lane.result.stages.push_back(
+        solve_stage(statics, *structure_, "as it was left", load_of(lane), lane.strength, lane.memory, &before));
+    if (const auto* water = lane.memory.laws.find<CrackWater>(); water && options_.cracked_uplift_after)
+        lane.result.stages.back().water = water_in(water->report().largest);
 }
 
 /// Where the static stages leave the dam, and the loads that go on.
 EarthquakeRun::Rest EarthquakeRun::rest(const Lane& lane) const
 {
-    const SplitLoad load = split(stages_.loads.size() - 1);
-    if (!moving_) return {load, lane.start};
-    const HeldStart held = held_edges(
-        *model_, *moving_model_, structure_->assemble(lane.start.dam, lane.start.rock, stages_.last()), stages_.last());
+    if (!moving_) return {load_of(lane), lane.start};
+    const HeldStart held = held_edges(*model_, *moving_model_,
+                                      structure_->assemble(lane.start.dam, lane.start.rock, lane.load), lane.load);
     Rest rest;
     rest.load.dam = moving_->with_rock_to_order(held.load);
     rest.start.dam = moving_->with_rock_to_order(held.displacement);
@@ -119,11 +161,13 @@ struct Pass {
     bool going = true;
 
     Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series,
-         SlideWatch watching)
-        : dynamics(std::move(start)), strength(at_start), result(so_far), recorder(dynamics, result.history, series),
-          probe(dynamics.structure().planes(), so_far.stages.back(), dynamics.state().contact.slip),
-          watch(std::move(watching))
+         const std::optional<HistoryBefore>& before, SlideWatch watching)
+        : dynamics(std::move(start)), strength(at_start), result(so_far),
+          recorder(before ? HistoryRecorder(dynamics, result.history, series, *before)
+                          : HistoryRecorder(dynamics, result.history, series)),
+          probe(dynamics.structure().planes(), so_far.rest(), dynamics.state().contact.slip), watch(std::move(watching))
     {
+        if (before) dynamics.count_slips_from(before->slip_zero);
         look();
         add_row();
     }
@@ -153,6 +197,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
                                             std::span<Lane* const> lanes) const
 {
     if (motion.is_sequence() && lanes.size() > 1) return shake_in_turn(motion, halvings, lanes);
+    if (rests_between(motion)) return {shake_with_rests(motion, halvings, *lanes.front())};
     if (explicit_) return shake_explicitly(motion, halvings, lanes);
     const Stopwatch clock;
     const double dt = scene_.time.dt.value_or(motion.dt);
@@ -167,12 +212,12 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series,
-                                                slide_watch(*lane, ground.end())));
+                                                lane->before, slide_watch(*lane, ground.end())));
         RunResult& result = passes.back()->result;
         result.dt = step;
         result.halvings = halvings;
         result.status = Status::sliding_at_end;
-        result.events.clear(); // of a coarser pass
+        if (!lane->before) result.events.clear(); // of a coarser pass
     }
 
     std::optional<HeelWaves> waves;
@@ -272,6 +317,101 @@ std::vector<RunResult> EarthquakeRun::shake_in_turn(const GroundMotion& motion, 
     return results;
 }
 
+bool EarthquakeRun::rests_between(const GroundMotion& motion) const
+{
+    return motion.is_sequence() && scene_.uplift && scene_.uplift->water.after == WaterAfter::full &&
+           options_.cracked_uplift_after && !structure_->slides_far();
+}
+
+namespace {
+
+/// One record of a sequence.
+GroundMotion event_alone(const GroundMotion& motion, std::size_t event)
+{
+    const auto first = static_cast<std::ptrdiff_t>(motion.events[event].first),
+               end = static_cast<std::ptrdiff_t>(motion.last_of(event)) + 1;
+    GroundMotion alone;
+    alone.name = motion.events[event].name;
+    alone.dt = motion.dt;
+    alone.accel_h.assign(motion.accel_h.begin() + first, motion.accel_h.begin() + end);
+    if (!motion.accel_v.empty()) alone.accel_v.assign(motion.accel_v.begin() + first, motion.accel_v.begin() + end);
+    return alone;
+}
+
+/// What a run that went on from another one shares with it.
+void add_run_before(const RunResult& before, RunResult& run)
+{
+    run.max_slip = std::max(run.max_slip, before.max_slip);
+    for (std::size_t k = 0; k < run.lifts.size(); ++k)
+        run.lifts[k].largest_slip = std::max(run.lifts[k].largest_slip, before.lifts[k].largest_slip);
+    run.counts += before.counts;
+    run.bytes = std::max(run.bytes, before.bytes);
+    double scale = std::numeric_limits<double>::min();
+    for (const Energy& energy : run.history.energy) scale = std::max(scale, energy.scale());
+    run.energy_error = std::abs(run.history.imbalance.back()) / scale;
+}
+
+} // namespace
+
+/// A sequence whose water follows the crack between its records: each begins from a static state with it, as a run does
+/// that starts from the state another one has left (options.start), with the same bits.
+RunResult EarthquakeRun::shake_with_rests(const GroundMotion& motion, int halvings, Lane& first) const
+{
+    const std::size_t records = motion.events.size();
+    const auto steps_of = [&](const GroundMotion& played) {
+        const double end = motion.dt * static_cast<double>(played.accel_h.size() - 1);
+        return static_cast<long>(std::ceil(end / scene_.time.dt.value_or(motion.dt) - 1e-9));
+    };
+    first.steps_of_all = 0;
+    for (std::size_t k = 0; k < records; ++k) first.steps_of_all += steps_of(event_alone(motion, k));
+    first.later_errors.resize(records - 1);
+    const Index crest =
+        2 * in_motion().order().new_node[static_cast<std::size_t>(in_motion().model().mesh.crest.back())];
+
+    RunResult run;
+    std::vector<EventSlip> events;
+    long steps_before = 0;
+    for (std::size_t k = 0; k < records; ++k) {
+        const GroundMotion alone = event_alone(motion, k);
+        const double begin = k == 0 ? 0.0 : run.history.time.back() + motion.dt + motion.pause;
+        std::optional<Lane> later;
+        if (k > 0) {
+            if (run.status != Status::at_rest) break;
+            later = lane_of(first.contact);
+            stand(*later, &run.state);
+            StageResult standing = later->result.stages.back();
+            standing.name = fmt::format("before \"{}\"", alone.name);
+            run.seconds.statics += later->result.seconds.statics;
+            run.between.push_back(standing);
+            if (standing.status != StageStatus::ok) {
+                run.status = status_of(standing.status);
+                run.message = standing.text();
+                break;
+            }
+            later->before = HistoryBefore{begin, run.history.energy.back(), run.history.imbalance.back(),
+                                          first.memory.slip, rest(first).start.dam[crest]};
+            later->result = run;
+            later->steps = first.steps;
+            later->local_error = first.later_errors[k - 1];
+            later->steps_before = steps_before;
+            later->steps_of_all = first.steps_of_all;
+        }
+        Lane* const lane[] = {later ? &*later : &first};
+        RunResult now = std::move(shake(alone, halvings, lane).front());
+        if (later) {
+            add_run_before(run, now);
+            first.later_errors[k - 1] = later->local_error;
+        }
+        run = std::move(now);
+        const double end = begin + motion.dt * static_cast<double>(alone.accel_h.size() - 1);
+        events.push_back({alone.name, begin, end, run.slip, run.slip - (events.empty() ? 0.0 : events.back().slip)});
+        steps_before += steps_of(alone);
+    }
+    run.events_left = records - events.size();
+    run.events = std::move(events);
+    return run;
+}
+
 /// The figures at the end of a pass, and the static state after it.
 void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& strength_at_end, const Lane& lane,
                              RunResult& result) const
@@ -290,7 +430,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         }
     }
     result.max_slip = dynamics.largest_slips().of(0);
-    result.end_time = end.time;
+    result.end_time = result.history.time.back();
     result.counts = dynamics.counts();
     // Where nothing but round-off moves, that is no share of itself but of the weight's work over a nanometre.
     const double least = 1e-9 * dynamics.static_normal_force();
@@ -301,7 +441,7 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     const VectorXd force = end.contact.contact_force();
     result.pair_pressure = force.head(m).cwiseQuotient(plane.area);
     result.pair_shear = -force.segment(planes.pairs(), m).cwiseQuotient(plane.area);
-    result.pair_slip = (end.contact.slip - lane.memory.slip).head(m);
+    result.pair_slip = (end.contact.slip - (lane.before ? lane.before->slip_zero : lane.memory.slip)).head(m);
     result.pair_opening = end.contact.opening.head(m);
     result.lifts.clear();
     for (std::size_t k = 0; k < result.history.lifts.size(); ++k) {
@@ -315,7 +455,8 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
         lift.largest_rocking = largest(h.rocking);
     }
     if (const auto* anchors = end.contact.laws.find<AnchorLaw>()) result.anchors = anchors->outcomes();
-    result.state = {end.contact.force, end.contact.opening, end.contact.slip, {}, {}, end.contact.states};
+    result.state = {end.contact.force,  end.contact.opening,    end.contact.slip, {}, {},
+                    end.contact.states, end.contact.laws.save()};
     strength_at_end.save(result.state);
     result.displacement = displacement_of(end.u, end.rock);
     if (result.zero_displacement.size() > 0) result.displacement -= result.zero_displacement;
@@ -333,14 +474,16 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     else
         statics.emplace(statics_, scene_.contact, options_.contact);
     SplitLoad load = structure_->split(after);
-    const SplitLoad before = split(stages_.loads.size() - 1);
+    const SplitLoad before = load_of(lane);
     let_water_ride(*structure_, uplift_after.empty() ? options_.uplift : uplift_after, load);
-    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory, &before);
+    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory, &before,
+                               structure_->slides_far() ? LetGo{} : letting_go());
+    if (result.base_water && options_.cracked_uplift_after) result.after.water = water_in(result.base_water->largest);
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
 {
-    const double normal_force = lane.result.stages.back().resultant.normal_force;
+    const double normal_force = lane.result.rest().resultant.normal_force;
     return {{record_end, normal_force, scene_.sliding.steady_rate_change}, [this] { return window(); }};
 }
 
@@ -388,13 +531,9 @@ std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::s
     const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
     for (const Contact& contact : contacts) {
         if (!usable_ || !movable) break;
-        Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
-        lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
-        if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift))
-            lane.memory.laws.add(std::move(water));
-        lanes.push_back(std::make_unique<Lane>(std::move(lane)));
+        lanes.push_back(std::make_unique<Lane>(lane_of(contact)));
         lanes.back()->steps = steps;
-        stand(*lanes.back());
+        stand(*lanes.back(), options_.start ? &*options_.start : nullptr);
         if (lanes.back()->stands()) going.push_back(lanes.back().get());
     }
     if (!going.empty()) {

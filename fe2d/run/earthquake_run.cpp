@@ -1,6 +1,7 @@
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/self_excited.hpp"
+#include "fe2d/run/static_relaxation.hpp"
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
@@ -152,9 +153,7 @@ std::shared_ptr<const ReducedRock> EarthquakeRun::let_radiate()
     if (const ReductionReport& report = radiating_->rock.report;
         !report.passed()) { // no slip on rock that is not right
         usable_ = false;
-        why_not_ = fmt::format("The radiating rock's reduction errs by {:.2g} %, {:.2g} % are allowed: give a smaller "
-                               "foundation.wave_frequency_Hz.",
-                               100.0 * report.error, 100.0 * report.wanted);
+        why_not_ = report.missed_gate();
     }
     const Plane& plane = structure_->plane();
     return std::make_shared<const ReducedRock>(radiating_->rock.on_plane(plane.normal, plane.tangent));
@@ -230,12 +229,29 @@ SplitLoad nothing(const SplitLoad& like)
 
 } // namespace
 
+/// For static stages whose bond breaks. The rock is that of the motion where it is the same structure.
+LetGo EarthquakeRun::letting_go() const
+{
+    const Mesh& mesh = model_->mesh;
+    double top = -std::numeric_limits<double>::infinity(), foot = -top;
+    for (int node = 0; node < mesh.dam_node_count; ++node) {
+        top = std::max(top, mesh.nodes[node].y);
+        foot = std::min(foot, mesh.nodes[node].y);
+    }
+    const double young_modulus = scene_.dam.young_modulus.value_or(25e9); // about: the period sets a step size
+    const bool explicit_steps = !operators_;
+    return let_go_by(*structure_, damping_, explicit_steps ? Scheme{} : operators_->scheme(),
+                     explicit_steps || moving_ ? nullptr : operators_->radiating(), scene_.contact, options_.contact,
+                     first_period(top - foot, young_modulus));
+}
+
 std::vector<StageResult> EarthquakeRun::statics(StaticContact& statics, Strength& strength, ContactMemory& memory) const
 {
     std::vector<StageResult> results;
+    const LetGo let_go = letting_go();
     for (std::size_t k = 0; k < stages_.loads.size(); ++k) {
         const SplitLoad load = split(k), before = k > 0 ? split(k - 1) : nothing(load);
-        results.push_back(solve_stage(statics, *structure_, stages_.names[k], load, strength, memory, &before));
+        results.push_back(solve_stage(statics, *structure_, stages_.names[k], load, strength, memory, &before, let_go));
         if (results.back().status != StageStatus::ok) break;
     }
     // Pairs almost without friction may defeat the solver before the load comes that no friction of theirs can hold.
@@ -254,6 +270,10 @@ RunProgress EarthquakeRun::progress_of(const Lane& lane, int halvings, long reco
 {
     const bool chosen = !lane.steps && !scene_.time.substeps;
     const int first = lane.steps ? lane.steps->halvings : scene_.time.substeps.value_or(0);
+    if (lane.steps_of_all > 0) { // a record of a sequence
+        step = lane.steps_before + std::min(step, record_steps);
+        record_steps = lane.steps_of_all;
+    }
     const long before = record_steps * ((1L << halvings) - (1L << first)), now = record_steps << halvings;
     const long more = chosen && halvings == first ? 2 * now : 0;
     return {static_cast<double>(step) * dt, static_cast<double>(record_steps) * dt,
@@ -350,7 +370,12 @@ void EarthquakeRun::judge(RunResult& result) const
     default:
         break;
     }
-    if (result.events_left > 0 && !result.events.empty())
+    if (result.events_left > 0 && !result.between.empty() && result.rest().status != StageStatus::ok)
+        result.message += fmt::format(" {} of the sequence {} not run.",
+                                      result.events_left == 1 ? std::string("1 record")
+                                                              : fmt::format("{} records", result.events_left),
+                                      result.events_left == 1 ? "was" : "were");
+    else if (result.events_left > 0 && !result.events.empty())
         result.message +=
             fmt::format(" It had not come to rest after \"{}\": {} more of the sequence {} not run.",
                         result.events.back().name, result.events_left, result.events_left == 1 ? "was" : "were");

@@ -72,7 +72,8 @@ struct RunResult {
     Status status = Status::not_resolved; ///< not_resolved until the record has run
     std::string message;                  ///< one sentence with the numbers
     std::vector<StageResult> stages;      ///< before the earthquake
-    StageResult after;                    ///< after it, with residual strength and uplift_after
+    std::vector<StageResult> between; ///< of a sequence, before its second, third, ... record (uplift.after = "full")
+    StageResult after;                ///< after it, with residual strength and uplift_after
     RunHistory history;
     double slip = 0.0;             ///< final, area mean, since the static state [m]
     double max_slip = 0.0;         ///< largest |slip| of all steps on the way, between the rows of the history too [m]
@@ -96,6 +97,9 @@ struct RunResult {
     Eigen::VectorXd zero_displacement; ///< of the gravity stage where scene.stages.geostatic is set; else empty [m]
     RunSeconds seconds;
     std::size_t bytes = 0;
+
+    /// The static state from which the last record starts. @pre some stage was solved
+    const StageResult& rest() const { return between.empty() ? stages.back() : between.back(); }
 };
 
 /// The steps of a run as another run chose them.
@@ -167,10 +171,15 @@ private:
     std::shared_ptr<const ReducedRock> let_radiate();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
     SplitLoad split(std::size_t stage) const;
+    LetGo letting_go() const;
     SlideWatch slide_watch(const Lane& lane, double record_end) const;
     Eigen::VectorXd zero_displacement(StaticContact& statics, const Strength& strength) const;
-    void stand(Lane& lane) const;
-    void go_on(StaticContact& statics, Lane& lane) const;
+    Lane lane_of(const Contact& contact) const;
+    SplitLoad load_of(const Lane& lane) const;
+    void stand(Lane& lane, const RunState* from) const;
+    void go_on(StaticContact& statics, Lane& lane, const RunState& from) const;
+    bool rests_between(const GroundMotion& motion) const;
+    RunResult shake_with_rests(const GroundMotion& motion, int halvings, Lane& lane) const;
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;

@@ -8,18 +8,22 @@ namespace damslip::fe2d {
 
 using Eigen::Index;
 
-InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative) : inner_(inner_nodes)
+InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative, int negative_nodes)
+    : inner_(inner_nodes)
 {
     // The interface part may be singular; with a multiple of the identity added it is not, and taking it off again
     // costs one rounding because it is of the size of the diagonal.
-    const Index n = matrix.rows(), inner = 2 * inner_, rest = n - inner;
-    const double shift = matrix.diagonal().tail(rest).mean();
+    const Index n = matrix.rows(), inner = 2 * inner_, rest = n - inner, below = 2 * negative_nodes,
+                above = rest - below;
+    const double shift = matrix.diagonal().tail(above).mean(),
+                 shift_below = below > 0 ? matrix.diagonal().segment(inner, below).mean() : 0.0;
     SparseMatrix shifted = matrix;
-    for (Index k = inner; k < n; ++k) shifted.coeffRef(k, k) += shift;
+    for (Index k = inner; k < n; ++k) shifted.coeffRef(k, k) += k < inner + below ? shift_below : shift;
     Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt(shifted);
     if (ldlt.info() != Eigen::Success) return;
     const Eigen::VectorXd d = ldlt.vectorD();
-    if (!d.allFinite() || d.cwiseAbs().minCoeff() == 0.0 || !(d.tail(rest).minCoeff() > 0.0)) return;
+    if (!d.allFinite() || d.cwiseAbs().minCoeff() == 0.0 || !(d.tail(above).minCoeff() > 0.0)) return;
+    if (below > 0 && !(d.segment(inner, below).maxCoeff() < 0.0)) return;
     if (negative >= 0 && (d.head(inner).array() < 0.0).count() != negative) return;
     regular_ = true;
     const auto& lower = ldlt.matrixL().nestedExpression(); // CSC without the unit diagonal, rows ascending
@@ -51,10 +55,12 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, in
     for (Index j = 0; j < rest; ++j)
         for (SparseMatrix::InnerIterator it(lower, static_cast<int>(inner + j)); it; ++it)
             if (it.row() > inner + j) corner(it.row() - inner, j) = it.value();
-    corner = (corner * d.tail(rest).cwiseSqrt().asDiagonal()).eval();
+    corner = (corner * d.tail(rest).cwiseAbs().cwiseSqrt().asDiagonal()).eval();
     schur_.setZero(rest, rest);
-    schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner);
-    schur_.diagonal().array() -= shift;
+    schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner.rightCols(above));
+    if (below > 0) schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner.leftCols(below), -1.0);
+    schur_.diagonal().tail(above).array() -= shift;
+    schur_.diagonal().head(below).array() -= shift_below;
     schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 

@@ -20,7 +20,9 @@ public:
     /// definite, or quasi-definite with acoustic water (CoupledSystem: L D Lᵀ then exists in every order; 2 x 2 blocks of
     /// one sign each); the whole may be singular (a body held by nothing).
     /// @param negative  how many of the inner unknowns have a negative pivot; -1: any number
-    InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative = 0);
+    /// @param negative_nodes  the first nodes of the interface with a negative definite diagonal block, pressures; the others' is
+    /// positive
+    InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative = 0, int negative_nodes = 0);
 
     bool regular() const { return regular_; }
     const Eigen::MatrixXd& schur() const { return schur_; } ///< A_cc - A_ci A_ii⁻¹ A_ic, unknowns (x, y) by node

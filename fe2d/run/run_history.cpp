@@ -63,6 +63,27 @@ double base_rotation(const Plane& plane, const VectorXd& opening)
     return -moments.dot(opening) / moments.dot(arm);
 }
 
+namespace {
+
+/// What a motion has spent, and those before it. Kinetic, strain and what the laws say are of the state.
+Energy with_spent(Energy now, const Energy& before)
+{
+    for (const auto term : {&Energy::damping, &Energy::numerical, &Energy::friction, &Energy::radiated,
+                            &Energy::external, &Energy::contact_normal, &Energy::impact})
+        now.*term += before.*term;
+    return now;
+}
+
+} // namespace
+
+HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series,
+                                 const HistoryBefore& before)
+    : dynamics_(dynamics), history_(history), series_(series), start_(before.slip_zero),
+      to_middle_(weights_at_middle(dynamics.structure().plane())), crest_start_(before.crest_zero), before_(before)
+{
+    crest_ = 2 * dynamics.structure().order().new_node[dynamics.structure().model().mesh.crest.back()];
+}
+
 HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series)
     : dynamics_(dynamics), history_(history), series_(series), start_(dynamics.state().contact.slip),
       to_middle_(weights_at_middle(dynamics.structure().plane()))
@@ -90,7 +111,7 @@ void HistoryRecorder::add()
     }
     const VectorXd force = c.contact_force();
     const double normal = force.head(m).sum(), about_heel = force.head(m).dot(plane.distance);
-    history_.time.push_back(s.time);
+    history_.time.push_back(before_.time + s.time);
     history_.ground_h.push_back(s.ground.h);
     history_.ground_v.push_back(s.ground.v);
     history_.slip.push_back(planes.mean(0, slip));
@@ -112,13 +133,13 @@ void HistoryRecorder::add()
         history_.wet_length.push_back(report.wet_length);
         for (const double pressure : report.pressure) history_.joint_pressure.push_back(static_cast<float>(pressure));
     }
-    history_.energy.push_back(dynamics_.energy());
-    history_.imbalance.push_back(dynamics_.energy_imbalance());
+    history_.energy.push_back(with_spent(dynamics_.energy(), before_.spent));
+    history_.imbalance.push_back(before_.imbalance + dynamics_.energy_imbalance());
     add_lifts(force);
     add_anchors();
     if (series_ == PairSeries::none) return;
     add_pairs(force);
-    history_.states.look(s, history_.slip.back(), history_.crest_x.back());
+    history_.states.look(s, history_.time.back(), history_.slip.back(), history_.crest_x.back());
 }
 
 void HistoryRecorder::add_lifts(const VectorXd& force)

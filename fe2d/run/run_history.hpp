@@ -89,10 +89,21 @@ bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, d
 /// The same of base and lift joints.
 bool at_rest(const RunHistory& history, double rest_time);
 
+/// Where a history goes on that another motion has begun.
+struct HistoryBefore {
+    double time = 0.0;         ///< added to that of the states [s]
+    Energy spent;              ///< added to what is summed over the steps [J/m]
+    double imbalance = 0.0;    ///< [J/m]
+    Eigen::VectorXd slip_zero; ///< slips of all pairs from which slips are counted [m]
+    double crest_zero = 0.0;   ///< displacement of the crest from which it is counted [m]
+};
+
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
     HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
+    /// Adds rows to a history. @param before  what its rows are counted from
+    HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series, const HistoryBefore& before);
 
     void add(); ///< a row for the present state
 
@@ -104,10 +115,11 @@ private:
     const ContactMotion& dynamics_;
     RunHistory& history_;
     PairSeries series_;
-    Eigen::VectorXd start_;     ///< slips of all pairs at the start [m]
+    Eigen::VectorXd start_;     ///< slips of all pairs that they are counted from [m]
     Eigen::VectorXd to_middle_; ///< weights of the one or two pairs nearest to the middle of the base [-]
     Eigen::Index crest_ = 0;
     double crest_start_ = 0.0;
+    HistoryBefore before_; ///< of the first motion: nothing
 };
 
 } // namespace damslip::fe2d

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/contact/contact_problem.hpp"
+#include "fe2d/contact/joint_law.hpp"
 
 namespace damslip::fe2d {
 
@@ -13,6 +13,7 @@ struct RunState {
     Eigen::VectorXd path;     ///< sum of |slip|, by which strength falls [m]
     Eigen::VectorXd cohesion; ///< left [N/m]
     ContactStates states;
+    JointLawState laws = {}; ///< of the laws beside contact and friction (JointLaws::save())
 
     Eigen::Index pairs() const { return opening.size(); }
 };

@@ -208,10 +208,56 @@ bool follow_bond(StaticContact& statics, const ContactStructure& structure, cons
     return path.holds;
 }
 
+SplitLoad between(const SplitLoad& before, const SplitLoad& load, double t)
+{
+    const auto mean = [t](const VectorXd& a, const VectorXd& b) -> VectorXd {
+        if (a.size() == 0) return t * b;
+        if (b.size() == 0) return (1.0 - t) * a;
+        return (1.0 - t) * a + t * b;
+    };
+    return {mean(before.dam, load.dam), mean(before.rock, load.rock), mean(before.joint, load.joint)};
+}
+
+constexpr double first_jump = 1e-3; ///< load beyond the limit point with which the dam is let go; doubled each time [-]
+
+/// From the limit point the dam is let go under a little more load. Where it comes to rest the load goes on.
+/// @param memory  at the limit point; changed as far as it went @returns whether it holds the whole load
+bool jump(StaticContact& statics, const SplitLoad& before, const SplitLoad& load, const ContactLaw& law,
+          const LetGo& let_go, ContactMemory& memory, BondLoad& bond, ContactReport& report)
+{
+    double at = bond.largest;
+    for (double more = first_jump; at < 1.0; more *= 2.0) {
+        const double next = std::min(1.0, at + more);
+        const SplitLoad higher = between(before, load, next);
+        const StaticState start = statics.displacements(between(before, load, at), memory);
+        const Release release = let_go(higher, start, law, memory);
+        bond.lost += release.lost;
+        if (!release.rests) return false;
+        ++bond.jumps;
+        at = next;
+        bond.largest = std::max(bond.largest, at);
+        ContactMemory settled = memory;
+        if (const ContactReport end = statics.solve(load, law, settled); end.resolved()) {
+            report = end;
+            memory = std::move(settled);
+            break;
+        }
+        const StaticPath path = follow_damage(statics.with_laws(), statics.linear().shut_force(higher),
+                                              statics.linear().shut_force(load), law, memory);
+        bond.events += path.events;
+        if (path.contact.resolved()) report = path.contact;
+        at = path.holds ? 1.0 : at + path.largest_load * (1.0 - at);
+        bond.largest = std::max(bond.largest, at);
+    }
+    bond.largest = 1.0;
+    return true;
+}
+
 } // namespace
 
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
-                        const SplitLoad& load, Strength& strength, ContactMemory& memory, const SplitLoad* before)
+                        const SplitLoad& load, Strength& strength, ContactMemory& memory, const SplitLoad* before,
+                        const LetGo& let_go)
 {
     const ContactPlanes& planes = structure.planes();
     const ContactLaw& law = strength.law();
@@ -231,7 +277,8 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
     result.contact = statics.solve(load, law, trial);
     if (!result.contact.resolved() && before && memory.laws.find<BondLaw>()) {
         trial = memory;
-        if (!follow_bond(statics, structure, *before, load, law, trial, result)) {
+        if (!follow_bond(statics, structure, *before, load, law, trial, result) &&
+            !(let_go && jump(statics, *before, load, law, let_go, trial, *result.bond, result.contact))) {
             result.status = StageStatus::progressive;
             return result;
         }
@@ -274,28 +321,35 @@ std::string StageResult::text() const
     const std::string forces =
         fmt::format("N' = {:.5g} MN/m, T = {:.5g} MN/m", 1e-6 * r.normal_force, 1e-6 * r.shear_force);
     const std::string body = is_base ? "the dam" : "what is above the " + weakest->plane;
+    const std::string stage = water.empty() ? name : name + ", " + water;
     switch (status) {
     case StageStatus::ok:
-        return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.", name,
-                           forces, 1e3 * slip, open_length, critical_friction);
+        return fmt::format("{}: in equilibrium, {}, mean slip {:.3g} mm, open length {:.3g} m, mu needed {:.5f}.{}",
+                           stage, forces, 1e3 * slip, open_length, critical_friction,
+                           bond && bond->jumps > 0
+                               ? fmt::format(" It jumped there {} {}: part of the bond broke at once, {:.3g} J/m lost.",
+                                             bond->jumps, bond->jumps == 1 ? "time" : "times", bond->lost)
+                               : "");
     case StageStatus::slides:
-        return fmt::format("{}: {} slides without any earthquake, {}: it holds with mu >= {:.5f}.", name, body, forces,
+        return fmt::format("{}: {} slides without any earthquake, {}: it holds with mu >= {:.5f}.", stage, body, forces,
                            weakest->critical_friction);
     case StageStatus::floats:
-        return fmt::format("{}: {} floats, {}: uplift exceeds all weight.", name, body, forces);
+        return fmt::format("{}: {} floats, {}: {}.", stage, body, forces,
+                           water.empty() ? "uplift exceeds all weight" : "the water in the crack carries all weight");
     case StageStatus::overturns:
-        return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", name, body,
-                           forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
+        return fmt::format("{}: {} overturns, {}: the resultant acts {:.5g} m from the {}, outside the {}.", stage,
+                           body, forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
     case StageStatus::progressive:
-        return fmt::format("{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
-                           "stage's load is in equilibrium, {:.3g} with all strength at once; give more strength or "
-                           "fracture energy.",
-                           name, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0);
+        return fmt::format(
+            "{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
+            "stage's load is in equilibrium, {:.3g} with all strength at once, and let go the dam does not "
+            "come to rest; give more strength or fracture energy.",
+            stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0);
     case StageStatus::not_resolved:
         return fmt::format(
             "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "
             "{}, mu needed by these resultants {:.5f}.",
-            name, contact.iterations, forces, critical_friction);
+            stage, contact.iterations, forces, critical_friction);
     }
     return {};
 }

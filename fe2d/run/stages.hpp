@@ -5,6 +5,7 @@
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/strength.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -49,13 +50,16 @@ struct BondLoad {
     double largest = 1.0; ///< t_max: share of the load on the way to its equilibrium, or to failure [-]
     double limit = 0.0;   ///< t_LP: upper bound with all of the bond's strength at once (limit_load()) [-]
     int events = 0;       ///< damage updates on the way; 0: found without following the load
+    int jumps = 0;        ///< times that the dam lost its equilibrium and found another one
+    double lost = 0.0;    ///< energy that damping took on the way [J/m]
 };
 
 /// A stage: the base's balance, and those of the lift joints.
-struct StageResult : PlaneBalance {  // `status` is that of the whole stage
-    std::string name;                ///< "gravity", "prestress", "water", "uplift", "after the earthquake"
-    std::string where;               ///< the lift joint that fails; empty: the base
-    bool base_fails = false;         ///< by its resultants
+struct StageResult : PlaneBalance { // `status` is that of the whole stage
+    std::string name;               ///< "gravity", "prestress", "water", "uplift", "after the earthquake"
+    std::string where;              ///< the lift joint that fails; empty: the base
+    std::string water;              ///< "full head on 12 m of the base": in what an earthquake has cracked; empty: none
+    bool base_fails = false;        ///< by its resultants
     std::vector<PlaneBalance> lifts; ///< from bottom to top
     std::optional<BondLoad> bond;    ///< of a bond that breaks by energy; none: none, or not asked for
     ContactReport contact;
@@ -85,10 +89,20 @@ Eigen::VectorXd load_with(const LoadStages& stages, const Model& model, const Pr
 /// taken from the rock's load to `load.joint`. Profile as in load_stages().
 void let_water_ride(const ContactStructure& structure, const PressureProfile& uplift, SplitLoad& load);
 
+/// What becomes of a dam that has lost its equilibrium under a constant load.
+struct Release {
+    bool rests = false; ///< it finds another one; false: it goes on moving
+    double lost = 0.0;  ///< energy that damping took [J/m]
+};
+/// @param start, memory  at the limit point; memory after: at rest
+using LetGo = std::function<Release(const SplitLoad& load, const StaticState& start, const ContactLaw& law,
+                                    ContactMemory& memory)>;
+
 /// One stage from the memory of the one before. The memory is changed only when the stage ends in equilibrium.
 /// @param before  load of the stage before, from which a bond that breaks is followed; null: the stage is made at once
+/// @param let_go  of a dam whose bond does not carry the load on a way in equilibrium (let_go_by()); empty: it fails there
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
                         const SplitLoad& load, Strength& strength, ContactMemory& memory,
-                        const SplitLoad* before = nullptr);
+                        const SplitLoad* before = nullptr, const LetGo& let_go = {});
 
 } // namespace damslip::fe2d

@@ -9,7 +9,7 @@ StepOperators::StepOperators(const ContactStructure& structure, const RunDamping
     : structure_(structure), damping_(damping), scheme_(scheme), radiating_(std::move(radiating)),
       slip_damping_(structure, damping), products_(structure.stiffness(), structure.mass())
 {
-    assert(!radiating_ || radiating_->interface() == 2 * structure.rock_nodes());
+    assert(!radiating_ || radiating_->base() == 2 * structure.rock_nodes());
 }
 
 const DynamicOperator& StepOperators::at(double dt)

@@ -69,7 +69,15 @@ std::optional<Pairing::Matrix> StepRock::follow(const DynamicState& state)
 void StepRock::begin_step(const DynamicOperator& op, const DynamicState& state)
 {
     if (motion_) {
-        motion_->begin(*op.rock_step(), load_);
+        if (!op.has_floor()) {
+            motion_->begin(*op.rock_step(), load_);
+            return;
+        }
+        const StepConstants& c = op.constants();
+        const double alpha = c.scheme.alpha, w = 1.0 + alpha, scale = structure_.water()->scale;
+        VectorXd constant(op.rock_step()->rock().interface());
+        constant << load_, -scale * ((alpha + w * c.a4) * on_floor(state.v) + w * c.a5 * on_floor(state.a));
+        motion_->begin(*op.rock_step(), constant);
         return;
     }
     if (!structure_.has_rock()) return;
@@ -78,10 +86,48 @@ void StepRock::begin_step(const DynamicOperator& op, const DynamicState& state)
     free_ = (rest_ - state.rock + (b_k * cv) * state.rock_v + (b_k * ca) * state.rock_a) / (w * (1.0 + c.a1 * b_k));
 }
 
+VectorXd StepRock::on_floor(const VectorXd& dam) const
+{
+    VectorXd values(static_cast<Index>(structure_.floor().size()));
+    for (Index k = 0; k < values.size(); ++k) values[k] = dam[structure_.floor()[static_cast<std::size_t>(k)]];
+    return values;
+}
+
+void StepRock::load_water(const DynamicOperator& op, VectorXd& dam) const
+{
+    if (!op.has_floor()) return;
+    const StepConstants& c = op.constants();
+    const double alpha = c.scheme.alpha, w = 1.0 + alpha, scale = structure_.water()->scale;
+    const Index floor = op.rock_step()->rock().floor;
+    const VectorXd load =
+        op.floor_factor() * motion_->free_step().tail(floor) -
+        scale * ((alpha + w * c.a4) * motion_->velocity().tail(floor) + w * c.a5 * motion_->acceleration().tail(floor));
+    for (Index k = 0; k < floor; ++k) dam[structure_.floor()[static_cast<std::size_t>(k)]] += load[k];
+}
+
+/// What forces on the pairs, and the floor's pressures with them, are on the interface of radiating rock.
+VectorXd StepRock::weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
+                                  const VectorXd& tilde) const
+{
+    VectorXd force = -(trace_.transpose() * tilde);
+    if (!op.has_floor()) return force;
+    VectorXd with_floor(op.rock_step()->rock().interface());
+    with_floor << force, op.floor_factor() * op.on_floor(dam.interface);
+    return with_floor;
+}
+
 VectorXd StepRock::free_gap() const
 {
     if (!structure_.has_rock()) return {};
-    return trace_ * (motion_ ? motion_->free_step() : free_);
+    if (motion_) return trace_ * motion_->free_step().head(trace_.cols());
+    return trace_ * free_;
+}
+
+FloorMotion StepRock::floor() const
+{
+    const auto rows = static_cast<Index>(structure_.floor().size());
+    if (!motion_ || rows == 0) return {};
+    return {motion_->displacement().tail(rows), motion_->velocity().tail(rows)};
 }
 
 VectorXd StepRock::step(const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
@@ -89,8 +135,8 @@ VectorXd StepRock::step(const DynamicOperator& op, const DynamicOperator::Free& 
 {
     if (!structure_.has_rock()) return {};
     if (motion_) {
-        motion_->finish(-(trace_.transpose() * tilde));
-        return motion_->step();
+        motion_->finish(weighted_force(op, dam, tilde));
+        return motion_->step().head(trace_.cols());
     }
     if (structure_.matching()) return opposite(dam, gap);
     return free_ - op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
@@ -101,8 +147,9 @@ VectorXd StepRock::jump(Jump of, const DynamicOperator& op, const DynamicOperato
 {
     if (!structure_.has_rock()) return {};
     if (motion_) {
-        const VectorXd force = -(trace_.transpose() * tilde);
-        return of == Jump::velocity ? motion_->jump_velocity(force) : motion_->jump_acceleration(force);
+        const VectorXd force = weighted_force(op, dam, tilde);
+        const VectorXd jump = of == Jump::velocity ? motion_->jump_velocity(force) : motion_->jump_acceleration(force);
+        return jump.head(trace_.cols());
     }
     if (structure_.matching()) return opposite(dam, gap);
     return -op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));

@@ -7,6 +7,12 @@
 
 namespace damslip::fe2d {
 
+/// Of the rock under the water, where the water's floor is the rock's (ReducedRock::floor); empty: it is not.
+struct FloorMotion {
+    Eigen::VectorXd volume; ///< v [m²]
+    Eigen::VectorXd rate;   ///< v̇ [m²/s]
+};
+
 /// The rock below the dam in implicit steps, and where on it the dam stands: massless, K_c on its contact nodes, or radiating
 /// (RockMotion). A rigid base gives nothing anywhere.
 ///
@@ -36,6 +42,9 @@ public:
 
     // The step.
     void begin_step(const DynamicOperator& op, const DynamicState& state);
+    /// What the rock's free motion does to the water on a floor that is its own. @param dam  b_d, before the forward pass
+    void load_water(const DynamicOperator& op, Eigen::VectorXd& dam) const;
+    FloorMotion floor() const;        ///< at the end of the last step
     Eigen::VectorXd free_gap() const; ///< free motion as part of the gaps, P r*, 2m [m]; empty: rigid base
     /// Δr. @param change  of the gaps [m] @param tilde  λ̃ [N/m], both of the step, as in DynamicOperator
     Eigen::VectorXd step(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
@@ -56,6 +65,9 @@ public:
 
 private:
     void find_load();
+    Eigen::VectorXd on_floor(const Eigen::VectorXd& dam) const;
+    Eigen::VectorXd weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
+                                   const Eigen::VectorXd& tilde) const;
     Eigen::VectorXd opposite(const DynamicOperator::Free& dam, const Eigen::VectorXd& gap) const;
 
     const ContactStructure& structure_;

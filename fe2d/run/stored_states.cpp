@@ -5,10 +5,10 @@
 
 namespace damslip::fe2d {
 
-void StateKeeper::look(const DynamicState& state, double slip, double crest_x)
+void StateKeeper::look(const DynamicState& state, double time, double slip, double crest_x)
 {
     const auto keep = [&](Instant instant) {
-        kept_[static_cast<std::size_t>(instant)] = {instant, state.time, slip, state.u, state.rock};
+        kept_[static_cast<std::size_t>(instant)] = {instant, time, slip, state.u, state.rock};
     };
     if (kept_.empty()) {
         kept_.resize(static_cast<std::size_t>(Instant::end) + 1);
@@ -17,7 +17,7 @@ void StateKeeper::look(const DynamicState& state, double slip, double crest_x)
         return;
     }
     const StoredState& before = kept_.back();
-    const double lean = crest_x - slip, rate = std::abs(slip - before.slip) / (state.time - before.time);
+    const double lean = crest_x - slip, rate = std::abs(slip - before.slip) / (time - before.time);
     if (lean > lean_down_) {
         lean_down_ = lean;
         keep(Instant::leans_downstream);

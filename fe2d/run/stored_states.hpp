@@ -27,8 +27,8 @@ struct StoredState {
 /// Keeps the states of a run's instants, each when it has come: two vectors are copied where a value exceeds all before.
 class StateKeeper {
 public:
-    /// @param slip  area mean since the static state [m] @param crest_x  since the static state [m]
-    void look(const DynamicState& state, double slip, double crest_x);
+    /// @param time  in the run's history [s] @param slip  area mean since the static state [m] @param crest_x  since the static state [m]
+    void look(const DynamicState& state, double time, double slip, double crest_x);
 
     /// In order of time. The end is the last state looked at.
     std::vector<StoredState> states() const;

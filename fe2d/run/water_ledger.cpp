@@ -1,5 +1,7 @@
 #include "fe2d/run/water_ledger.hpp"
 
+#include <algorithm>
+
 namespace damslip::fe2d {
 
 using Eigen::Index;
@@ -40,7 +42,8 @@ void add_to_rows(const std::vector<Index>& rows, const VectorXd& values, VectorX
 
 } // namespace
 
-WaterLedger::WaterLedger(const WaterBody& body, const NodeOrder& order) : mesh_(body.water.mesh_unknowns)
+WaterLedger::WaterLedger(const WaterBody& body, const NodeOrder& order)
+    : mesh_(body.water.mesh_unknowns), floor_(body.water.floor), scale_(body.scale)
 {
     const FluidModel& water = body.water;
     const double s = body.scale, s2 = s * s;
@@ -53,6 +56,8 @@ WaterLedger::WaterLedger(const WaterBody& body, const NodeOrder& order) : mesh_(
     SparseMatrix coupling(mesh_, body.size);
     coupling.setFromTriplets(entries.begin(), entries.end());
     face_rows_ = filled_rows({&coupling});
+    for (const Index row : floor_)
+        if (std::find(face_rows_.begin(), face_rows_.end(), row) == face_rows_.end()) face_rows_.push_back(row);
     coupling_ = rows_of(coupling, face_rows_);
     const SparseMatrix end_mass = s2 * SparseMatrix((water.mass - water.body_mass).topRows(mesh_)),
                        damping = s2 * SparseMatrix(water.damping.topRows(mesh_)),
@@ -85,8 +90,13 @@ VectorXd WaterLedger::on(const std::vector<Index>& rows, const VectorXd& mesh) c
     return result;
 }
 
-WaterLedger::Instant WaterLedger::instant(const Motion& motion, double velocity_h, double velocity_v,
-                                          double displacement_v) const
+VectorXd WaterLedger::on_floor(const VectorXd& mesh) const
+{
+    return on(floor_, mesh);
+}
+
+WaterLedger::Instant WaterLedger::instant(const Motion& motion, const FloorMotion& floor, double velocity_h,
+                                          double velocity_v, double displacement_v) const
 {
     const auto turned = [&](const VectorXd& product) {
         VectorXd result(mesh_);
@@ -105,6 +115,14 @@ WaterLedger::Instant WaterLedger::instant(const Motion& motion, double velocity_
     now.accel = accel.head(mesh_);
     now.face = coupling_ * motion.z;
     now.face_velocity = coupling_ * motion.v;
+    if (!floor_.empty()) {
+        now.floor = {scale_ * floor.volume, scale_ * floor.rate};
+        for (std::size_t k = 0; k < floor_.size(); ++k) {
+            const auto row = std::find(face_rows_.begin(), face_rows_.end(), floor_[k]) - face_rows_.begin();
+            now.face[row] += now.floor.volume[static_cast<Index>(k)];
+            now.face_velocity[row] += now.floor.rate[static_cast<Index>(k)];
+        }
+    }
     now.load = -velocity_h * velocity_x_ + velocity_v * velocity_y_ + displacement_v * displacement_y_;
 
     now.flow = turned(motion.stiffness_z);
@@ -136,6 +154,12 @@ void WaterLedger::add(const StepConstants& c, const Instant& before2, const Inst
     if (before.jolt.size() > 0) energy.numerical -= 0.5 * (1.0 + c.scheme.alpha) * step.dot(before.jolt);
     energy.numerical += 0.5 * (on(face_rows_, step).dot(before.face_velocity + now.face_velocity) -
                                (now.face - before.face).dot(on(face_rows_, before.rate) + on(face_rows_, now.rate)));
+    if (floor_.empty()) return;
+    const VectorXd volume = now.floor.volume - before.floor.volume; // times the scale
+    energy.floor += 0.5 * volume.dot(on_floor(before.rate) + on_floor(now.rate));
+    energy.numerical -= 0.5 * c.scheme.alpha * volume.dot(on_floor(now.rate) - on_floor(before2.rate));
+    if (before.jolt_rate.size() > 0)
+        energy.numerical += 0.5 * (1.0 + c.scheme.alpha) * volume.dot(on_floor(before.jolt_rate));
 }
 
 } // namespace damslip::fe2d

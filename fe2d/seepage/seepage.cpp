@@ -14,14 +14,15 @@ namespace damslip::fe2d {
 
 namespace {
 
-/// Rock nodes straight below the base node nearest to a distance, down to a depth.
+/// Rock nodes straight below that on the base nearest to a distance, down to a depth.
 std::vector<int> nodes_below(const Mesh& mesh, double distance, double depth)
 {
-    const auto& distances = mesh.contact.distance;
+    const ContactPlane& contact = mesh.contact;
+    const std::vector<double>& distances = contact.matching ? contact.distance : contact.rock_node_distance;
     const auto nearest = std::min_element(distances.begin(), distances.end(), [&](double a, double b) {
         return std::abs(a - distance) < std::abs(b - distance);
     });
-    const Point top = mesh.nodes[mesh.contact.rock_nodes[nearest - distances.begin()]];
+    const Point top = mesh.nodes[contact.rock_nodes[nearest - distances.begin()]];
     const double tolerance = 1e-6 * distances.back();
     std::vector<int> nodes;
     for (int n = mesh.dam_node_count; n < mesh.node_count(); ++n)

@@ -60,6 +60,7 @@ void EnergyLedger::add_step(const State& before, const State& after, const StepC
     energy_.friction += work.friction;
     energy_.radiated += work.radiated + work.dashpots + base.radiated - base_.radiated;
     energy_.contact_normal += work.normal;
+    energy_.floor += work.floor;
     base_ = base;
     scale_ = std::max(scale_, energy_.scale());
 }

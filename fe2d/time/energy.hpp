@@ -12,6 +12,7 @@ struct InterfaceWork {
     double radiated = 0.0;  ///< carried away through absorbing boundaries, positive
     double dashpots = 0.0;  ///< what part of the work of C v is: it counts as radiated, not as damping
     double numerical = 0.0; ///< lost by the scheme in the coupling of dam and water (CoupledEnergy), positive
+    double floor = 0.0;     ///< done by water on the rock below it: Energy::floor
 };
 
 /// Energies per metre of dam length [J/m], of the motion relative to the ground. Kinetic and strain are of the state,
@@ -33,6 +34,10 @@ struct Energy {
     double anchor_loss = 0.0;    ///< stored in anchors that snapped
     double joint_water = 0.0;    ///< done by water that follows the opening, beyond its pressure before
     double impact = 0.0;         ///< lost in landings
+
+    /// Done by the water's pressure on the rock below it (reservoir.floor = "rock"): what the floor takes from the water's
+    /// waves and gives to the rock. It passes within the model and is no part of the balance.
+    double floor = 0.0;
 
     /// Δ(kinetic + strain) + damping + numerical + friction + radiated - external - contact_normal since the start
     /// [J/m].

@@ -59,6 +59,7 @@ private:
     bool prepare();
     void let_base_move();
     void add_water();
+    WaterFloor floor() const;
     void step(const StepOperator& step, const State& before, const VectorXd& load, State& after);
     void enter(const State& before, const State& after, const StepConstants& constants, EnergyLedger& ledger) const;
     State start(const VectorXd& load) const;
@@ -100,7 +101,7 @@ bool Run::prepare()
     problem_.structure.solver = step.report();
     if (problem_.structure.solver.ok() && options_.moving_base) {
         base_.emplace(options_.moving_base(step.constants(), options_.damping.constants.stiffness), step,
-                      unknowns_of_base(problem_.model), integrator_->system().size());
+                      unknowns_of_base(problem_.model), integrator_->system().size(), floor());
         history_.unknowns += base_->base().unknowns();
         if (!base_->ok()) problem_.structure.solver.status = SolverStatus::not_positive_definite;
     }
@@ -114,6 +115,12 @@ void Run::let_base_move()
     problem_.structure.system = dam_on_free_base(problem_.model, options_.damping.constants);
     const VectorXd internal = problem_.structure.system.stiffness * problem_.start;
     for (const Eigen::Index k : unknowns_of_base(problem_.model)) problem_.load.still[k] = internal[k];
+}
+
+WaterFloor Run::floor() const
+{
+    if (!water_) return {};
+    return {unknowns_of_floor(water_->coupled, *options_.water), water_->coupled.scale};
 }
 
 /// The system grows by the water; loads get its rows.
@@ -159,7 +166,7 @@ void Run::step(const StepOperator& step, const State& before, const VectorXd& lo
 {
     const FreeStep free = integrator_->free_step(step, before, load);
     if (base_)
-        integrator_->finish_step(step, before, load, free, base_->step(free), after);
+        integrator_->finish_step(step, before, load, free, base_->step(free, before), after);
     else
         integrator_->finish_step(step, before, load, free, after);
 }
@@ -169,7 +176,10 @@ void Run::enter(const State& before, const State& after, const StepConstants& co
 {
     InterfaceWork work = water_ ? water_->energy.work(before, after) : InterfaceWork{};
     work.dashpots = dashpot_work(before, after);
-    if (base_) work.numerical += base_->numerical_work();
+    if (base_) {
+        work.numerical += base_->numerical_work();
+        work.floor = base_->floor_work();
+    }
     const Energy base = base_ ? base_->base().energy() : Energy{};
     if (water_)
         ledger.add_step(water_->energy.view(before), water_->energy.view(after), constants, work, base);

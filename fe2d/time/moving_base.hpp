@@ -19,6 +19,11 @@ public:
     /// kinetic and strain of the state; damping, radiated and numerical since rest [J/m]. With the work of p, as
     /// BaseCoupling::numerical_work() splits it, they close.
     virtual Energy energy() const = 0;
+
+    /// Last rows of all this that belong to the water's floor (ReducedRock::floor), and their v̇, v̈ at the start of the step.
+    virtual Eigen::Index floor() const { return 0; }
+    virtual Eigen::VectorXd floor_velocity() const { return {}; }
+    virtual Eigen::VectorXd floor_acceleration() const { return {}; }
 };
 
 } // namespace damslip::fe2d

@@ -1,6 +1,7 @@
 #include "sliding/block/anchored_step.hpp"
 
 #include "sliding/block/roots.hpp"
+#include "sliding/block/series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -193,15 +194,6 @@ private:
     Series u_{}, length_{}, inverse_{}, force_{}, sine_{};
 };
 
-/// Terms of the derivative.
-template <class Series>
-std::vector<double> rate_of(const Series& c)
-{
-    std::vector<double> d(c.size() - 1);
-    for (std::size_t i = 1; i < c.size(); ++i) d[i - 1] = static_cast<double>(i) * c[i];
-    return d;
-}
-
 } // namespace
 
 AnchoredStep::AnchoredStep(const AnchoredSlip& anchored, std::span<const BlockAnchor> anchors)
@@ -247,18 +239,7 @@ AnchoredStep::AnchoredStep(const AnchoredSlip& anchored, std::span<const BlockAn
     }
     for (const BarSeries<Series>& bar : bars) dowels_.push_back(bar.dowel);
 
-    // The last two terms of w'' stay below round-off of its largest one.
-    length_ = slip.span;
-    for (int halvings = 0; halvings < 200; ++halvings) {
-        double largest = 0.0, last = 0.0, power = 1.0;
-        for (int i = 0; i < terms; ++i, power *= length_) {
-            const double term = std::abs(accel[i]) * power;
-            largest = std::max(largest, term);
-            if (i + 2 >= terms) last = std::max(last, term);
-        }
-        if (last <= 1e-17 * largest) break;
-        length_ *= 0.5;
-    }
+    length_ = length_to_round_off(std::span(accel).first(static_cast<std::size_t>(terms)), slip.span);
 }
 
 double AnchoredStep::path(double h) const
@@ -268,17 +249,17 @@ double AnchoredStep::path(double h) const
 
 double AnchoredStep::rate(double h) const
 {
-    return polynomial(rate_of(w_), h);
+    return polynomial(derivative(w_), h);
 }
 
 double AnchoredStep::accel(double h) const
 {
-    return polynomial(rate_of(rate_of(w_)), h);
+    return polynomial(derivative(derivative(w_)), h);
 }
 
 double AnchoredStep::time_of_stop() const
 {
-    return first_fall_to_zero(rate_of(w_), length_);
+    return first_fall_to_zero(derivative(w_), length_);
 }
 
 double AnchoredStep::time_of_path(double target, double until) const
@@ -300,7 +281,7 @@ double AnchoredStep::dowel_work(std::size_t k, double h) const
 {
     if (!touching_) return 0.0;
     // ∫ D w' dh
-    const std::vector<double> rate = rate_of(w_);
+    const std::vector<double> rate = derivative(w_);
     const Series& dowel = dowels_[k];
     double sum = 0.0;
     for (std::size_t i = 0; i < dowel.size(); ++i) {

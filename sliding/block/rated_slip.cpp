@@ -1,6 +1,7 @@
 #include "sliding/block/rated_slip.hpp"
 
 #include "sliding/block/roots.hpp"
+#include "sliding/block/series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace damslip::sliding {
-namespace {
-
-std::vector<double> slope_of(std::span<const double> c)
-{
-    std::vector<double> d(c.size() - 1);
-    for (std::size_t i = 1; i < c.size(); ++i) d[i - 1] = static_cast<double>(i) * c[i];
-    return d;
-}
-
-} // namespace
 
 double steady_ratio(const RateFriction& law, double rate)
 {
@@ -74,18 +65,7 @@ void RatedStep::expand(const RatedSlip& s)
     }
     // The last two terms stay below round-off of the largest one: of the acceleration, or of r where the block rests.
     const Series& watched = s.moves ? accel : ratio_;
-    const int terms = last_term + 1;
-    length_ = s.span;
-    for (int halvings = 0; halvings < 200; ++halvings) {
-        double largest = 0.0, last = 0.0, power = 1.0;
-        for (int i = 0; i < terms; ++i, power *= length_) {
-            const double term = std::abs(watched[i]) * power;
-            largest = std::max(largest, term);
-            if (i + 2 >= terms) last = std::max(last, term);
-        }
-        if (last <= 1e-17 * largest) break;
-        length_ *= 0.5;
-    }
+    length_ = length_to_round_off(std::span(watched).first(static_cast<std::size_t>(last_term) + 1), s.span);
 }
 
 double RatedStep::path(double h) const
@@ -95,12 +75,12 @@ double RatedStep::path(double h) const
 
 double RatedStep::rate(double h) const
 {
-    return polynomial(slope_of(w_), h);
+    return polynomial(derivative(w_), h);
 }
 
 double RatedStep::accel(double h) const
 {
-    return polynomial(slope_of(slope_of(w_)), h);
+    return polynomial(derivative(derivative(w_)), h);
 }
 
 double RatedStep::ratio(double h) const
@@ -110,7 +90,7 @@ double RatedStep::ratio(double h) const
 
 double RatedStep::time_of_stop() const
 {
-    return first_fall_to_zero(slope_of(w_), length_);
+    return first_fall_to_zero(derivative(w_), length_);
 }
 
 double RatedStep::time_of_path(double target, double until) const

@@ -89,6 +89,11 @@ void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& 
         result.notes.push_back("Friction linear in slip under a varying normal force has no closed form: Taylor series "
                                "to round-off, events "
                                "located within 1e-10.");
+    const RigidBlock& block = stages.front().block;
+    if (block.opening && !(static_normal_force(block) > block.opening->largest()))
+        result.notes.push_back("The water in the crack that its sliding opens carries the whole block (N' = " +
+                               shortest(static_normal_force(block)) + " N/m at rest, uplift up to " +
+                               shortest(block.opening->largest()) + " N/m more): nothing resists while it slides.");
     if (result.lift_offs > 0)
         result.notes.push_back("The base opened " + std::to_string(result.lift_offs) +
                                " times (N' = 0); lift-off is treated as " +
@@ -129,6 +134,11 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         for (std::size_t k = first; k < last && !block.unresolved(); ++k) {
             if (blocks && !history && block.at_rest()) {
                 const std::size_t next = std::min(blocks->skip(k, rests), last);
+                n += next - k;
+                k = next;
+            }
+            if (!history && k < last) {
+                const std::size_t next = block.pass(motion, polarity, k, last, n);
                 n += next - k;
                 k = next;
             }

@@ -36,7 +36,11 @@ SlipMotion::SlipMotion(const SlipStages& stages, const SlideOptions& options)
     : stages_(stages), options_(options.sliding)
 {
     forms_.reserve(stages.size());
-    for (const SlipStage& stage : stages) forms_.push_back(forms_of(stage.block));
+    for (const SlipStage& stage : stages) {
+        forms_.push_back(forms_of(stage.block));
+        plain_.push_back(options.anchors.empty() && !stage.rate.active() && stage.friction_slope == 0.0 &&
+                         !stage.block.opening);
+    }
     if (options.anchors.empty()) return;
     for (const AnchorBar& bar : options.anchors) anchors_.emplace_back(bar);
     anchored_ = stages;
@@ -48,8 +52,16 @@ SlipMotion::StageForms SlipMotion::forms_of(const RigidBlock& block)
     const BaseEquations e = base_equations(block);
     // In flight A (s'', y'') = (drive, -normal): inverse of the 2 x 2 matrix.
     const double determinant = e.mass_tt * e.mass_nn - e.mass_tn * e.mass_tn;
-    return {e, free_normal_force(e), combination(e.mass_nn / determinant, e.drive, e.mass_tn / determinant, e.normal),
-            combination(-e.mass_tt / determinant, e.normal, -e.mass_tn / determinant, e.drive)};
+    return {.equations = e,
+            .free_normal = free_normal_force(e),
+            .flight_accel = combination(e.mass_nn / determinant, e.drive, e.mass_tn / determinant, e.normal),
+            .gap_accel = combination(-e.mass_tt / determinant, e.normal, -e.mass_tn / determinant, e.drive),
+            .excess_downstream = excess_drive(e, block, SlipDirection::downstream),
+            .excess_upstream = excess_drive(e, block, SlipDirection::upstream),
+            .mass_downstream = sliding_mass(e, block.friction, SlipDirection::downstream),
+            .mass_upstream = sliding_mass(e, block.friction, SlipDirection::upstream),
+            .friction = block.friction,
+            .bond = block.cohesion_force + block.dowel_force};
 }
 
 void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v)
@@ -58,15 +70,18 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
     span_ = dt;
     a_h_ = a_h;
     a_v_ = a_v;
-    read_opening();
-    settle_contact();
+    pressed_ = stays_pressed();
+    if (!pressed_) {
+        read_opening();
+        settle_contact();
+    }
     for (int events = 0; span_ > 0.0; ++events) {
         if (events >= events_per_interval(stage())) {
             unresolved_ = true;
             return;
         }
         if (!moving_)
-            wait();
+            pressed_ ? wait_pressed() : wait();
         else if (!anchors_.empty())
             move_anchored();
         else if (touching_ && stage().rate.active())
@@ -76,6 +91,15 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
         else
             move();
     }
+}
+
+/// Contact is kept and the stage is plain: N' at rest and N' of the sliding block, linear over the interval, are positive
+/// at both its ends.
+bool SlipMotion::stays_pressed() const
+{
+    if (!touching_ || airborne_ || !plain_[stage_]) return false;
+    const Line at_rest = line(forms().equations.normal), sliding = line(forms().free_normal);
+    return std::min({at_rest.now, at_rest.end, sliding.now, sliding.end}) > 0.0;
 }
 
 void SlipMotion::read_opening()
@@ -205,9 +229,11 @@ double SlipMotion::friction() const
     return !law.active() ? peak : peak * (lags(law) ? ratio_ : steady_ratio(law, rate()));
 }
 
-RatedSlip SlipMotion::rated(double direction) const
+/// In a direction of slip that the block has, or is about to have.
+RatedSlip SlipMotion::rated(SlipDirection towards) const
 {
     const BaseEquations& e = forms().equations;
+    const double direction = sign(towards);
     return {.law = stage().rate,
             .mass_tt = e.mass_tt,
             .mass_tn = direction * e.mass_tn,
@@ -217,7 +243,7 @@ RatedSlip SlipMotion::rated(double direction) const
             .ratio = ratio_,
             .rate = rate_,
             .drive = combine(direction, line(e.drive), 0.0, {}),
-            .normal = line(e.normal),
+            .normal = less_opening(line(e.normal), towards),
             .span = span_,
             .moves = moving_,
             .from_rest = from_rest_};
@@ -255,11 +281,25 @@ void SlipMotion::wait()
         turn_contact();
 }
 
+/// The same where contact is kept.
+void SlipMotion::wait_pressed()
+{
+    const StageForms& f = forms();
+    const Line drive = line(f.equations.drive), normal = line(f.equations.normal);
+    const Line resistance{f.friction * normal.now + f.bond, f.friction * normal.end + f.bond};
+    const double h_down = time_above_zero(combine(1.0, drive, -1.0, resistance), span_);
+    const double h_up = options_.two_way ? time_above_zero(combine(-1.0, drive, -1.0, resistance), span_) : never;
+    const double h = std::min(h_down, h_up);
+    elapse(std::min(h, span_));
+    if (h != never) start(h == h_down ? SlipDirection::downstream : SlipDirection::upstream);
+}
+
 /// The same while friction goes back to its value at rest.
 void SlipMotion::wait_lagging()
 {
-    const RatedStep step(rated(1.0));
-    const double h_down = step.time_of_start(1.0), h_up = options_.two_way ? step.time_of_start(-1.0) : never;
+    const RatedStep step(rated(SlipDirection::downstream));
+    const double h_down = step.time_of_start(1.0);
+    const double h_up = options_.two_way ? RatedStep(rated(SlipDirection::upstream)).time_of_start(1.0) : never;
     const double h_contact = time_of_contact_change();
     const double h = std::min({h_down, h_up, h_contact, step.length()});
     ratio_ = step.ratio(h);
@@ -307,6 +347,7 @@ bool SlipMotion::enter_stages()
     while (stage_ + 1 < stages_.size() && stages_[stage_ + 1].from_slip <= path_) ++stage_;
     if (stage_ != before) {
         ++changes_;
+        pressed_ = false;
         read_opening();
     }
     return stage_ != before;
@@ -325,9 +366,9 @@ Line SlipMotion::slip_accel() const
     if (airborne_) return combine(d, line(f.flight_accel), 0.0, {});
     const Line drive = line(f.equations.drive);
     if (!touching_) return combine(d / f.equations.mass_tt, drive, 0.0, {});
-    const double mass = sliding_mass(f.equations, stage().block.friction, direction_);
-    GroundLinear excess = excess_drive(f.equations, stage().block, direction_);
-    Line accel = line(excess);
+    const bool downstream = direction_ == SlipDirection::downstream;
+    const double mass = downstream ? f.mass_downstream : f.mass_upstream;
+    Line accel = line(downstream ? f.excess_downstream : f.excess_upstream);
     if (stage().block.opening) {
         const Line change = less_opening({}, direction_);
         accel = combine(1.0, accel, -stage().block.friction, change);
@@ -353,7 +394,7 @@ void SlipMotion::move()
     if (from_rest_) accel.now = std::max(accel.now, 0.0);
     const double jerk = (accel.end - accel.now) / span_;
     const double h_stop = time_of_stop(rate_, accel.now, jerk);
-    const double h_contact = time_of_contact_change();
+    const double h_contact = pressed_ ? never : time_of_contact_change();
     double h = std::min({h_stop, h_contact, span_});
     const double h_stage = next_stage_path() == never ? never : time_of_stage(h, accel);
     h = std::min(h, h_stage);
@@ -367,6 +408,18 @@ void SlipMotion::move()
     from_rest_ = from_rest_ && h == 0.0;
     elapse(h);
     meet(h, h_stage, h_stop, h_contact);
+}
+
+/// The way of a step up to time h, where its rate is largest inside it, too.
+template <class Step>
+void SlipMotion::go_along(const Step& step, double h)
+{
+    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
+        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    add_slip(step.path(h));
+    rate_ = std::max(0.0, step.rate(h));
+    peak_rate_ = std::max(peak_rate_, rate_);
+    from_rest_ = from_rest_ && h == 0.0;
 }
 
 /// Friction linear in the path slipped.
@@ -385,12 +438,7 @@ void SlipMotion::move_sloped()
     const double h_stage = step.path(h) >= target ? step.time_of_path(target, h) : never;
     h = std::min(h, h_stage);
 
-    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
-        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
-    add_slip(step.path(h));
-    rate_ = std::max(0.0, step.rate(h));
-    peak_rate_ = std::max(peak_rate_, rate_);
-    from_rest_ = from_rest_ && h == 0.0;
+    go_along(step, h);
     elapse(h);
     meet(h, h_stage, h_stop, h_contact);
 }
@@ -408,7 +456,7 @@ void SlipMotion::move_anchored()
                  stage().friction_slope,
                  rate_,
                  combine(d, line(e.drive), 0.0, {}),
-                 line(e.normal),
+                 less_opening(line(e.normal), direction_),
                  span_,
                  from_rest_};
     slip.direction = d;
@@ -433,12 +481,7 @@ void SlipMotion::move_anchored()
     h = std::min(h, h_path);
     const double h_stage = nearest == to_stage ? h_path : never;
 
-    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
-        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
-    add_slip(step.path(h));
-    rate_ = std::max(0.0, step.rate(h));
-    peak_rate_ = std::max(peak_rate_, rate_);
-    from_rest_ = from_rest_ && h == 0.0;
+    go_along(step, h);
     for (std::size_t k = 0; k < anchors_.size(); ++k) {
         anchors_[k].history.plastic_work += step.dowel_work(k, h);
         if (h == h_path && changes[k] == nearest)
@@ -477,7 +520,7 @@ void SlipMotion::hold_anchors()
 /// Friction over the rate.
 void SlipMotion::move_rated()
 {
-    const RatedStep step(rated(sign(direction_)));
+    const RatedStep step(rated(direction_));
     used_series_ = true;
     const double h_stop = step.time_of_stop();
     const double h_contact = time_of_contact_change();
@@ -486,13 +529,8 @@ void SlipMotion::move_rated()
     const double h_stage = step.path(h) >= target ? step.time_of_path(target, h) : never;
     h = std::min(h, h_stage);
 
-    if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
-        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+    go_along(step, h);
     ratio_ = step.ratio(h);
-    add_slip(step.path(h));
-    rate_ = std::max(0.0, step.rate(h));
-    peak_rate_ = std::max(peak_rate_, rate_);
-    from_rest_ = from_rest_ && h == 0.0;
     elapse(h);
     meet(h, h_stage, h_stop, h_contact);
 }

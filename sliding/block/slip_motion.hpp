@@ -20,6 +20,12 @@ public:
     /// Ground acceleration linear from (a_h.now, a_v.now) at time `start` to the ends at start + dt.
     void cross(double start, double dt, const Line& a_h, const Line& a_v);
 
+    /// Goes through whole intervals in which nothing happens: the block rests all along, or slides all along in one
+    /// direction. What cross() would do, bit by bit, at a fraction of the price.
+    /// @param k, last  intervals k ... last - 1 of the motion  @param before  intervals so far, for the time
+    /// @returns the first interval that is cross()'s business
+    std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before);
+
     bool moving() const { return moving_ && rate_ > 0.0; }
     bool at_rest() const { return !moving() && !airborne_; }
     bool unresolved() const { return unresolved_; }
@@ -40,17 +46,24 @@ private:
     /// What does not change within a stage.
     struct StageForms {
         BaseEquations equations;
-        GroundLinear free_normal;  ///< N' of the block sliding without resistance
-        GroundLinear flight_accel; ///< s'' in flight
-        GroundLinear gap_accel;    ///< y'' in flight
+        GroundLinear free_normal;                          ///< N' of the block sliding without resistance
+        GroundLinear flight_accel;                         ///< s'' in flight
+        GroundLinear gap_accel;                            ///< y'' in flight
+        GroundLinear excess_downstream, excess_upstream;   ///< over the resistance [N/m]
+        double mass_downstream = 0.0, mass_upstream = 0.0; ///< felt by the slip [kg/m]
+        double friction = 0.0;                             ///< while it is constant [-]
+        double bond = 0.0;                                 ///< cohesion and dowels [N/m]
     };
 
     void wait();
+    void wait_pressed();
     void wait_lagging();
     void move();
     void move_sloped();
     void move_anchored();
     void hold_anchors();
+    template <class Step>
+    void go_along(const Step& step, double h);
     void move_rated();
     void start(SlipDirection direction);
     void stop();
@@ -68,10 +81,13 @@ private:
     double time_of_stage(double h, const Line& accel) const;
 
     static StageForms forms_of(const RigidBlock& block);
+    bool stays_pressed() const;
+    std::size_t pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last) const;
+    std::size_t pass_sliding(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last);
     const SlipStage& stage() const { return anchors_.empty() ? stages_[stage_] : anchored_[stage_]; }
     const StageForms& forms() const { return forms_[stage_]; }
     double friction() const;
-    RatedSlip rated(double direction) const;
+    RatedSlip rated(SlipDirection towards) const;
     Line line(const GroundLinear& form) const { return {form.at(a_h_.now, a_v_.now), form.at(a_h_.end, a_v_.end)}; }
     void read_opening();
     /// N' with the uplift of the crack that sliding in a direction opens.
@@ -83,6 +99,7 @@ private:
     std::span<const SlipStage> stages_; ///< the caller's
     SlidingOptions options_;
     std::vector<StageForms> forms_;
+    std::vector<bool> plain_; ///< stages of constant friction and nothing else that changes within them
 
     // With anchors: those, and the stages with what they have come to; forms_ are of these.
     std::vector<BlockAnchor> anchors_;
@@ -101,6 +118,7 @@ private:
     bool from_rest_ = false; ///< the start was located just now: s'' >= 0 whatever round-off says
     bool touching_ = true;   ///< N' > 0: there is resistance
     bool airborne_ = false;  ///< in ballistic flight
+    bool pressed_ = false;   ///< N' stays above zero over the whole interval: no contact to look after
     SlipDirection direction_ = SlipDirection::downstream;
     double rate_ = 0.0;                 ///< |slip rate| [m/s]
     double path_ = 0.0;                 ///< sum of |slip| [m]

@@ -1,6 +1,7 @@
 #include "sliding/block/sloped_slip.hpp"
 
 #include "sliding/block/roots.hpp"
+#include "sliding/block/series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,6 @@ double sine_sum(int k, double z)
         sum += term;
     }
     return sum;
-}
-
-std::vector<double> derivative(std::span<const double> c)
-{
-    std::vector<double> d(c.size() - 1);
-    for (std::size_t i = 1; i < c.size(); ++i) d[i - 1] = static_cast<double>(i) * c[i];
-    return d;
 }
 
 } // namespace
@@ -73,18 +67,7 @@ void SlopedStep::set_series(const SlopedSlip& slip)
         if (i == 0 && slip.from_rest) A[0] = std::max(A[0], 0.0);
         w_[i + 2] = A[i] / (static_cast<double>(i + 2) * (i + 1));
     }
-    // The last two terms of w'' stay below round-off of its largest one.
-    length_ = slip.span;
-    for (int halvings = 0; halvings < 200; ++halvings) {
-        double largest = 0.0, last = 0.0, power = 1.0;
-        for (int i = 0; i + 2 <= order; ++i, power *= length_) {
-            const double term = std::abs(A[i]) * power;
-            largest = std::max(largest, term);
-            if (i + 3 >= order) last = std::max(last, term);
-        }
-        if (last <= 1e-17 * largest) break;
-        length_ *= 0.5;
-    }
+    length_ = length_to_round_off(std::span(A).first(order - 1), slip.span);
 }
 
 double SlopedStep::path(double h) const

@@ -34,7 +34,8 @@ public:
     EdgeOfSliding(const Scene& scene, const StaticCase& static_case, const BaseState& before, const RigidBlock& block,
                   const SeepageProfile& seepage)
         : scene_(scene), static_case_(static_case), before_(before), seepage_(seepage),
-          equations_(base_equations(block)), friction_(block.friction), cohesion_(block.cohesion_force),
+          equations_(base_equations(block)), friction_(block.friction),
+          cohesion_(block.cohesion_force + block.dowel_force),
           water_(scene_added_mass(scene, static_case.loads.reservoir_level))
     {
     }

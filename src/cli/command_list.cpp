@@ -3,8 +3,11 @@
 namespace damslip::cli {
 
 // A new command is a file with a function like these and its line here; nothing else knows their number.
+Command init_command();
+Command draw_command();
 Command screen_command();
 Command sweep_command();
+Command worker_command();
 Command study_command();
 Command fe_command();
 Command modes_command();
@@ -22,8 +25,11 @@ std::span<const Command> commands()
     static const std::vector<Command> rows = [] {
         std::vector<Command> all;
         for (auto* command : {
+                 init_command,
+                 draw_command,
                  screen_command,
                  sweep_command,
+                 worker_command,
                  study_command,
                  fe_command,
                  modes_command,

@@ -60,7 +60,7 @@ void put(const std::filesystem::path& file, const std::string& text, const Strea
         write_file(file, text);
 }
 
-constexpr std::size_t largest_report = 1'000'000; ///< rows
+constexpr std::size_t largest_report = 300'000; ///< rows
 
 /// The report of merged parts: of the rows alone, or with what the scene says when it is named.
 void put_merged_report(const SweepArguments& arguments, const MergedSweep& merged, const Streams& streams)
@@ -129,11 +129,9 @@ std::vector<SlipHistory> histories_of(const std::vector<std::size_t>& wanted, co
     return histories;
 }
 
-void talk_of_journal(const Journal& journal, const SweepOutcome& outcome, const Streams& streams)
+void talk_of_damage(const Journal& journal, const Streams& streams)
 {
-    if (streams.quiet) return;
-    if (outcome.found) streams.talk << fmt::format("{} rows were finished before\n", outcome.found);
-    if (journal.damaged())
+    if (!streams.quiet && journal.damaged())
         streams.talk << fmt::format("{} torn line{} of the journal left aside\n", journal.damaged(),
                                     journal.damaged() == 1 ? "" : "s");
 }
@@ -200,6 +198,105 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
 
+/// Rows that go out part by part: into the file, the text of a shard, or standard output.
+class RowsOut {
+public:
+    RowsOut(const Job& job, const SweepIdentity& identity, const Streams& streams)
+        : job_(job), identity_(identity), streams_(streams)
+    {
+        if (!job.out.empty() && !job.shard) file_.emplace(job.out);
+    }
+
+    void add(const Table& table)
+    {
+        const bool first = rows_ == 0;
+        rows_ += table.rows.size();
+        if (!first)
+            put(csv_rows(table));
+        else
+            put(job_.shard ? csv(table) : csv(table, csv_comments(identity_)));
+    }
+    void finish(std::size_t bad)
+    {
+        if (file_) file_->finish();
+        if (job_.shard) write_file(job_.out, part_text(identity_, *job_.shard, body_, rows_, bad));
+    }
+
+private:
+    void put(const std::string& text)
+    {
+        if (job_.shard)
+            body_ += text;
+        else if (file_)
+            file_->write(text);
+        else
+            streams_.out << text;
+    }
+
+    const Job& job_;
+    const SweepIdentity& identity_;
+    const Streams& streams_;
+    std::optional<FileWriter> file_;
+    std::string body_; ///< of a shard
+    std::size_t rows_ = 0;
+};
+
+/// Many rows and nothing that asks for all of them at once.
+bool is_long(const Job& job, const std::vector<std::size_t>& wanted, const Streams& streams)
+{
+    constexpr std::size_t most_rows_at_once = 10'000;
+    return wanted.size() > most_rows_at_once && !job.axes.finite_elements() && !has_opening_axis(job.axes) &&
+           streams.form != Form::json;
+}
+
+int stopped(std::size_t finished, std::size_t wanted, const Streams& streams)
+{
+    streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n", finished, wanted);
+    return exit_no_answer;
+}
+
+int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity, const std::vector<std::size_t>& wanted,
+             Journal* journal, const Streams& streams)
+{
+    const bool reported = !job.out.empty() && !job.shard && wanted.size() <= largest_report;
+    RowsOut rows(job, identity, streams);
+    Table listed;
+    SweepViewMaker all, unanswered;
+    TerminalWatch watch(streams);
+    const SweepTotals totals = run_long_sweep(
+        inputs, begin_grid(job.scene, job.axes, job.tasks, inputs.records), wanted, journal, job.arguments.jobs, watch,
+        [&](const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& part) {
+            if (journal && !part.complete()) return;
+            Table table = sweep_table(grid, ids, part);
+            rows.add(table);
+            if (reported) all.add(table);
+            if (!part.all_good()) unanswered.add(table);
+            if (listed.rows.empty()) {
+                listed = std::move(table);
+                listed.rows.resize(std::min(listed.rows.size(), listed_rows));
+            }
+        });
+    if (journal && totals.found && !streams.quiet)
+        streams.talk << fmt::format("{} rows were finished before\n", totals.found);
+    if (journal) talk_of_damage(*journal, streams);
+    if (!totals.complete() && journal) return stopped(totals.rows, totals.wanted, streams);
+    rows.finish(totals.bad);
+    if (!streams.quiet)
+        streams.talk << fmt::format("{} rows{}\n", totals.rows, job.out.empty() ? "" : " in " + job.out.string());
+    if (totals.bad) streams.talk << unanswered_words(unanswered.view()) << "\n";
+    if (reported) {
+        const SweepView view = all.view();
+        std::filesystem::path page = job.out;
+        page.replace_extension(".html");
+        write_file(page, sweep_report({&job.scene, listed, {}, *inputs.records, job.out, {}, &view}));
+        if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+    } else if (!job.out.empty() && !job.shard && !streams.quiet) {
+        streams.talk << fmt::format("no report: {} rows are more than the {} it draws\n", totals.rows, largest_report);
+    }
+    if (journal) journal->mark_done();
+    return totals.complete() && totals.bad == 0 ? exit_ok : exit_no_answer;
+}
+
 int run(const Job& job, const Records& records, const Streams& streams)
 {
     const SweepArguments& a = job.arguments;
@@ -211,14 +308,18 @@ int run(const Job& job, const Records& records, const Streams& streams)
     if (!job.out.empty())
         journal.emplace(journal_of(job.out), identity, job.shard.value_or(Shard{}),
                         a.resume ? JournalStart::resume : JournalStart::fresh);
+    if (is_long(job, wanted, streams))
+        return run_long(job, inputs, identity, wanted, journal ? &*journal : nullptr, streams);
     const Grid grid = make_grid(job.scene, job.axes, job.tasks, records, a.jobs);
     TerminalWatch watch(streams);
     const SweepOutcome outcome = run_sweep(inputs, grid, wanted, journal ? &*journal : nullptr, a.jobs, watch);
-    if (journal) talk_of_journal(*journal, outcome, streams);
+    if (journal) {
+        if (outcome.found && !streams.quiet)
+            streams.talk << fmt::format("{} rows were finished before\n", outcome.found);
+        talk_of_damage(*journal, streams);
+    }
     if (journal && !outcome.complete()) { // a table with gaps would look like the whole
-        streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
-                                    outcome.rows.size(), outcome.wanted);
-        return exit_no_answer;
+        return stopped(outcome.rows.size(), outcome.wanted, streams);
     }
     const int code = finish(job, identity, grid, *records, wanted, outcome, streams);
     if (journal) journal->mark_done();

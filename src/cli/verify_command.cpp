@@ -17,6 +17,7 @@ using namespace pages;
 
 int verify(const VerifyArguments& arguments, const Streams& streams)
 {
+    if (arguments.external) return verify_external(arguments, streams);
     if (arguments.hard && !arguments.markdown) return verify_hard(arguments.filter, streams);
     const verification::Registry cases = verification::all_cases();
     const auto selected = select_cases(cases, arguments.filter, "verify");

@@ -13,6 +13,7 @@
 #include <openssl/evp.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace damslip {
 
@@ -81,50 +82,75 @@ int write_all(int descriptor, std::string_view content)
     return 0;
 }
 
-/// Opens, writes, closes. @returns errno; 0: all written
-int write_descriptor(const fs::path& path, int flags, std::string_view content)
+} // namespace
+
+namespace {
+
+[[noreturn]] void refuse_write(const fs::path& path, const std::string& why,
+                               const char* expected = "a folder with write permission and space left")
 {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
-    if (descriptor < 0) return errno;
-    const int failure = write_all(descriptor, content);
-    const bool closed = ::close(descriptor) == 0;
-    return failure != 0 || closed ? failure : errno;
+    throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why, expected, "choose another output"});
 }
 
 } // namespace
 
+FileWriter::FileWriter(const fs::path& path) : named_(path)
+{
+    std::error_code error;
+    target_ = behind_links(path, error);
+    if (error) refuse_write(named_, error.message());
+    const fs::file_type type = fs::status(target_, error).type();
+    if (type == fs::file_type::directory) refuse_write(named_, "it is a folder.", "a file");
+    if (!is_stream(type)) {
+        if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular)
+            refuse_write(named_, "it is no file.", "a file");
+        error.clear();
+        if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), error);
+        if (error) refuse_write(named_, error.message());
+        part_ = target_.parent_path() /
+                fmt::format(".damslip.{}.{}.part", ::getpid(), sha256(target_.filename().string()).substr(0, 8));
+    }
+    const fs::path& file = part_.empty() ? target_ : part_;
+    const int flags = part_.empty() ? 0 : O_CREAT | O_TRUNC;
+    descriptor_ = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+    if (descriptor_ < 0) refuse_write(named_, std::strerror(errno));
+}
+
+FileWriter::~FileWriter()
+{
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    std::error_code error;
+    if (!part_.empty()) fs::remove(part_, error);
+}
+
+void FileWriter::write(std::string_view bytes)
+{
+    if (const int failure = write_all(descriptor_, bytes); failure != 0) refuse_write(named_, std::strerror(failure));
+}
+
+void FileWriter::finish()
+{
+    if (::close(std::exchange(descriptor_, -1)) != 0) {
+        const std::string why = std::strerror(errno);
+        std::error_code error;
+        if (!part_.empty()) fs::remove(part_, error);
+        refuse_write(named_, why);
+    }
+    if (part_.empty()) return;
+    std::error_code error;
+    fs::rename(part_, target_, error);
+    if (!error) return;
+    const std::string why = error.message();
+    fs::remove(part_, error);
+    refuse_write(named_, why);
+}
+
 void write_file(const fs::path& path, std::string_view content)
 {
-    const auto fail = [&](const std::string& why,
-                          const char* expected = "a folder with write permission and space left") {
-        throw InputError(
-            Diagnostic{path.string(), 0, 0, "cannot be written: " + why, expected, "choose another output"});
-    };
-    std::error_code error;
-    const fs::path target = behind_links(path, error);
-    if (error) fail(error.message());
-    const fs::file_type type = fs::status(target, error).type();
-    if (type == fs::file_type::directory) fail("it is a folder.", "a file");
-    if (is_stream(type)) {
-        if (const int failure = write_descriptor(target, 0, content); failure != 0) fail(std::strerror(failure));
-        return;
-    }
-    if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular) fail("it is no file.", "a file");
-    error.clear();
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
-    if (error) fail(error.message());
-    const fs::path part = target.parent_path() / fmt::format(".damslip.{}.{}.part", ::getpid(),
-                                                             sha256(target.filename().string()).substr(0, 8));
-    if (const int failure = write_descriptor(part, O_CREAT | O_TRUNC, content); failure != 0) {
-        fs::remove(part, error);
-        fail(std::strerror(failure));
-    }
-    fs::rename(part, target, error);
-    if (error) {
-        const std::string why = error.message();
-        fs::remove(part, error);
-        fail(why);
-    }
+    FileWriter file(path);
+    file.write(content);
+    file.finish();
 }
 
 std::optional<Diagnostic> output_path_problem(const fs::path& path, OutputPath kind, const std::string& named)

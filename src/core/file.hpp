@@ -18,6 +18,23 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
 /// @throws InputError when it cannot be written; for a folder or a socket
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// The same for what is too large to be held: bytes go beside the target as they come, finish() renames. Without it
+/// nothing appears.
+class FileWriter {
+public:
+    explicit FileWriter(const std::filesystem::path& path);
+    ~FileWriter();
+    FileWriter(const FileWriter&) = delete;
+    FileWriter& operator=(const FileWriter&) = delete;
+
+    void write(std::string_view bytes); ///< @throws InputError as write_file()
+    void finish();
+
+private:
+    std::filesystem::path named_, target_, part_; ///< part_: empty for a device or a pipe
+    int descriptor_ = -1;
+};
+
 enum class OutputPath {
     file,         ///< a file, a device or a pipe, through links too
     regular_file, ///< a file alone: others are written beside it

@@ -1,5 +1,6 @@
 #include "scene/checks.hpp"
 
+#include "scene/first_joint_law.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/plausible.hpp"
@@ -46,18 +47,15 @@ void note_weak_cohesion(const Contact& c, const std::string& table, Findings& f)
     f.note(table + ".cohesion", note);
 }
 
-/// The rigid block follows one of them at a time, exactly.
+/// The rigid block, which stands beside every answer, is a series in forces over its slip or in friction over its rate.
 void check_together(const Scene& s, Findings& f)
 {
-    std::vector<std::pair<std::string, std::string>> laws; // where, as written
-    if (!s.anchors.empty()) laws.emplace_back("anchor[1]", "[[anchor]]");
-    if (s.contact.rate.active()) laws.emplace_back("contact.kinetic_friction_ratio", "contact.kinetic_friction_ratio");
-    if (s.uplift && s.uplift->water.opening != OpeningWater::unchanged)
-        laws.emplace_back("uplift.opening", "uplift.opening");
-    if (laws.size() > 1)
-        f.wrong(laws.back().first, fmt::format("{} with {}.", laws.back().second, laws.front().second),
-                "one of [[anchor]], contact.kinetic_friction_ratio and uplift.opening in a scene",
-                fmt::format("leave out {} or {}", laws.back().second, laws.front().second));
+    if (s.anchors.empty() || !s.contact.rate.active()) return;
+    f.wrong(
+        "contact.kinetic_friction_ratio", "contact.kinetic_friction_ratio with [[anchor]].",
+        "one of the two: the rigid block beside every answer follows forces over its slip (anchors) or friction over "
+        "its rate, not both",
+        "delete kinetic_friction_ratio with its keys, or the [[anchor]]");
 }
 
 } // namespace

@@ -19,10 +19,53 @@ void check_radiating_rock(const Scene& s, Findings& f)
                 "write  scheme = \"hht\"  in [time], or  mass = \"massless\"  in [foundation]");
 }
 
+/// A floor that is the rock takes the place of everything else that is said of it.
+void check_floor(const Scene& s, Findings& f)
+{
+    if (!s.reservoir || s.reservoir->floor != ReservoirFloor::rock) return;
+    constexpr const char *key = "reservoir.floor", *instead = "floor = \"absorbing\"";
+    const auto wrong = [&](const std::string& with, const char* expected, const std::string& fix) {
+        f.wrong(key, fmt::format("reservoir.floor = \"rock\" {}.", with), expected,
+                fmt::format("{}, or write  {}  in [reservoir]", fix, instead));
+    };
+    if (s.reservoir->model != ReservoirModel::acoustic)
+        wrong("without reservoir.model = \"acoustic\"", "acoustic water: an added mass has no pressure on the floor",
+              "write  model = \"acoustic\"");
+    if (!rock_radiates(s))
+        wrong(!s.foundation       ? "without [foundation]"
+              : !rock_has_mass(s) ? "with foundation.mass = \"massless\""
+                                  : "with a foundation.boundary that is not \"absorbing\"",
+              "radiating rock: a floor that keeps its waves would send them back into the water",
+              s.foundation ? "write  mass = \"with-mass\"  and  boundary = \"absorbing\"  in [foundation]"
+                           : "add  [foundation]");
+    for (const char* given : {"reservoir.bottom_reflection", "reservoir.bottom_density", "reservoir.bottom_modulus"})
+        if (f.given(given)) {
+            wrong(fmt::format("with {}", given),
+                  "one description of the floor: waves would leave twice, into the rock and by the coefficient",
+                  fmt::format("delete {}", std::string(given).substr(std::string("reservoir.").size())));
+            break;
+        }
+    if (s.reservoir->bottom_motion == BottomMotion::still)
+        wrong("with reservoir.bottom_motion = \"still\"", "a floor that moves with the rock",
+              "write  bottom_motion = \"ground\"");
+    const double base = std::abs(toe(s.section).x - heel(s.section).x);
+    if (constexpr double most = 10.0; s.reservoir->length > most * base)
+        wrong(fmt::format("with a reservoir of {:.4g} m", s.reservoir->length),
+              "at most ten lengths of the base: the rock below all of it is a box of waves",
+              fmt::format("write  length_m = {:.4g}  and  far_end = \"absorbing\"", s.reservoir->level));
+    if (s.reservoir->far_end == FarEnd::open)
+        wrong("with reservoir.far_end = \"open\"", "far_end = \"absorbing\", \"damper\" or \"closed\"",
+              "write  far_end = \"absorbing\"");
+    if (s.contact.sliding == JointPath::finite)
+        wrong("with contact.sliding = \"finite\"", "contact.sliding = \"small\": the dam stays where the floor ends",
+              "write  sliding = \"small\"  in [contact]");
+}
+
 } // namespace
 
 void check_rock(const Scene& s, Findings& f)
 {
+    check_floor(s, f);
     if (!s.foundation) return;
     if (!rock_has_mass(s)) {
         if (s.foundation->boundary ==

@@ -40,6 +40,11 @@ void check_sequence(const Scene& s, Findings& f)
         f.wrong("motion.sequence", fmt::format("motion.sequence with {}.", what),
                 "a sequence for the rigid block on its base, and for finite elements in time", fix);
     };
+    if (s.uplift && s.uplift->water.after == WaterAfter::full && s.contact.sliding == JointPath::finite)
+        refuse("uplift.after = \"full\" and contact.sliding = \"finite\": the static state between two records is one "
+               "of small "
+               "sliding",
+               "write  after = \"unchanged\"  in [uplift] or  sliding = \"small\"  in [contact]");
     if (s.wedge) refuse("[wedge]", "delete sequence: each record then shakes the wedge as it is");
     if (s.flexible_block) refuse("[flexible_block]", "delete [flexible_block], or sequence");
     if (s.time.scheme == TimeScheme::central_difference || s.time.scheme == TimeScheme::modal)

@@ -20,14 +20,16 @@ Decision decide_opening_water(const Scene& s, Method method)
                     : "one pressure profile per step"};
     if (law.opening == OpeningWater::reynolds)
         return {false, reason + ": a rigid block has no width of the joint, its uplift stays", ""};
-    return {true, reason, "crack and uplift iterated once per direction of sliding"};
+    return {true,
+            law.opening == OpeningWater::mouth ? reason + ": rigid block as \"full\", the limit of fast water" : reason,
+            "crack and uplift iterated once per direction of sliding"};
 }
 
 Decision decide_water_after(const Scene& s, Method method)
 {
     const bool full = s.uplift && s.uplift->water.after == WaterAfter::full;
     if (method == Method::rigid_block)
-        return {false, "rigid block: the state after the earthquake is not looked at", ""};
+        return {false, "rigid block: nothing is looked at after the earthquake, nor between two", ""};
     return {full, full ? "uplift.after = \"full\"" : "uplift.after = \"unchanged\"", "none"};
 }
 

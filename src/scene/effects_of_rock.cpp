@@ -70,6 +70,7 @@ RemovalAnswer without_rock(Scene s, const SeepagePoints& seepage_points)
         s.uplift->points = seepage_points;
         instead += ", the same uplift as points";
     }
+    let_floor_absorb(s);
     s.foundation.reset();
     s.mesh.rock_contact_size.reset();
     s.mesh.rock_size.reset();
@@ -87,7 +88,9 @@ std::vector<EffectRow> rock_effects()
          .remove = without_rock,
          .leave_out =
              [](Scene& s, const EffectPlan& plan) { // the rigid block: seepage needs the rock box
-                 if (plan.method == Method::finite_elements) s.foundation.reset();
+                 if (plan.method != Method::finite_elements) return;
+                 let_floor_absorb(s);
+                 s.foundation.reset();
              },
          .named = Effect::rock_flexibility},
         {.name = "curtain stiffness",

@@ -1,5 +1,6 @@
 #include "scene/added_mass_row.hpp"
 #include "scene/effect_row.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/vertical_motion.hpp"
 
 #include <algorithm>
@@ -68,6 +69,9 @@ Decision decide_water_compressibility(const Scene& s, Method method)
 
 Decision decide_bottom_absorption(const Scene& s, Method method)
 {
+    if (floor_on_rock(s))
+        return of_acoustic_water(s, method, true, "reservoir.floor = \"rock\"", "",
+                                 "the floor's nodes in every product with the rock");
     const bool by_material = s.reservoir && s.reservoir->bottom_density && s.reservoir->bottom_modulus;
     return of_acoustic_water(s, method, by_material || (s.reservoir && s.reservoir->bottom_reflection < 1.0),
                              by_material ? "reservoir.bottom_density_kg_m3 and bottom_modulus_GPa"
@@ -131,6 +135,7 @@ RemovalAnswer without_compressibility(Scene s, const SeepagePoints&)
 
 RemovalAnswer without_bottom_absorption(Scene s, const SeepagePoints&)
 {
+    s.reservoir->floor = ReservoirFloor::absorbing;
     s.reservoir->bottom_reflection = 1.0;
     s.reservoir->bottom_density.reset();
     s.reservoir->bottom_modulus.reset();

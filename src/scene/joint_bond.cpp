@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace damslip {
 
@@ -67,21 +66,6 @@ std::optional<double> joint_modulus(const Scene& scene, bool base)
     if (!dam || !base || !scene.foundation) return dam;
     const auto rock = plane_strain_modulus(scene.foundation->material);
     return rock ? std::optional(2.0 / (1.0 / *dam + 1.0 / *rock)) : dam;
-}
-
-std::string first_joint_law(const Scene& s)
-{
-    if (breaks_by_energy(s.contact)) return "contact.bond = \"fracture\"";
-    for (std::size_t i = 0; i < s.lift_joints.size(); ++i)
-        if (breaks_by_energy(s.lift_joints[i].strength))
-            return fmt::format("lift_joint[{}].bond = \"fracture\"", i + 1);
-    if (s.contact.rate.active()) return "contact.kinetic_friction_ratio";
-    for (std::size_t i = 0; i < s.lift_joints.size(); ++i)
-        if (s.lift_joints[i].strength.rate.active()) return fmt::format("lift_joint[{}].kinetic_friction_ratio", i + 1);
-    if (!s.anchors.empty()) return "[[anchor]]";
-    if (s.uplift && s.uplift->water.follows())
-        return s.uplift->water.opening != OpeningWater::unchanged ? "uplift.opening" : "uplift.after";
-    return {};
 }
 
 } // namespace damslip

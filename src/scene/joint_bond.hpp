@@ -9,9 +9,6 @@ BondLoss bond_loss(const Contact& strength);
 /// Has the joint a bond whose fracture takes work? (FE)
 bool breaks_by_energy(const Contact& strength);
 
-/// The law of a joint beyond Coulomb's that a scene names first, as its key; empty: none.
-std::string first_joint_law(const Scene& scene);
-
 /// Characteristic length ℓ_ch = E' G/f² of a bond between two bodies [m]: the process zone at a crack's tip is about
 /// 0.9 ℓ_ch long (Bažant & Oh 1983).
 /// @param modulus  harmonic mean of E/(1 - nu²) of both sides [Pa] @param energy  [N/m] @param strength  [Pa], > 0

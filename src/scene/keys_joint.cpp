@@ -112,11 +112,14 @@ std::vector<Key> opening_water_keys()
                                      "FERC), zero (USBR), full head to the crack's tip (ICOLD), mouth (full as far as "
                                      "it has come at mouth_speed), reynolds (thin flow)",
                                      "\"full\"", choice_in(&Uplift::water, &W::opening, opening_waters()))),
-        only_where<Uplift>([](const Uplift& u) { return u.water.after != WaterAfter::unchanged; },
-                           word("after", "unchanged",
-                                "after the earthquake: unchanged, or full head on all that has cracked", "\"full\"",
-                                choice_in(&Uplift::water, &W::after,
-                                          {{"unchanged", WaterAfter::unchanged}, {"full", WaterAfter::full}}))),
+        only_where<Uplift>(
+            [](const Uplift& u) { return u.water.after != WaterAfter::unchanged; },
+            word("after", "unchanged",
+                 "after the earthquake, and between the records of a sequence: unchanged, or full head on "
+                 "all that has cracked",
+                 "\"full\"",
+                 choice_in(&Uplift::water, &W::after,
+                           {{"unchanged", WaterAfter::unchanged}, {"full", WaterAfter::full}}))),
         number("mouth_speed", velocity, Range::above(0), "required with opening mouth",
                "opening mouth: speed at which water enters the crack", "5", in(&Uplift::water, &W::mouth_speed)),
         only_where<Uplift>(flows, number("joint_clearance", small_length, Range::between(1e-6, 0.1), "0.0002",

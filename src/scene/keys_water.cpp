@@ -21,6 +21,19 @@ std::string formula_meanings()
     return text;
 }
 
+/// Left out of resolved scenes elsewhere: a floor on rock has no coefficient of its own, nor has one whose material is given; water
+/// without waves has no floor on rock.
+Key only_where_floor_is(ReservoirFloor floor, Key key)
+{
+    key.applies = [floor](const void* reservoir) {
+        const auto& water = *static_cast<const Reservoir*>(reservoir);
+        const bool on_rock = water.floor == ReservoirFloor::rock && water.model == ReservoirModel::acoustic;
+        if (floor == ReservoirFloor::rock) return on_rock;
+        return !on_rock && !water.bottom_density && !water.bottom_modulus;
+    };
+    return key;
+}
+
 } // namespace
 
 std::vector<KeyGroup> water_groups()
@@ -62,15 +75,28 @@ std::vector<KeyGroup> water_groups()
                                                                                       {"closed", FarEnd::closed},
                                                                                       {"open", FarEnd::open}})),
          word("bottom_motion", "ground",
-              "the reservoir bottom moves with the ground, or is still; its dynamic pressure never loads the rock",
+              "the reservoir bottom moves with the ground, or is still; its dynamic pressure loads the rock with floor "
+              "= \"rock\" only",
               "\"still\"",
               choice(&Reservoir::bottom_motion,
                      std::vector<std::pair<std::string, BottomMotion>>{{"ground", BottomMotion::ground},
                                                                        {"still", BottomMotion::still}})),
-         number("bottom_reflection", none, Range::between(-1, 1), "0.75",
-                "wave reflection coefficient of the bottom under acoustic water: 1 rigid, 0 absorbs all, -1 p = 0; "
-                "measured at dams: up to 0.77, rock 0.5 and more, sediments 0.1 ... 0.5 (Ghanaat & Redpath 1995)",
-                "1", at(&Reservoir::bottom_reflection)),
+         only_where_floor_is(ReservoirFloor::rock, word("floor", "absorbing",
+                                                        "the floor under acoustic water: waves are absorbed by its "
+                                                        "reflection coefficient (absorbing), or it is "
+                                                        "the radiating rock of [foundation], which the water's "
+                                                        "pressure moves and which moves the water (rock)",
+                                                        "\"rock\"",
+                                                        choice(&Reservoir::floor,
+                                                               std::vector<std::pair<std::string, ReservoirFloor>>{
+                                                                   {"absorbing", ReservoirFloor::absorbing},
+                                                                   {"rock", ReservoirFloor::rock}}))),
+         only_where_floor_is(
+             ReservoirFloor::absorbing,
+             number("bottom_reflection", none, Range::between(-1, 1), "0.75",
+                    "wave reflection coefficient of the bottom under acoustic water: 1 rigid, 0 absorbs all, -1 p = 0; "
+                    "measured at dams: up to 0.77, rock 0.5 and more, sediments 0.1 ... 0.5 (Ghanaat & Redpath 1995)",
+                    "1", at(&Reservoir::bottom_reflection))),
          number("bottom_density", density, Range::half_open(0, 1e5), "none",
                 "of the bottom's material; gives the reflection coefficient together with bottom_modulus", "2600",
                 at(&Reservoir::bottom_density)),

@@ -8,13 +8,12 @@
 #include "scene/key_table.hpp"
 #include "scene/plausible.hpp"
 #include "scene/preset.hpp"
+#include "scene/read_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
-
-#include <toml++/toml.h>
 
 namespace damslip {
 
@@ -451,17 +450,27 @@ void resolve_paths(Scene& scene)
 
 } // namespace
 
-Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file, FileCheck check)
+toml::table toml_of(std::string_view text, const std::filesystem::path& file)
 {
-    Findings findings(file.string());
-    toml::table root;
     try {
-        root = toml::parse(toml_text, file.string());
+        return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
+        Findings findings(file.string());
         findings.wrong_at(place_of(error.source()), std::string(error.description()),
                           "TOML: key = value, texts in quotes, decimal point, [table] headers", "correct this line");
         findings.throw_if_any();
+        throw;
     }
+}
+
+Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file, FileCheck check)
+{
+    return scene_of_table(toml_of(toml_text, file), file, check);
+}
+
+Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCheck check)
+{
+    Findings findings(file.string());
     Scene scene;
     scene.file = file;
     SectionInput section;

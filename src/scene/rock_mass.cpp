@@ -1,5 +1,9 @@
 #include "scene/rock_mass.hpp"
 
+#include "scene/water.hpp"
+
+#include <cmath>
+
 namespace damslip {
 
 RockKind rock_kind(const Scene& scene)
@@ -36,14 +40,39 @@ double radiating_density(const Foundation& rock)
     return rock.material.density > 0.0 ? rock.material.density : granite_or_gneiss;
 }
 
+bool floor_on_rock(const Scene& scene)
+{
+    return is_acoustic(scene) && scene.reservoir->floor == ReservoirFloor::rock && rock_radiates(scene);
+}
+
+double rock_reflection(const Scene& scene)
+{
+    const Material& rock = scene.foundation->material;
+    const double nu = rock.poisson_ratio, density = radiating_density(*scene.foundation),
+                 modulus =
+                     rock.young_modulus.value() * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); // of compression waves
+    const double of_rock = std::sqrt(modulus * density),
+                 of_water = std::sqrt(scene.reservoir->density * scene.reservoir->bulk_modulus);
+    return (of_rock - of_water) / (of_rock + of_water);
+}
+
 bool rock_edges_are_viscous(const Scene& scene)
 {
     return rock_is_boxed(scene) && scene.foundation->boundary == RockBoundary::viscous;
 }
 
+void let_floor_absorb(Scene& scene)
+{
+    if (!scene.reservoir || scene.reservoir->floor != ReservoirFloor::rock) return;
+    scene.reservoir->floor = ReservoirFloor::absorbing;
+    if (scene.foundation && scene.foundation->material.young_modulus)
+        scene.reservoir->bottom_reflection = rock_reflection(scene);
+}
+
 Scene with_massless_rock(Scene scene)
 {
     if (!scene.foundation) return scene;
+    let_floor_absorb(scene);
     scene.foundation->mass = RockMass::massless;
     scene.foundation->boundary = RockBoundary::fixed;
     return scene;

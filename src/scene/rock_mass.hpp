@@ -36,8 +36,19 @@ bool rock_has_mass(const Scene& scene);
 /// Density of rock that radiates [kg/m3]: that of the scene, else 2650. It has no part in the weight.
 double radiating_density(const Foundation& rock);
 
+/// True where the floor under acoustic water is the radiating rock itself (reservoir.floor = "rock").
+bool floor_on_rock(const Scene& scene);
+
+/// α = (ρ_r c_p - ρ_w c_w)/(ρ_r c_p + ρ_w c_w) of pressure waves that meet the rock's half space at a right angle, (3-55) with
+/// the impedance ρ_r c_p of compression waves [-].
+/// @pre [foundation] and [reservoir]
+double rock_reflection(const Scene& scene);
+
 /// True where the edges of the rock box are dashpots and the ground moves as its free surface would without the dam.
 bool rock_edges_are_viscous(const Scene& scene);
+
+/// Where the scene's floor is the rock: it absorbs by that rock's α instead. For scenes that are about to lose the rock.
+void let_floor_absorb(Scene& scene);
 
 /// The scene with rock that only gives way: what statics, natural modes and Rayleigh's constants are taken from.
 Scene with_massless_rock(Scene scene);

@@ -66,6 +66,7 @@ enum class ReservoirModel { automatic, hydrostatic, added_mass, acoustic };
 enum class WaterSurface { free, sloshing };            ///< p = 0, or a surface that rises and falls
 enum class FarEnd { absorbing, damper, closed, open }; ///< waves leave; the same at normal incidence only; wall; p = 0
 enum class BottomMotion { ground, still };             ///< the reservoir bottom moves with the ground, or not at all
+enum class ReservoirFloor { absorbing, rock }; ///< waves are absorbed by alpha, or the floor is the radiating rock
 
 struct Reservoir {
     double level = 0.0;           ///< water surface above the heel [m]
@@ -83,6 +84,7 @@ struct Reservoir {
     std::optional<double> bottom_density = {},
                           bottom_modulus = {}; ///< of what lies there [kg/m^3], [Pa]: give alpha instead
     std::optional<double> mesh_size = {};      ///< element height in the water [m]; default level / 20
+    ReservoirFloor floor = ReservoirFloor::absorbing;
 };
 
 /// Formulas the program asks for by name; others are rows of added_mass_rows() beyond these.

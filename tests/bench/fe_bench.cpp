@@ -208,6 +208,53 @@ void rock_table()
     for (const double size : {12.5, 6.0}) rock_case(0.77, size);
 }
 
+/// Laws of the joint beside the same steps and mesh without them: c, f_t = c/2 with G_II 1500 and G_I 150 J/m², and water that
+/// follows the opening. Bonds of weak joints break all at once, those of strong ones pair by pair.
+void joint_laws_table()
+{
+    std::printf("\nlaws of the joint beside the same run without, steps of dt/4\n%-22s %5s %5s | %8s %8s | %5s | %5s "
+                "%5s | %12s\n",
+                "law", "mu", "pairs", "without", "with", "ratio", "iter", "unr.", "slip");
+    const GroundMotion motion = fe2d::test::sines(3.0, 8.0);
+    const auto run_of = [&](const Scene& scene, double& seconds) {
+        const fe2d::EarthquakeRun run(scene, fe2d::test::options_of(scene));
+        seconds = 1e9;
+        fe2d::RunResult result;
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            const double start = processor_seconds();
+            result = run.run(motion);
+            seconds = std::min(seconds, processor_seconds() - start);
+        }
+        return result;
+    };
+    for (const double contact_size : {0.75, 0.1875}) {
+        Scene scene = fe2d::test::sliding_dam(0.77, 1.0, contact_size);
+        scene.mesh.size = 2.0;
+        scene.mesh.growth = 1.3;
+        scene.time.substeps = 2;
+        double without = 0.0, with = 0.0;
+        const auto pairs = static_cast<int>(run_of(scene, without).pair_area.size());
+        const auto row = [&](const char* law, const Scene& changed) {
+            const fe2d::RunResult r = run_of(changed, with);
+            std::printf("%-22s %5.2f %5d | %8.3f %8.3f | %5.2f | %5.2f %5d | %9.2f mm\n", law, 0.77, pairs, without,
+                        with, with / without, static_cast<double>(r.counts.contact_iterations) / r.counts.steps,
+                        r.counts.unresolved, 1e3 * r.slip);
+        };
+        for (const auto& [name, cohesion] :
+             {std::pair{"bond 0.6 MPa", 0.6e6}, {"bond 2 MPa", 2e6}, {"bond 5 MPa", 5e6}}) {
+            Scene bonded = scene;
+            bonded.contact.cohesion = cohesion;
+            bonded.contact.bond.tensile_strength = 0.5 * cohesion;
+            bonded.contact.bond.tension_energy = 150.0;
+            bonded.contact.bond.shear_energy = 1500.0;
+            row(name, bonded);
+        }
+        Scene wet = scene;
+        wet.uplift->water.opening = OpeningWater::reynolds;
+        row("water, reynolds", wet);
+    }
+}
+
 /// Strong shaking for a quarter of the time, a tenth of it after that.
 GroundMotion with_coda()
 {
@@ -387,6 +434,10 @@ int main(int count, char** words)
         return 0;
     }
     if (count > 1 && std::string_view(words[1]) == "integrators") return tied_bench(); // these rows alone
+    if (count > 1 && std::string_view(words[1]) == "joints") {
+        joint_laws_table();
+        return 0;
+    }
     if (count > 1 && std::string_view(words[1]) == "rock") {
         rock_table();
         return 0;
@@ -415,6 +466,7 @@ int main(int count, char** words)
                 "acoustic");
     for (const double rows : {16.0, 20.0, 125.0}) water_case(0.77, rows);
     rock_table();
+    joint_laws_table();
     std::printf("\nreduced runs\n%-22s %6s %5s %5s %6s | %8s %8s %8s %8s | %8s %5s | %12s %10s %10s\n", "case", "dofs",
                 "mu", "modes", "steps", "set-up", "modes", "run", "all", "full", "ratio", "slip", "error", "estimate");
     for (const double friction : {1.0, 0.77, 0.70, 0.66})

@@ -86,6 +86,15 @@ TEST(AnchorInput, GoesWithWhatKnowsItsForce)
         EXPECT_NE(anchor_message(anchor + other).find("with [[anchor]]."), std::string::npos) << other;
 }
 
+// Water that follows the opening goes with either of the two.
+TEST(AnchorInput, NotWithFrictionOverTheRate)
+{
+    const std::string rate = "kinetic_friction_ratio = 0.8\ncharacteristic_rate_m_s = 0.01\n";
+    const std::string message = anchor_message(rate + anchor_with(""));
+    EXPECT_NE(message.find("contact.kinetic_friction_ratio with [[anchor]]."), std::string::npos) << message;
+    EXPECT_NE(message.find("forces over its slip (anchors) or friction over its rate"), std::string::npos) << message;
+}
+
 TEST(AnchorInput, IsWrittenAsItWasRead)
 {
     const Scene scene = parse_scene(

@@ -74,6 +74,17 @@ TEST(SequenceInput, PauseNeedsSequence)
               "  fix:      add  sequence = [\"main shock\", \"aftershock\"]  , or delete the pause");
 }
 
+TEST(SequenceInput, RestsBetweenRecordsAreOfSmallSliding)
+{
+    const std::string message = message_of("[contact]\nfriction = 0.77\nsliding = \"finite\"\n[reservoir]\nlevel_m = "
+                                           "60\n[uplift]\nmodel = \"linear\"\nafter = "
+                                           "\"full\"\n[motion]\nsequence = [\"a\", \"b\"]\n" +
+                                           std::string(two_records));
+    EXPECT_NE(message.find("motion.sequence with uplift.after = \"full\" and contact.sliding = \"finite\""),
+              std::string::npos)
+        << message;
+}
+
 TEST(SequenceInput, NotWithSlammerOrExplicitSteps)
 {
     EXPECT_EQ(motion_message("sequence = [\"a\", \"b\"]\n", "[sliding]\nscheme = \"slammer\"\n"),

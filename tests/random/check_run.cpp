@@ -182,11 +182,12 @@ void check_energy(Checker& check, const json& fe, const Scene& scene, bool elast
 }
 
 /// Friction that holds the dam before the earthquake by the FE loads and by the rigid block's, where they mean the same:
-/// no cohesion, no crack, no ice (of the sliding computations only), no water in the rock.
+/// no cohesion or bond, no crack, no ice (of the sliding computations only), no water in the rock, no anchors (whose force
+/// follows the give of dam and rock).
 void check_critical_friction(Checker& check, const Scene& scene, const json& screen, const json& fe)
 {
-    if (scene.contact.cohesion > 0 || scene.ice || scene.stages.pore_pressure != PorePressure::none ||
-        (scene.uplift && scene.uplift->crack != CrackRule::none))
+    if (scene.contact.cohesion > 0 || scene.contact.bond.tensile_strength > 0 || !scene.anchors.empty() || scene.ice ||
+        scene.stages.pore_pressure != PorePressure::none || (scene.uplift && scene.uplift->crack != CrackRule::none))
         return;
     json last;
     for (const json& stage : fe["stages"]) {

@@ -439,6 +439,94 @@ std::string drawn_anchors(Draw& draw, const Writer& w, const std::string& scene)
     return text;
 }
 
+/// What a joint may have beyond friction, and records one after the other: keys for tables of a scene that is written already.
+class LateLaws {
+public:
+    LateLaws(Draw& draw, SceneFiles& files) : draw_(draw), files_(files) {}
+
+    void add()
+    {
+        const bool plain = without({"enforcement", "normal = ", "separation", "central-difference"});
+        if (draw_.chance(0.15) && plain) add_bond();
+        if (draw_.chance(0.25) && plain && without({"slammer"})) add_water();
+        if (draw_.chance(0.15) && plain && without({"slammer", "[[anchor]]"})) add_rate();
+        if (draw_.chance(0.1) && plain && without({"slammer", "model = \"acoustic\""}))
+            key("contact", "restitution", draw_.word({"0.1", "0.5", "0.9", "1"}));
+        if (draw_.chance(0.12) && without({"slammer", "central-difference"})) add_sequence();
+    }
+
+private:
+    bool has(const char* words) const { return files_.scene.find(words) != std::string::npos; }
+    bool without(std::initializer_list<const char*> others) const
+    {
+        return std::none_of(others.begin(), others.end(), [this](const char* other) { return has(other); });
+    }
+    template <class T>
+    void key(const char* table, const char* name, const T& value)
+    {
+        const std::string head = fmt::format("[{}]\n", table);
+        const std::size_t at = files_.scene.find(head);
+        if (at != std::string::npos) files_.scene.insert(at + head.size(), fmt::format("{} = {}\n", name, value));
+    }
+
+    /// Of the base: a strength that may be lost at once, by energies from brittle to tough, or not at all.
+    void add_bond()
+    {
+        const std::size_t contact = files_.scene.find("[contact]\n"), end = files_.scene.find("\n[", contact);
+        const std::string table = files_.scene.substr(contact, end - contact);
+        if (table.find("cohesion_lost_at_slip = false") != std::string::npos) return;
+        const bool cohesion = table.find("cohesion_kPa") != std::string::npos;
+        const std::string loss = draw_.word({"fracture", "fracture", "fracture", "together", "pairs"});
+        key("contact", "bond", '"' + loss + '"');
+        const bool shear = cohesion || loss != "fracture" || draw_.chance(0.8);
+        if (shear && !cohesion) key("contact", "cohesion_kPa", draw_.log_between(1, 3000));
+        if (loss != "fracture") return;
+        if (shear) key("contact", "fracture_energy_shear_N_m", draw_.log_between(1, 1e5));
+        if (!shear || draw_.chance(0.6)) {
+            key("contact", "tensile_strength_kPa", draw_.log_between(1, 3000));
+            key("contact", "fracture_energy_tension_N_m", draw_.log_between(0.1, 1e4));
+        }
+        if (draw_.chance(0.3)) key("contact", "unloading", "\"plastic\"");
+    }
+
+    void add_water()
+    {
+        if (!has("[uplift]\n") || has("model = \"none\"") || !(has("[reservoir]\n") || has("[tailwater]\n"))) return;
+        const std::string rule = draw_.word({"unchanged", "zero", "full", "mouth", "reynolds"});
+        key("uplift", "opening", '"' + rule + '"');
+        if (rule == "unchanged" || draw_.chance(0.4)) key("uplift", "after", "\"full\"");
+        if (rule == "mouth") key("uplift", "mouth_speed_m_s", draw_.log_between(1e-3, 1e3));
+        if (rule != "reynolds") return;
+        if (draw_.chance(0.7)) key("uplift", "joint_clearance_m", draw_.log_between(5e-5, 0.02));
+        if (draw_.chance(0.2)) key("uplift", "cavitation_pressure_kPa", draw_.between(-99, -1));
+        if (has("[reservoir]\n") && draw_.chance(0.3)) key("uplift", "wet_end", "\"with-waves\"");
+    }
+
+    /// Friction that falls lags nearly always: without that finite elements refuse it.
+    void add_rate()
+    {
+        const double ratio = draw_.between(0.3, 1.3);
+        key("contact", "kinetic_friction_ratio", ratio);
+        key("contact", "characteristic_rate_m_s", draw_.log_between(1e-4, 1));
+        const bool time = draw_.chance(0.6);
+        if (time) key("contact", "relaxation_time_s", draw_.log_between(1e-3, 1));
+        if (draw_.chance(time ? 0.3 : 0.95)) key("contact", "relaxation_slip_m", draw_.log_between(1e-4, 0.1));
+    }
+
+    /// The record, and itself again.
+    void add_sequence()
+    {
+        key("motion", "sequence", "[\"drawn\", \"again\"]");
+        if (draw_.chance(0.5)) key("motion", "sequence_pause_s", draw_.word({"0", "0.013", "0.5"}));
+        std::string record = "[[motion.record]]\nname = \"again\"\nhorizontal = \"horizontal.csv\"\n";
+        if (!files_.vertical.empty()) record += "vertical = \"vertical.csv\"\n";
+        files_.scene.insert(files_.scene.find("[[motion.record]]\n"), record);
+    }
+
+    Draw& draw_;
+    SceneFiles& files_;
+};
+
 /// One value of the text, taken at random, becomes what no one should write.
 void spoil(SceneFiles& files, Draw& draw)
 {
@@ -478,6 +566,7 @@ SceneFiles random_scene(Draw& draw, double radiating)
     const std::string head = "[foundation]\n";
     if (w.rock) files.scene.insert(files.scene.find(head) + head.size(), w.rock_by_name);
     files.scene += drawn_anchors(draw, w, files.scene);
+    LateLaws(draw, files).add();
     return files;
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -226,6 +227,80 @@ TEST(AnchoredBlock, RefusesWhatHasNoForceOverSlip)
     options.sliding.lift_off = LiftOff::no_friction;
     options.sliding.scheme = SlidingScheme::slammer;
     EXPECT_THROW(slide(motion, SlipStages{{0.0, block_on({}, 0.2), 0.0}}, options), InputError);
+}
+
+/// The block with an uplift `change` higher while it slides either way, by a crack or from the start.
+struct WetBlocks {
+    RigidBlock cracking, wet;
+};
+
+WetBlocks wet_blocks(const RigidBlock& block, double change)
+{
+    WetBlocks blocks{block, block};
+    OpeningUplift opening;
+    opening.accel_v = {0.0};
+    opening.downstream = opening.upstream = {change};
+    blocks.cracking.opening = std::make_shared<const OpeningUplift>(opening);
+    blocks.wet.uplift += change;
+    return blocks;
+}
+
+// A crack whose uplift is the same whichever way the block slides decides start, slide and stop as that uplift does from the
+// beginning: beside anchors and beside friction over the rate, with and without lag. Round-off apart.
+TEST(OpeningWater, BesideAnchorsAndRates)
+{
+    std::mt19937 random(5);
+    int slid = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const GroundMotion motion = rough_motion(random);
+        const bool anchored = trial % 2 == 0;
+        std::vector<AnchorBar> bars;
+        if (anchored) bars = {random_bar(random), random_bar(random)};
+        const WetBlocks blocks = wet_blocks(block_on(bars, 0.35), 3.0);
+        RateFriction rate;
+        if (!anchored) {
+            rate.kinetic_ratio = 0.6;
+            rate.characteristic_rate = 0.02;
+            if (trial % 4 == 1) rate.relaxation_time = 0.05;
+            if (trial % 8 == 1) rate.relaxation_slip = 0.01;
+        }
+        SlideOptions options;
+        options.anchors = bars;
+        const SlideResult a = slide(motion, SlipStages{{0.0, blocks.cracking, 0.0, rate}}, options),
+                          b = slide(motion, SlipStages{{0.0, blocks.wet, 0.0, rate}}, options);
+        if (b.status == Status::static_failure) continue;
+        EXPECT_EQ(a.status, b.status) << trial;
+        EXPECT_EQ(a.phases, b.phases) << trial;
+        EXPECT_NEAR(a.slip, b.slip, 1e-9 * std::max(1e-3, b.max_slip)) << trial;
+        slid += b.max_slip > 1e-3;
+    }
+    EXPECT_GT(slid, 20);
+}
+
+// Mirrored motion, mirrored cracks, mirrored slip: each direction has its own crack, at rest too.
+TEST(OpeningWater, EachDirectionHasItsOwnBesideRates)
+{
+    std::mt19937 random(6);
+    RateFriction rate;
+    rate.kinetic_ratio = 0.7;
+    rate.characteristic_rate = 0.05;
+    rate.relaxation_time = 0.1;
+    for (int trial = 0; trial < 10; ++trial) {
+        GroundMotion motion = rough_motion(random), mirrored = motion;
+        for (double& a : mirrored.accel_h) a = -a;
+        RigidBlock block = block_on({}, 0.35), swapped = block;
+        OpeningUplift opening;
+        opening.accel_v = {0.0};
+        opening.downstream = {4.0};
+        opening.upstream = {0.5};
+        block.opening = std::make_shared<const OpeningUplift>(opening);
+        std::swap(opening.downstream, opening.upstream);
+        swapped.opening = std::make_shared<const OpeningUplift>(opening);
+        const SlideResult a = slide(motion, SlipStages{{0.0, block, 0.0, rate}}),
+                          b = slide(mirrored, SlipStages{{0.0, swapped, 0.0, rate}});
+        EXPECT_GT(a.slip, 0.0) << trial; // the wet crack is downstream's
+        EXPECT_NEAR(a.slip, -b.slip, 1e-12 * a.max_slip) << trial;
+    }
 }
 
 } // namespace

@@ -289,6 +289,23 @@ TEST(FeSeepage, deeper_drains_take_more_water)
     EXPECT_DOUBLE_EQ(fe2d::drain_line(scene, scene_uplift_state(scene))->depth, 2.0); // half the curtain
 }
 
+// On a mesh whose rock has fewer nodes below the base than the dam has, drains are the rock's nodes nearest to their line.
+TEST(FeSeepage, drains_below_sides_that_do_not_match)
+{
+    Scene scene = flat_base(70.0, 20.0);
+    scene.drains.emplace();
+    scene.drains->distance = 8.0;
+    scene.drains->depth = 5.0;
+    scene.mesh.size = 0.5;
+    scene.mesh.contact_size = 0.25;
+    const auto flow = [&] {
+        return fe2d::solve_seepage_on(fe2d::build_mesh(scene), scene, scene_uplift_state(scene)).drain_flow;
+    };
+    const double matching = flow();
+    scene.mesh.rock_contact_size = 0.5; // a node at 8 m, too
+    EXPECT_NEAR(flow(), matching, 0.1 * matching); // elements twice as long along the base
+}
+
 TEST(FeSeepage, what_does_not_fit_is_refused)
 {
     Scene scene = flat_base(70.0, 10.0);

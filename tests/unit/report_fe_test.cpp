@@ -214,7 +214,7 @@ TEST(StoredStates, AreThoseOfTheLargestLeansAndSlipRate)
         fe2d::DynamicState state;
         state.time = static_cast<double>(i);
         state.u = Eigen::VectorXd::Constant(2, static_cast<double>(i));
-        keeper.look(state, 1e-3 * slip[i], 1e-3 * crest[i]);
+        keeper.look(state, state.time, 1e-3 * slip[i], 1e-3 * crest[i]);
     }
     const auto states = keeper.states();
     ASSERT_EQ(states.size(), 5u);

@@ -279,6 +279,43 @@ TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
 }
 
 // Ctrl-C: runs under way are not results; what was finished stays, no table with gaps is written, exit code 4.
+/// Rows that go out part by part: 3,001 frictions x 2 records x 2 polarities = 12,004.
+const std::vector<std::string> long_grid{"--friction", "0.05:0.2:0.00005", "--polarity", "1,-1"};
+
+TEST_F(SweepScene, ALongSweepIsTheSameWhateverItsPartsThreadsAndStops)
+{
+    const Answer whole = sweep(with(long_grid, {"--out", path("long.csv"), "--jobs", "1"}));
+    ASSERT_EQ(whole.code, 0) << whole.talk;
+    const std::string rows = content("long.csv");
+    EXPECT_EQ(lines_of(rows), 12004u + 4);
+    EXPECT_NE(content("long.html").find("The first 400 of 12004 rows"), std::string::npos);
+    EXPECT_TRUE(sweep(with(long_grid, {"--jobs", "2"})).out == rows);
+
+    for (int i = 0; i < 3; ++i) {
+        const Answer part = sweep(with(long_grid, {"--out", path("parts/l.csv"), "--shard", std::to_string(i) + "/3"}));
+        ASSERT_EQ(part.code, 0) << part.talk;
+    }
+    EXPECT_TRUE(answer_of({"sweep", "--merge", path("parts")}).out == rows);
+
+    // A journal cut in the middle of a line is what a kill leaves.
+    const std::string journal = content("long.csv.journal");
+    std::filesystem::remove(folder / "long.csv");
+    write("long.csv.journal", journal.substr(0, journal.size() / 2 + 7));
+    const Answer again = sweep(with(long_grid, {"--out", path("long.csv"), "--resume"}));
+    ASSERT_EQ(again.code, 0) << again.talk;
+    EXPECT_NE(again.talk.find("rows were finished before"), std::string::npos) << again.talk;
+    EXPECT_TRUE(content("long.csv") == rows);
+
+    // The same rows as in a sweep of few.
+    const Answer few = sweep({"--friction", "0.05,0.1,0.2", "--polarity", "1,-1"});
+    std::istringstream lines(few.out);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line[0] == '#' || line[0] == 'i') continue;
+        const std::string without_id = line.substr(line.find(','));
+        EXPECT_NE(rows.find(without_id + "\n"), std::string::npos) << line;
+    }
+}
+
 TEST_F(SweepScene, InterruptedAndResumedGivesTheSameBytes)
 {
     const std::vector<std::string> many = with(grid, {"--scale", "0.5,1,1.5"});

@@ -3,6 +3,7 @@
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "core/version.hpp"
+#include "scene/anchor_bar.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/write.hpp"
 
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace damslip {
 
@@ -43,14 +46,63 @@ Eigen::VectorXd vector_of(const std::filesystem::path& file, const nlohmann::jso
 std::string more_than_the_file(const Scene& scene)
 {
     const Contact& c = scene.contact;
-    const bool lifts_break = std::any_of(scene.lift_joints.begin(), scene.lift_joints.end(),
-                                         [](const LiftJoint& joint) { return breaks_by_energy(joint.strength); });
-    if (breaks_by_energy(c) || lifts_break) return "bond = \"fracture\"";
-    if (!scene.anchors.empty()) return "[[anchor]]";
-    if (scene.uplift && scene.uplift->water.opening != OpeningWater::unchanged) return "uplift.opening";
     if (c.enforcement != ContactEnforcement::exact || c.normal != NormalContact::hard) return "contact that gives way";
     if (c.sliding == JointPath::finite) return "contact.sliding = \"finite\"";
     return {};
+}
+
+/// Names and sizes of the numbers that the laws of a scene's joints keep. @param pairs  of all joints
+std::vector<std::pair<const char*, std::size_t>> numbers_of_laws(const Scene& scene, std::size_t pairs)
+{
+    std::vector<std::pair<const char*, std::size_t>> all;
+    const bool lifts_break = std::any_of(scene.lift_joints.begin(), scene.lift_joints.end(),
+                                         [](const LiftJoint& joint) { return breaks_by_energy(joint.strength); });
+    if (breaks_by_energy(scene.contact) || lifts_break)
+        all.insert(all.end(), {{"bond_damage", pairs},
+                               {"bond_reference_m", pairs},
+                               {"bond_path_m", pairs},
+                               {"bond_fracture_J_m", 1},
+                               {"bond_stored_J_m", 1}});
+    if (!scene.anchors.empty()) {
+        for (const char* key :
+             {"anchor_state", "anchor_force_N_m", "anchor_stretch_m", "anchor_plastic_strain",
+              "anchor_largest_force_N_m", "anchor_largest_stretch_m", "anchor_snapped_s", "anchor_plastic_work_J_m",
+              "anchor_loss_J_m", "anchor_dowel_work_J_m", "anchor_lock_off_opening_m", "anchor_lock_off_slip_m",
+              "anchor_direction_opening_m", "anchor_direction_slip_m"})
+            all.emplace_back(key, scene.anchors.size());
+        all.emplace_back("anchor_time_s", 1);
+    }
+    if (scene.uplift && scene.uplift->water.follows())
+        all.insert(all.end(), {{"water_largest_crack_m", 2},
+                               {"water_pressures_Pa", 2},
+                               {"water_reynolds_number", 1},
+                               {"water_cracked_through_s", 1},
+                               {"water_work_J_m", 1},
+                               {"water_flow_J_m", 8}});
+    return all;
+}
+
+fe2d::JointLawState laws_of(const std::filesystem::path& file, const Scene& scene, const nlohmann::json& j,
+                            std::size_t pairs)
+{
+    fe2d::JointLawState laws;
+    for (const auto& [key, size] : numbers_of_laws(scene, pairs)) {
+        if (!j.contains("laws") || !j.at("laws").contains(key))
+            not_a_state(file, fmt::format("\"{}\" is missing in \"laws\".", key));
+        const Eigen::VectorXd values = vector_of(file, j.at("laws"), key, size);
+        laws[key].assign(values.begin(), values.end());
+    }
+    const auto each = [&laws](const char* key) {
+        const auto found = laws.find(key);
+        return found == laws.end() ? std::vector<double>() : found->second;
+    };
+    for (const double state : each("anchor_state"))
+        if (state != std::floor(state) || state < 0.0 || state > static_cast<double>(AnchorState::snapped))
+            not_a_state(file, fmt::format("{} in \"anchor_state\" is no state of an anchor.", state));
+    for (const double damage : each("bond_damage"))
+        if (!(damage >= 0.0 && damage <= 1.0))
+            not_a_state(file, fmt::format("{} in \"bond_damage\" is not between 0 and 1.", damage));
+    return laws;
 }
 
 fe2d::RunState parsed(const std::filesystem::path& file, const Scene& scene, const nlohmann::json& j)
@@ -75,6 +127,7 @@ fe2d::RunState parsed(const std::filesystem::path& file, const Scene& scene, con
     state.slip = vector_of(file, j, "slip_m", m);
     state.path = vector_of(file, j, "path_m", m);
     state.cohesion = vector_of(file, j, "cohesion_N_m", m);
+    state.laws = laws_of(file, scene, j, m);
     return state;
 }
 
@@ -92,7 +145,7 @@ void check_state_file(const Scene& scene, const std::string& flag)
     const std::string more = more_than_the_file(scene);
     if (more.empty()) return;
     throw UsageError(Diagnostic{scene.file.string(), 0, 0, flag + " with " + more + ".",
-                                "joints whose state is slip, path, opening, forces and cohesion",
+                                "exact contact on a plane that the dam does not leave",
                                 "run all records as one  motion.sequence , which carries everything"});
 }
 
@@ -101,16 +154,17 @@ void write_state(const std::filesystem::path& file, const Scene& scene, const fe
 {
     std::string words;
     for (const fe2d::ContactState s : state.states) words += letters[static_cast<std::size_t>(s)];
-    const nlohmann::ordered_json j{{"format", format},
-                                   {"program", program_version()},
-                                   {"dam", dam_hash(scene)},
-                                   {"after", after},
-                                   {"states", words},
-                                   {"force_N_m", list_of(state.force)},
-                                   {"opening_m", list_of(state.opening)},
-                                   {"slip_m", list_of(state.slip)},
-                                   {"path_m", list_of(state.path)},
-                                   {"cohesion_N_m", list_of(state.cohesion)}};
+    nlohmann::ordered_json j{{"format", format},
+                             {"program", program_version()},
+                             {"dam", dam_hash(scene)},
+                             {"after", after},
+                             {"states", words},
+                             {"force_N_m", list_of(state.force)},
+                             {"opening_m", list_of(state.opening)},
+                             {"slip_m", list_of(state.slip)},
+                             {"path_m", list_of(state.path)},
+                             {"cohesion_N_m", list_of(state.cohesion)}};
+    if (!state.laws.empty()) j["laws"] = state.laws;
     write_file(file, j.dump(1) + "\n");
 }
 

@@ -12,8 +12,7 @@ namespace damslip {
 /// Hash of the dam: of the scene without its motion. Runs that go on from each other have it in common.
 std::string dam_hash(const Scene& scene);
 
-/// @throws UsageError  for a scene whose joints hold more than the file does: bonds that break by energy, anchors, water that
-/// follows the opening, contact that gives way, finite sliding
+/// @throws UsageError  for a scene whose joints hold more than the file does: contact that gives way, finite sliding
 void check_state_file(const Scene& scene, const std::string& flag);
 
 /// @param scene  as read @param after  what shook it: "main shock, polarity +1"

@@ -53,7 +53,7 @@ std::string rock_note(const fe2d::RadiatingRock& radiating)
         "radiating rock: {} modes of a box of {} unknowns, waves up to {:.3g} Hz, error of the reduction "
         "{:.2g} %{}",
         report.modes, report.unknowns, radiating.resolved / (2.0 * std::numbers::pi), 100.0 * report.error,
-        report.passed() ? "" : fmt::format(", more than the {:.2g} % wanted", 100.0 * report.wanted));
+        radiating.rock.floor > 0 ? "; the water's floor is on it" : "");
 }
 
 } // namespace
@@ -80,6 +80,9 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     if (rock_radiates(scene))
         radiating_ = fe2d::radiating_rock_of(scene, model().mesh, model().mesh.contact.rock_nodes,
                                              ready.wave_frequency(), cache_folder());
+    if (radiating_ && !radiating_->rock.report.passed())
+        throw NotConverged(Diagnostic{scene.file.string(), 0, 0, radiating_->rock.report.missed_gate(),
+                                      "a run on rock that is right", "or write  mass = \"massless\""});
     fe2d::StaticLoads loads = fe2d::static_loads(scene, model());
     if (scene.stages.pore_pressure != PorePressure::none)
         loads.impounding.push_back({"water in the rock", rock_water_load(scene, model()), Eigen::Vector2d::Zero()});

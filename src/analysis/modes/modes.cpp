@@ -1,6 +1,7 @@
 #include "analysis/modes/modes.hpp"
 
 #include "core/cache_folder.hpp"
+#include "core/input_error.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/rock/rock_of_scene.hpp"
 #include "fe2d/time/coupled_structure.hpp"
@@ -69,6 +70,9 @@ void find_transfer(const Ready& ready, ModesResult& m)
         const fe2d::Mesh& mesh = m.model.mesh;
         m.radiating =
             fe2d::radiating_rock_of(m.scene, mesh, mesh.contact.rock_nodes, ready.wave_frequency(), cache_folder());
+        if (!m.radiating->rock.report.passed())
+            throw NotConverged(Diagnostic{m.scene.file.string(), 0, 0, m.radiating->rock.report.missed_gate(),
+                                          "transfer functions on rock that is right", "or run without --frf"});
         const fe2d::RockBelow rock{m.radiating->rock, damping.stiffness};
         m.transfer =
             fe2d::transfer_functions(m.model, fe2d::dam_on_free_base(m.model, damping), water, frequencies, &rock);

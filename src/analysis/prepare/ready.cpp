@@ -77,7 +77,7 @@ GroundMotion Ready::motion(const RecordPair& pair, double scale, int polarity) c
 
 RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
 {
-    return make_rigid_model(scene, seepage->profile_of(scene), crack);
+    return make_rigid_model(scene, seepage->profile_of(scene), crack, crack ? nullptr : statics.get());
 }
 
 double Ready::wave_frequency() const
@@ -133,6 +133,7 @@ Ready Ready::with(Scene changed) const
     Ready other = *this;
     other.scene = std::move(changed);
     other.seepage = std::make_shared<SeepageSource>();
+    other.statics.reset();
     return other;
 }
 
@@ -140,6 +141,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
 {
     Ready ready;
     ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
+    ready.statics = options.statics;
     if (records) given.motion.records = files_of(*records);
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);

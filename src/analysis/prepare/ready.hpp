@@ -27,6 +27,7 @@ struct Ready {
     std::optional<DamPeriod> dam_period;      ///< added_mass.period_s = "dam"
     std::string flexible_modes;               ///< flexible_block.period_s = "modes", a sentence
 
+    std::shared_ptr<KeptStatics> statics;   ///< of the rigid block, of scenes that differ in friction only; may be null
     std::shared_ptr<SeepageSource> seepage; ///< uplift by the seepage solver, each state solved once
 
     const std::vector<RecordPair>& records() const { return *pairs; }
@@ -59,6 +60,7 @@ struct PrepareOptions {
     bool reduced = false;                        ///< for runs on few modes of the dam: "auto" is added mass there
     bool flexible_modes = false;                 ///< find flexible_block.period_s = "modes", which screening asks for
     std::shared_ptr<SeepageSource> seepage = {}; ///< of scenes that it may serve together; none: one of its own
+    std::shared_ptr<KeptStatics> statics = {};   ///< the same for the rigid block's statics, whatever the friction
     StopAsked stop = {};                         ///< asked between the eigenvalue problems of "auto", "dam" and "modes"
 };
 

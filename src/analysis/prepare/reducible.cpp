@@ -1,7 +1,7 @@
 #include "analysis/prepare/reducible.hpp"
 
 #include "core/usage_error.hpp"
-#include "scene/joint_bond.hpp"
+#include "scene/first_joint_law.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>

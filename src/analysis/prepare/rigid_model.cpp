@@ -56,7 +56,15 @@ sliding::RigidBlock with_opening(const Scene& scene, const sliding::BlockOptions
 
 } // namespace
 
-RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack)
+const RigidStatics& KeptStatics::get(const std::function<RigidStatics()>& find)
+{
+    const std::lock_guard lock(mutex_);
+    if (!found_) found_ = find();
+    return *found_;
+}
+
+RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage, std::optional<CrackRule> crack,
+                            KeptStatics* kept)
 {
     if (scene.wedge) return make_wedge_model(scene);
     sliding::BlockOptions options;
@@ -65,20 +73,25 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     sliding::StaticCase static_case = sliding::scene_static_case(scene);
     if (crack) static_case.crack = *crack;
     const std::optional<double> level = static_case.loads.reservoir_level;
-    const sliding::BaseState state = sliding::base_state(scene, static_case, seepage);
+    const auto find = [&] {
+        RigidStatics statics{
+            sliding::base_state(scene, static_case, seepage), {}, sliding::scene_added_mass(scene, level)};
+        if (scene.drains && scene.drains->lost_at_slip) {
+            sliding::StaticCase without_drains = static_case;
+            without_drains.uplift.drains = DrainState::ineffective;
+            statics.later = sliding::base_state(scene, without_drains, seepage);
+        }
+        return statics;
+    };
+    KeptStatics own;
+    const auto& [state, later, water] = (kept ? kept : &own)->get(find);
     RigidModel model;
     model.block = with_opening(scene, options, sliding::make_rigid_block(scene, state, level, options));
     model.stages = sliding::strength_stages(model.block, scene.contact);
-    std::optional<sliding::BaseState> later;
     model.anchors = sliding::base_anchors(scene);
-    if (scene.drains && scene.drains->lost_at_slip) {
-        sliding::StaticCase without_drains = static_case;
-        without_drains.uplift.drains = DrainState::ineffective;
-        later = sliding::base_state(scene, without_drains, seepage);
+    if (later)
         model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
                                                 sliding::make_rigid_block(scene, *later, level, options));
-    }
-    const sliding::AddedMassIntegral water = sliding::scene_added_mass(scene, level);
     model.rocking = std::make_shared<sliding::RockingBlock>(
         sliding::make_rocking_block(scene, state, water, model.stages, later ? &*later : nullptr));
     model.tips = sliding::tipping_acceleration(scene, water, state, 0.0, sliding::Towards::downstream);

@@ -10,8 +10,10 @@
 #include "sliding/equilibrium/base_state.hpp"
 #include "sliding/rocking/rocking.hpp"
 
+#include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 namespace damslip {
 
@@ -30,10 +32,26 @@ struct RigidModel {
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
 };
 
+/// What the rigid block of a scene stands on whatever its friction: found once, for all frictions and from any thread.
+struct RigidStatics {
+    sliding::BaseState before;               ///< before any slip
+    std::optional<sliding::BaseState> later; ///< with the drains lost
+    sliding::AddedMassIntegral water;
+};
+class KeptStatics {
+public:
+    const RigidStatics& get(const std::function<RigidStatics()>& find);
+
+private:
+    std::mutex mutex_;
+    std::optional<RigidStatics> found_;
+};
+
 /// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
 /// @param crack    in place of the scene's uplift.crack, if given
+/// @param kept     of scenes that differ in friction only; null: found for this one
 RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& seepage,
-                            std::optional<CrackRule> crack = std::nullopt);
+                            std::optional<CrackRule> crack = std::nullopt, KeptStatics* kept = nullptr);
 
 /// The one place where a slip that passes what it slides on loses its meaning: Status::runs_away in place of at_rest and
 /// sliding_at_end.

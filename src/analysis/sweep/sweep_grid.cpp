@@ -25,24 +25,14 @@ Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
         axes.opening[at.opening]);
 }
 
-Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs)
+Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records)
 {
     Grid grid;
     grid.axes = axes;
     grid.tasks = tasks;
-    std::vector<std::shared_ptr<SeepageSource>> seepage; // one serves one geometry
-    for (std::size_t i = 0; i < axes.size.size(); ++i) seepage.push_back(std::make_shared<SeepageSource>());
-    grid.models.resize(axes.friction.size() * tasks.variants());
-    const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
-    parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
-        const GridIndex at = tasks.index(i * rows_of_model);
-        Scene here = variant_of(scene, axes, at);
-        if (axes.friction[at.friction] != here.contact.friction)
-            here = with_friction(std::move(here), axes.friction[at.friction]);
-        PrepareOptions options;
-        options.seepage = seepage[at.size];
-        grid.models[i] = prepare(std::move(here), Method::rigid_block, records, options).rigid_model();
-    });
+    for (std::size_t i = 0; i < axes.size.size(); ++i) grid.seepage.push_back(std::make_shared<SeepageSource>());
+    for (std::size_t i = 0; i < tasks.variants(); ++i) grid.statics.push_back(std::make_shared<KeptStatics>());
+    hold_models(grid, scene, records, 0, 0, 1);
     for (const SweepMethod& method : axes.method) grid.rocks.push_back(rock_of(scene, method));
     for (const RecordPair& pair : *records) {
         grid.records.push_back(pair.files.name);
@@ -53,6 +43,33 @@ Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, cons
             grid.motions.emplace_back(motion);
         }
     }
+    return grid;
+}
+
+void hold_models(Grid& grid, const Scene& scene, const Records& records, std::size_t first, std::size_t last, int jobs)
+{
+    const Axes& axes = grid.axes;
+    const TaskList& tasks = grid.tasks;
+    grid.first_friction = first;
+    grid.models.clear();
+    grid.models.resize((last - first + 1) * tasks.variants());
+    const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
+    parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
+        const GridIndex at = tasks.index((first * tasks.variants() + i) * rows_of_model);
+        Scene here = variant_of(scene, axes, at);
+        if (axes.friction[at.friction] != here.contact.friction)
+            here = with_friction(std::move(here), axes.friction[at.friction]);
+        PrepareOptions options;
+        options.seepage = grid.seepage[at.size];
+        options.statics = grid.statics[tasks.variant(at)];
+        grid.models[i] = prepare(std::move(here), Method::rigid_block, records, options).rigid_model();
+    });
+}
+
+Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs)
+{
+    Grid grid = begin_grid(scene, axes, tasks, records);
+    if (axes.friction.size() > 1) hold_models(grid, scene, records, 0, axes.friction.size() - 1, jobs);
     return grid;
 }
 

@@ -11,7 +11,10 @@ namespace damslip {
 struct Grid {
     Axes axes;
     TaskList tasks;
-    std::vector<RigidModel> models;
+    std::vector<RigidModel> models; ///< of the variants of the frictions that are held: hold_models()
+    std::size_t first_friction = 0; ///< that is held
+    std::vector<std::shared_ptr<SeepageSource>> seepage; ///< of each size: one serves one geometry
+    std::vector<std::shared_ptr<KeptStatics>> statics;   ///< of each variant
     std::vector<sliding::SkippingMotion> motions,
         horizontal_motions;                          ///< of each record and scale, with and without the vertical
     std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
@@ -20,7 +23,7 @@ struct Grid {
 
     const RigidModel& model(const GridIndex& at) const
     {
-        return models[at.friction * tasks.variants() + tasks.variant(at)];
+        return models[(at.friction - first_friction) * tasks.variants() + tasks.variant(at)];
     }
     const sliding::SkippingMotion& motion(const GridIndex& at) const { return motions[record_and_scale(at)]; }
     const sliding::SkippingMotion& horizontal(const GridIndex& at) const
@@ -38,7 +41,13 @@ private:
     std::size_t record_and_scale(const GridIndex& at) const { return at.record * tasks.scale + at.scale; }
 };
 
-/// @param scene  as given: axes may bring back what the scene itself leaves off, such as another uplift model
+/// Without the models of any friction but the first.
+Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records);
+
+/// Makes the models of frictions first ... last and drops all others: a long sweep holds those of the rows at work.
+void hold_models(Grid& grid, const Scene& scene, const Records& records, std::size_t first, std::size_t last, int jobs);
+
+/// With all models. @param scene  as given: axes may bring back what the scene itself leaves off, such as another uplift model
 Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records, int jobs);
 
 /// The scene of a variant: level, uplift, reservoir and size of `at`.

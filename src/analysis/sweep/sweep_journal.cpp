@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "core/number.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -19,9 +20,26 @@ namespace damslip {
 
 namespace {
 
-constexpr std::string_view first_line = "damslip sweep journal 3";
+constexpr std::string_view first_line = "damslip sweep journal 4";
 constexpr std::string_view done_line = "done\n", begun_word = "begun";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
+
+/// 64-bit FNV-1a as hexadecimal digits: tells a torn or damaged line, and costs nothing beside the row.
+std::string checksum(std::string_view text)
+{
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+
+/// As JSON has it, with all digits; null for none.
+void add_number(std::string& out, const std::optional<double>& value)
+{
+    if (value && std::isfinite(*value))
+        out += *value == 0.0 && std::signbit(*value) ? "-0.0" : shortest(*value);
+    else
+        out += "null";
+}
 
 std::string head_of(const SweepIdentity& i, const Shard& shard)
 {
@@ -50,16 +68,6 @@ constexpr std::optional<double> R::*numbers[] = {&R::slip,
                                                  &R::slip_at_rest};
 constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
 
-nlohmann::json cells_of(const RowResults& results)
-{
-    nlohmann::json cells = nlohmann::json::array();
-    for (const auto number : numbers)
-        cells.push_back(results.*number ? nlohmann::json(*(results.*number)) : nlohmann::json());
-    cells.insert(cells.begin() + status_place,
-                 results.status.empty() ? nlohmann::json() : nlohmann::json(results.status));
-    return cells;
-}
-
 RowResults results_of(nlohmann::json cells)
 {
     RowResults results;
@@ -72,13 +80,27 @@ RowResults results_of(nlohmann::json cells)
 
 std::string line_of(const FinishedRow& row)
 {
-    nlohmann::json line{row.id, row.good, cells_of(row.results)};
-    if (row.history.interval > 0.0) {
-        line.push_back(row.history.interval);
-        line.push_back(row.history.slip);
+    std::string text = fmt::format("[{},{},[", row.id, row.good);
+    for (std::size_t i = 0; i < std::size(numbers); ++i) {
+        if (i == status_place) {
+            const std::string& status = row.results.status;
+            text += (status.empty() ? "null" : nlohmann::json(status).dump()) + ",";
+        }
+        add_number(text, row.results.*numbers[i]);
+        text += i + 1 < std::size(numbers) ? "," : "]";
     }
-    const std::string text = line.dump();
-    return sha256(text).substr(0, checksum_digits) + " " + text + "\n";
+    if (row.history.interval > 0.0) {
+        text += ",";
+        add_number(text, row.history.interval);
+        text += ",[";
+        for (std::size_t k = 0; k < row.history.slip.size(); ++k) {
+            if (k) text += ",";
+            add_number(text, row.history.slip[k]);
+        }
+        text += "]";
+    }
+    text += "]";
+    return checksum(text) + " " + text + "\n";
 }
 
 /// Nothing for a line that is not what line_of wrote.
@@ -86,7 +108,7 @@ std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
 {
     if (line.size() < checksum_digits + 2 || line[checksum_digits] != ' ') return std::nullopt;
     const std::string_view text = line.substr(checksum_digits + 1);
-    if (sha256(text).substr(0, checksum_digits) != line.substr(0, checksum_digits)) return std::nullopt;
+    if (checksum(text) != line.substr(0, checksum_digits)) return std::nullopt;
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_array() || (json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() ||
         !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_count ||
@@ -226,12 +248,32 @@ void Journal::read(const std::string& content, const std::string& head, std::siz
             ++damaged_;
         else if (!seen[row->id]) {
             seen[row->id] = true;
-            finished_.push_back(std::move(*row));
+            finished_.push_back({row->id, at, static_cast<std::uint32_t>(line.size() - 1)});
         }
         at = end + 1;
     }
     whole_bytes_ = at;
+    rows_ = rows;
+    std::sort(finished_.begin(), finished_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
     std::erase_if(stopped_, [&](const auto& entry) { return entry.first >= rows || seen[entry.first]; });
+}
+
+std::vector<FinishedRow> Journal::finished_rows(std::size_t first, std::size_t last) const
+{
+    std::vector<FinishedRow> found;
+    const auto before = [](const Place& place, std::size_t id) { return place.id < id; };
+    std::string line;
+    for (auto at = std::lower_bound(finished_.begin(), finished_.end(), first, before);
+         at != finished_.end() && at->id <= last; ++at) {
+        line.resize(at->length);
+        const ssize_t n = ::pread(descriptor_, line.data(), line.size(), static_cast<off_t>(at->byte));
+        std::optional<FinishedRow> row = n == static_cast<ssize_t>(line.size()) ? row_of(line, rows_) : std::nullopt;
+        if (!row)
+            refuse(file_, fmt::format("row {} was whole when the sweep began and is not any more.", at->id),
+                   "a file that nobody else writes", "go on with --resume");
+        found.push_back(std::move(*row));
+    }
+    return found;
 }
 
 void Journal::append(std::span<const FinishedRow> rows)

@@ -43,8 +43,8 @@ enum class JournalStart {
 
 /// Finished rows of a sweep in a file, so that a stop at any moment loses none of them.
 ///
-/// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (the first
-/// 16 hexadecimal digits of SHA-256) and the row as JSON, numbers with all digits; "done" when the table is written. A
+/// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (64-bit
+/// FNV-1a) and the row as JSON, numbers with all digits; "done" when the table is written. A
 /// line that was torn by the stop is cut off on resuming; one whose checksum is wrong is left aside, and its row is
 /// computed again. A line "begun" with the ids of rows that start together says on resuming which were stopped on the way.
 class Journal {
@@ -56,7 +56,9 @@ public:
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    std::vector<FinishedRow> take_finished() { return std::move(finished_); } ///< as read when opened
+    std::size_t finished() const { return finished_.size(); } ///< rows as found when opened
+    /// Of those, the ones with ids first ... last, ascending; read from the file, which alone holds them.
+    std::vector<FinishedRow> finished_rows(std::size_t first, std::size_t last) const;
     std::size_t damaged() const { return damaged_; } ///< lines left aside, torn last line included
 
     /// How often rows that are not finished were begun, by id: a run of them was stopped so many times.
@@ -76,7 +78,13 @@ private:
 
     std::filesystem::path file_;
     int descriptor_ = -1;
-    std::vector<FinishedRow> finished_;
+    struct Place {
+        std::size_t id = 0;
+        std::uint64_t byte = 0;
+        std::uint32_t length = 0;
+    };
+    std::vector<Place> finished_; ///< by id
+    std::size_t rows_ = 0;        ///< of the whole sweep
     std::map<std::size_t, int> stopped_;
     std::size_t damaged_ = 0, whole_bytes_ = 0;
     bool done_ = false;

@@ -38,6 +38,12 @@ public:
     {
         if (journal_) journal_->begin(ids);
     }
+    /// What the journal has of the wanted rows.
+    void take_finished()
+    {
+        if (!journal_ || wanted_.empty()) return;
+        for (FinishedRow& row : journal_->finished_rows(wanted_.front(), wanted_.back())) put(std::move(row));
+    }
     std::map<std::size_t, int> stopped() const { return journal_ ? journal_->stopped() : std::map<std::size_t, int>{}; }
     std::vector<std::size_t> missing() const
     {
@@ -82,14 +88,18 @@ FeSweepCounts run_fe_rows(const Sweep& inputs, const std::vector<std::size_t>& m
     return counts;
 }
 
-void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_t> missing, int jobs, Watch& watch,
-                    RowStore& store)
+void without_finite_elements(std::vector<std::size_t>& ids, const Grid& grid)
 {
-    std::erase_if(missing, [&](std::size_t id) {
+    if (!grid.axes.finite_elements()) return;
+    std::erase_if(ids, [&](std::size_t id) {
         return grid.axes.method[grid.tasks.index(id).method].kind == SweepKind::finite_elements;
     });
-    watch.begin("sweep", static_cast<double>(missing.size()));
-    std::atomic<std::size_t> done{0};
+}
+
+/// @param done  rows before these, for the watch
+void run_rigid_rows(const Scene& scene, const Grid& grid, const std::vector<std::size_t>& missing, int jobs,
+                    Watch& watch, std::atomic<std::size_t>& done, RowStore& store)
+{
     parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
         if (watch.stop_asked()) return;
         const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
@@ -98,7 +108,6 @@ void run_rigid_rows(const Scene& scene, const Grid& grid, std::vector<std::size_
         store.finish(std::move(rows));
         watch.at(static_cast<double>(done += last - first));
     });
-    watch.end();
 }
 
 } // namespace
@@ -121,14 +130,49 @@ SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<
     RowStore store(wanted, journal, watch);
     SweepOutcome outcome;
     outcome.wanted = wanted.size();
-    if (journal)
-        for (FinishedRow& row : journal->take_finished()) store.put(std::move(row));
-    const std::vector<std::size_t> missing = store.missing();
+    store.take_finished();
+    std::vector<std::size_t> missing = store.missing();
     outcome.found = wanted.size() - missing.size();
     if (inputs.axes.finite_elements()) outcome.fe = run_fe_rows(inputs, missing, jobs, watch, store);
-    run_rigid_rows(inputs.scene, grid, missing, jobs, watch, store);
+    without_finite_elements(missing, grid);
+    std::atomic<std::size_t> done{0};
+    watch.begin("sweep", static_cast<double>(missing.size()));
+    run_rigid_rows(inputs.scene, grid, missing, jobs, watch, done, store);
+    watch.end();
     outcome.rows = store.finished();
     return outcome;
+}
+
+SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, Journal* journal,
+                           int jobs, Watch& watch, const TakePart& take)
+{
+    constexpr std::size_t rows_at_once = 8192;
+    SweepTotals totals;
+    totals.wanted = wanted.size();
+    std::atomic<std::size_t> done{0};
+    watch.begin("sweep", static_cast<double>(wanted.size()));
+    for (std::size_t first = 0; first < wanted.size() && !watch.stop_asked(); first += rows_at_once) {
+        const std::size_t last = std::min(first + rows_at_once, wanted.size()) - 1;
+        const std::vector<std::size_t> ids(wanted.begin() + first, wanted.begin() + last + 1);
+        hold_models(grid, inputs.scene, inputs.records, grid.tasks.index(ids.front()).friction,
+                    grid.tasks.index(ids.back()).friction, jobs);
+        RowStore store(ids, journal, watch);
+        store.take_finished();
+        SweepOutcome part;
+        const std::vector<std::size_t> missing = store.missing();
+        part.wanted = ids.size();
+        part.found = ids.size() - missing.size();
+        done += part.found;
+        run_rigid_rows(inputs.scene, grid, missing, jobs, watch, done, store);
+        part.rows = store.finished();
+        totals.rows += part.rows.size();
+        totals.found += part.found;
+        totals.bad += static_cast<std::size_t>(
+            std::count_if(part.rows.begin(), part.rows.end(), [](const FinishedRow& row) { return !row.good; }));
+        take(grid, ids, part);
+    }
+    watch.end();
+    return totals;
 }
 
 SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs)

@@ -26,4 +26,20 @@ SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs = 0);
 SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, Journal* journal,
                        int jobs, Watch& watch);
 
+/// What is known of all rows of a sweep whose rows are not held together.
+struct SweepTotals {
+    std::size_t wanted = 0, rows = 0, found = 0; ///< asked for; finished; of these taken from the journal
+    std::size_t bad = 0;                         ///< rows whose method did not end properly
+
+    bool complete() const { return rows == wanted; }
+};
+
+/// Takes a part's rows: ids and what became of them, ascending, part after part.
+using TakePart = std::function<void(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& part)>;
+
+/// The same rows without finite elements, a few thousand at a time, so that the memory does not grow with their number.
+/// @param grid  from begin_grid()
+SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, Journal* journal,
+                           int jobs, Watch& watch, const TakePart& take);
+
 } // namespace damslip

@@ -51,7 +51,7 @@ Chart cost_chart(const AccuracyReportInput& in)
     chart.y = {"deviation from the finest rung", "%", Scale::log};
     chart.horizontal.push_back({100.0 * in.tolerance, fmt::format("tolerance {:.3g} %", 100.0 * in.tolerance)});
     for (const RungKind kind : {RungKind::regression, RungKind::rigid, RungKind::reduced, RungKind::finite_elements,
-                                RungKind::variant, RungKind::acoustic, RungKind::quadratic}) {
+                                RungKind::variant, RungKind::acoustic, RungKind::quadratic, RungKind::other_rock}) {
         std::vector<std::pair<double, double>> points;
         for (std::size_t i = 0; i < in.results.size(); ++i)
             if (const auto& deviation = in.judgement.rungs[i].deviation;

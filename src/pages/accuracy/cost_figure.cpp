@@ -12,9 +12,9 @@ namespace damslip::pages {
 namespace {
 
 constexpr double width = 880, height = 576, left = 74, right = 20, top = 94, bottom = 54;
-constexpr std::array<RungKind, 7> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
+constexpr std::array<RungKind, 8> kinds{RungKind::regression, RungKind::rigid,           RungKind::reduced,
                                         RungKind::variant,    RungKind::finite_elements, RungKind::acoustic,
-                                        RungKind::quadratic};
+                                        RungKind::quadratic,  RungKind::other_rock};
 
 const char* const standalone_style = R"(<style>
 svg { --paper: #ffffff; --ink: #1c2227; --muted: #59656f; --grid: #e4e8eb; --axis: #3c464e; --mark: #6b4fa0;
@@ -275,9 +275,8 @@ RungKind kind_of(const Rung& rung)
     if (rung.family == RungFamily::regression) return RungKind::regression;
     if (rung.family == RungFamily::rigid) return RungKind::rigid;
     if (rung.modes) return RungKind::reduced;
-    if (rung.tangential_stiffness || rung.alpha || rung.rock != RungRock::as_the_scene || rung.wave_box != 1.0 ||
-        rung.step == StepChoice::as_the_scene)
-        return RungKind::variant;
+    if (rung.rock != RungRock::as_the_scene || rung.wave_box != 1.0) return RungKind::other_rock;
+    if (rung.tangential_stiffness || rung.alpha || rung.step == StepChoice::as_the_scene) return RungKind::variant;
     if (!rung.element.empty()) return RungKind::quadratic;
     return rung.water == RungWater::acoustic ? RungKind::acoustic : RungKind::finite_elements;
 }
@@ -297,6 +296,8 @@ std::string kind_name(RungKind kind, const std::vector<RungResult>& results)
         return "FE, acoustic water";
     case RungKind::quadratic:
         return "FE, quadratic elements";
+    case RungKind::other_rock:
+        return "FE, other rock or box of waves";
     case RungKind::finite_elements:
         break;
     }

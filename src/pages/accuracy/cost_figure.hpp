@@ -16,7 +16,7 @@ std::string cost_figure(const std::vector<RungResult>& results, const Judgement&
                         const std::string& title, FigureStyle style);
 
 /// Kinds of rungs told apart by colour.
-enum class RungKind { regression, rigid, reduced, finite_elements, variant, acoustic, quadratic };
+enum class RungKind { regression, rigid, reduced, finite_elements, variant, acoustic, quadratic, other_rock };
 RungKind kind_of(const Rung& rung);
 std::string kind_name(RungKind kind, const std::vector<RungResult>& results);
 

@@ -85,6 +85,7 @@ std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::En
     add("anchor_loss_J_m", "anchors snapped", &E::anchor_loss);
     add("joint_water_J_m", "water in joints", &E::joint_water);
     add("impact_J_m", "impact", &E::impact);
+    add("floor_J_m", "water on rock", &E::floor);
     return columns;
 }
 
@@ -152,6 +153,8 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
     std::vector<R> rows;
     if (!runs.empty())
         for (const fe2d::StageResult& s : runs.front().fe.stages) add_stage("all", {}, s, rows);
+    for (const ContactRun& r : runs)
+        for (const fe2d::StageResult& s : r.fe.between) add_stage(r.record, r.polarity, s, rows);
     for (const ContactRun& r : runs)
         if (!r.fe.after.name.empty()) add_stage(r.record, r.polarity, r.fe.after, rows);
     const double weight = runs.empty() ? 0.0 : first_normal_force(runs.front());

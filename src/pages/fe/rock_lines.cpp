@@ -54,10 +54,11 @@ std::string rock_line(const Scene& scene, const fe2d::EarthquakeRun& model)
     const fe2d::RadiatingRock* rock = model.radiating();
     if (!rock) return rock_words(scene);
     const fe2d::ReductionReport& report = rock->rock.report;
-    return fmt::format("{}, {:.4g} kg/m3{}: waves right to {:.3g} Hz; {} modes, error {:.2g} %, {} in {:.2g} s",
+    return fmt::format("{}, {:.4g} kg/m3{}: waves right to {:.3g} Hz; {} modes, error {:.2g} %, {} in {:.2g} s{}",
                        rock_words(scene), radiating_density(*scene.foundation),
                        scene.foundation->material.density > 0.0 ? "" : " (none given)", hertz(rock->resolved),
-                       report.modes, 100.0 * report.error, word(rock->origin), rock->seconds);
+                       report.modes, 100.0 * report.error, word(rock->origin), rock->seconds,
+                       rock->rock.floor > 0 ? "; the water's floor is on it" : "");
 }
 
 nlohmann::ordered_json rock_json(const Scene& scene, const fe2d::EarthquakeRun& model)

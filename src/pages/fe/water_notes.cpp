@@ -1,6 +1,7 @@
 #include "pages/fe/water_notes.hpp"
 
 #include "scene/mesh_sizes.hpp"
+#include "scene/rock_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +35,13 @@ std::vector<std::string> reservoir_warnings(const Scene& scene, double highest)
     if (water.far_end == FarEnd::absorbing && ratio < 0.5)
         warnings.push_back(
             fmt::format("the reservoir is {:.3g} depths long; the absorbing end wants half a depth at least", ratio));
-    if (water.bottom_motion == BottomMotion::ground && scene.motion.vertical && water.bottom_reflection == 1.0 &&
-        !water.bottom_density && highest > first)
+    if (floor_on_rock(scene) && ratio < 2.0)
+        warnings.push_back(fmt::format(
+            "the reservoir is {:.3g} depths long; a floor that is the rock's wants 2 at least: the rock beyond "
+            "does not feel the water, the slip may change by some 5 %",
+            ratio));
+    if (water.bottom_motion == BottomMotion::ground && !floor_on_rock(scene) && scene.motion.vertical &&
+        water.bottom_reflection == 1.0 && !water.bottom_density && highest > first)
         warnings.push_back(
             fmt::format("a rigid bottom that moves (bottom_reflection = 1) has no damping of the water's vertical "
                         "resonance at {:.3g} Hz: vertical motion may raise the slip several times; give the bottom its "

@@ -72,23 +72,30 @@ std::string no_formula(const std::string& text)
     return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
 }
 
-std::string csv_field(const Cell& cell)
+void add_csv_field(std::string& out, const Cell& cell)
 {
     struct Show {
-        std::string operator()(std::monostate) const { return ""; }
-        std::string operator()(double v) const { return std::isfinite(v) ? shortest(v) : ""; }
-        std::string operator()(std::int64_t v) const { return std::to_string(v); }
-        std::string operator()(const std::string& v) const
+        std::string& out;
+        void operator()(std::monostate) const {}
+        void operator()(double v) const
+        {
+            if (std::isfinite(v)) out += shortest(v);
+        }
+        void operator()(std::int64_t v) const { out += std::to_string(v); }
+        void operator()(const std::string& v) const
         {
             const std::string safe = no_formula(visible(v, LineEnds::replaced));
-            if (safe.find_first_of(",\"\n\r") == std::string::npos) return safe;
-            std::string quoted = "\"";
-            for (char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-            return quoted + "\"";
+            if (safe.find_first_of(",\"\n\r") == std::string::npos) {
+                out += safe;
+                return;
+            }
+            out += '"';
+            for (char c : safe) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+            out += '"';
         }
-        std::string operator()(bool v) const { return v ? "true" : "false"; }
+        void operator()(bool v) const { out += v ? "true" : "false"; }
     };
-    return std::visit(Show{}, cell);
+    std::visit(Show{out}, cell);
 }
 
 } // namespace
@@ -158,10 +165,18 @@ std::string csv(const Table& table, const std::vector<std::string>& comments)
     std::string out;
     for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
     for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j ? "," : "") + table.columns[j].key;
-    out += "\n";
+    return out + "\n" + csv_rows(table);
+}
+
+std::string csv_rows(const Table& table)
+{
+    std::string out;
     for (const auto& row : table.rows) {
-        for (std::size_t j = 0; j < row.size(); ++j) out += (j ? "," : "") + csv_field(row[j]);
-        out += "\n";
+        for (std::size_t j = 0; j < row.size(); ++j) {
+            if (j) out += ',';
+            add_csv_field(out, row[j]);
+        }
+        out += '\n';
     }
     return out;
 }

@@ -83,7 +83,8 @@ std::optional<Table> opening_water_table(const Table& rows)
     columns.push_back({{"apart_mm", "apart", "mm", 3}, &RuleLine::apart});
     return table_of("What the rules for water in the opening base are worth", columns, lines,
                     {"largest slip on the way under each rule of uplift.opening; apart: the largest less the smallest. "
-                     "Rigid block: mouth is taken as full, reynolds as unchanged."});
+                     "Rigid block: mouth is taken as full, water of any speed, which is on the safe side; reynolds as "
+                     "unchanged, for a block has no width of the joint."});
 }
 
 std::optional<Section> opening_water_section(const Table& rows)

@@ -28,7 +28,6 @@ namespace {
 
 using units::mm;
 constexpr std::size_t drawn_variants = 12, open_variants = 3; ///< with a chart of their own; of these unfolded
-constexpr std::size_t listed_rows = 400;
 
 std::string join(const std::vector<std::string>& words)
 {
@@ -241,14 +240,14 @@ Table without_empty_columns(Table table)
     return table;
 }
 
-Section rows_section(const SweepReportInput& in)
+Section rows_section(const SweepReportInput& in, std::size_t all)
 {
     Table table = without_empty_columns(in.rows);
     table.title = "Rows";
-    if (table.rows.size() > listed_rows) {
-        table.notes.push_back(fmt::format("The first {} of {} rows{}.", listed_rows, table.rows.size(),
+    if (all > listed_rows) {
+        table.notes.push_back(fmt::format("The first {} of {} rows{}.", listed_rows, all,
                                           in.csv.empty() ? "" : "; all are in " + in.csv.filename().string()));
-        table.rows.resize(listed_rows);
+        table.rows.resize(std::min(listed_rows, table.rows.size()));
     }
     return {"Rows", {rows_part(std::move(table))}, Fold::folded};
 }
@@ -306,7 +305,8 @@ std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInp
 
 Page sweep_page(const SweepReportInput& in)
 {
-    const SweepView view = sweep_view(in.rows);
+    const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
+    const SweepView& view = in.view ? *in.view : own;
     const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
     const std::string about = "Sliding in an earthquake: sweep over friction and more. ";
     Page page;
@@ -341,7 +341,7 @@ Page sweep_page(const SweepReportInput& in)
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
     for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
     page.sections.push_back(std::move(methods));
-    page.sections.push_back(rows_section(in));
+    page.sections.push_back(rows_section(in, view.rows.size()));
     if (in.scene) {
         page.sections.push_back(section_of(*in.scene, view));
         if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));

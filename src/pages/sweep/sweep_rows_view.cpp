@@ -73,10 +73,10 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
 
 } // namespace
 
-SweepView sweep_view(const Table& table)
+void SweepViewMaker::add(const Table& table)
 {
     const Cells cells(table);
-    SweepView view;
+    SweepView& view = view_;
     for (const std::vector<Cell>& row : table.rows) {
         SweepRow r;
         r.variant = place_of(view.variants,
@@ -103,13 +103,24 @@ SweepView sweep_view(const Table& table)
         if (r.status == sliding::outside_its_range) r.slip.reset(), r.low.reset(), r.high.reset();
         place_of(view.methods, r.method);
         place_of(view.records, r.record);
-        place_of(view.frictions, r.friction);
+        frictions_.insert(r.friction);
         view.groups[{r.variant, r.method, r.friction}].push_back(view.rows.size());
         view.rows.push_back(std::move(r));
     }
-    std::sort(view.frictions.begin(), view.frictions.end());
-    view.variant_names = names_of(view.variants);
-    return view;
+}
+
+SweepView SweepViewMaker::view()
+{
+    view_.frictions.assign(frictions_.begin(), frictions_.end());
+    view_.variant_names = names_of(view_.variants);
+    return std::move(view_);
+}
+
+SweepView sweep_view(const Table& table)
+{
+    SweepViewMaker maker;
+    maker.add(table);
+    return maker.view();
 }
 
 std::string unanswered_words(const SweepView& view)

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -54,7 +55,20 @@ struct SweepView {
     std::map<Group, std::vector<std::size_t>> groups;           ///< rows of each
 };
 
-/// @param table  columns by their keys, as `sweep` writes them; a column that is missing has its default
+/// Makes the view of rows that come part by part.
+class SweepViewMaker {
+public:
+    /// @param table  columns by their keys, as `sweep` writes them, the same in each part; a column that is missing has its
+    /// default
+    void add(const Table& table);
+    SweepView view(); ///< of all that was added; once
+
+private:
+    SweepView view_;
+    std::set<double> frictions_;
+};
+
+/// Of rows in one table.
 SweepView sweep_view(const Table& table);
 
 /// Rows without an answer, how many and which: "3 rows have no answer: 2 not resolved (rows 4, 7), 1 tolerance missed (row 9)";

@@ -1,7 +1,10 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/contact/bond_law.hpp"
+#include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/static_path.hpp"
+#include "fe2d/run/static_relaxation.hpp"
+#include "verification/cases/fe_run_scenes.hpp"
 
 #include <Eigen/LU>
 
@@ -286,6 +289,109 @@ std::vector<Check> limit_loads()
     return checks;
 }
 
+/// The reference dam on massless rock, bonded; cracks of this bond are as long as many elements.
+Scene bonded_dam(double contact_size)
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, contact_size);
+    scene.contact.cohesion = 0.5e6;
+    scene.contact.bond = bond_of(0.25e6, 150.0, 1500.0);
+    scene.time.substeps = 1;
+    return scene;
+}
+
+/// Largest share of four times the water's load that a bonded dam carries, and what all strength at once would.
+struct CarriedShare {
+    double largest = 0.0, limit = 0.0;
+};
+CarriedShare carried_share(double contact_size)
+{
+    const Scene scene = bonded_dam(contact_size);
+    const fe2d::EarthquakeRun run(scene, fe2d::test::options_of(scene));
+    const fe2d::ContactStructure& structure = run.structure();
+    fe2d::StaticContact statics(structure, scene.contact);
+    const fe2d::Strength strength(scene.contact, structure.plane());
+    ContactMemory memory(structure.pairs());
+    memory.laws = joint_laws(scene, scene.contact, structure.planes());
+    const VectorXd& weight = run.stages().loads.front();
+    const fe2d::SplitLoad before = structure.split(weight),
+                          load = structure.split(weight + 4.0 * (run.stages().last() - weight));
+    if (!statics.solve(before, strength.law(), memory).resolved()) return {};
+    fe2d::PlaneLimit plane{0.0, 0.0, scene.contact.friction, structure.plane().length()};
+    for (const BondStrength& pair : memory.laws.find<BondLaw>()->strength()) {
+        plane.shear_strength += std::hypot(pair.shear, pair.friction * pair.tension);
+        plane.tension_strength += pair.tension;
+    }
+    const auto on_plane = [&](const fe2d::SplitLoad& of) -> fe2d::PlaneLoad {
+        const fe2d::BaseResultant r = base_resultant(structure, of.dam);
+        return {r.normal_force, r.shear_force, r.normal_force * r.position};
+    };
+    const fe2d::StaticPath path = follow_damage(statics.with_laws(), statics.linear().shut_force(before),
+                                                statics.linear().shut_force(load), strength.law(), memory);
+    return {path.largest_load, limit_load(plane, on_plane(before), on_plane(load))};
+}
+
+/// (JOINTS 8.7) The limit of a bonded dam, and its slip in an earthquake, on three meshes.
+std::vector<Check> bonded_dam_over_mesh()
+{
+    const double sizes[] = {3.0, 1.5, 0.75};
+    std::vector<CarriedShare> share;
+    std::vector<double> slip;
+    const GroundMotion motion = fe2d::test::sines(4.0, 6.0);
+    for (const double size : sizes) {
+        share.push_back(carried_share(size));
+        const Scene scene = bonded_dam(size);
+        slip.push_back(fe2d::EarthquakeRun(scene, fe2d::test::options_of(scene)).run(motion).slip);
+    }
+    std::vector<Check> checks;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const std::string mesh = k == 0 ? ", h" : ", h/2";
+        checks.push_back(
+            {"largest load, against h/4" + mesh, "-", share.back().largest, share[k].largest, 0.03, Measure::relative});
+        checks.push_back({"slip, against h/4" + mesh, "m", slip.back(), slip[k], 0.05, Measure::relative});
+    }
+    checks.push_back({"largest load, at most the limit load", "-", share.back().limit, share.back().largest, 0.0,
+                      Measure::upper_bound});
+    return checks;
+}
+
+/// A dam whose bond is gone at once is let go under its static load: it rests where friction alone holds it.
+std::vector<Check> released_dam()
+{
+    std::vector<Check> checks;
+    const Scene scene = bonded_dam(3.0);
+    const fe2d::EarthquakeRun run(scene, fe2d::test::options_of(scene));
+    const fe2d::ContactStructure& structure = run.structure();
+    const fe2d::SplitLoad load = structure.split(run.stages().last());
+    const fe2d::BaseResultant base = base_resultant(structure, load.dam);
+    const double critical = base.shear_force / base.normal_force;
+    const fe2d::LetGo let_go =
+        fe2d::let_go_by(structure, {run.damping()}, fe2d::hht(-0.05), nullptr, scene.contact, {}, 0.2);
+    for (const double above : {0.97, 1.1}) {
+        Contact broken = scene.contact;
+        broken.cohesion = 0.0;
+        broken.bond = {};
+        broken.friction = above * critical;
+        Contact bonded = broken;
+        bonded.cohesion = 5e6; // holds it without any slip
+        fe2d::StaticContact statics(structure, scene.contact);
+        ContactMemory memory(structure.pairs());
+        if (!statics.solve(load, fe2d::Strength(bonded, structure.plane()).law(), memory).resolved()) return {};
+        const fe2d::StaticState start = statics.displacements(load, memory);
+        const fe2d::Release release = let_go(load, start, fe2d::Strength(broken, structure.plane()).law(), memory);
+        checks.push_back({above < 1.0 ? "comes to rest, mu 3 % below T/N'" : "comes to rest, mu 10 % above T/N'", "-",
+                          above < 1.0 ? 0.0 : 1.0, release.rests ? 1.0 : 0.0, 0.0, Measure::absolute});
+        if (!release.rests) continue;
+        ContactMemory settled = memory;
+        const bool holds = statics.solve(load, fe2d::Strength(broken, structure.plane()).law(), settled).resolved();
+        checks.push_back(
+            {"in equilibrium where it rests: slip to the static state over that on the way", "-", 0.0,
+             holds ? (settled.slip - memory.slip).cwiseAbs().maxCoeff() / memory.slip.cwiseAbs().maxCoeff() : 1.0, 1e-3,
+             Measure::absolute});
+        checks.push_back({"loses energy on the way", "-", 1.0, release.lost > 0.0 ? 1.0 : 0.0, 0.0, Measure::absolute});
+    }
+    return checks;
+}
+
 } // namespace
 
 void add_fe_bond_cases(Registry& cases)
@@ -309,6 +415,13 @@ void add_fe_bond_cases(Registry& cases)
                      "No plane carries more than all its strength at once; a bond that cannot break carries that.",
                      "Radenkovic (1961)", "2e-3: the first thousandth of the damage costs as much strength",
                      limit_loads});
+    cases.push_back(
+        {"fe2d.bond.dam", "The load that a bonded dam carries and its slip in an earthquake do not depend on the mesh.",
+         "the same on finer meshes; Radenkovic (1961)",
+         "3 and 5 %: h/4 is not the limit either; no more than all strength at once", bonded_dam_over_mesh});
+    cases.push_back(
+        {"fe2d.bond.release", "A dam whose bond is gone comes to rest where friction holds it, and only there.",
+         "equilibrium of the base", "1e-3: what it still swings when it has not slid for five periods", released_dam});
 }
 
 } // namespace damslip::verification

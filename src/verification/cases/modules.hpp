@@ -15,6 +15,8 @@ void add_rocking_cases(Registry& registry);
 void add_neighbour_cases(Registry& registry);
 void add_wedge_cases(Registry& registry);
 void add_anchor_cases(Registry& registry);
+void add_probability_cases(Registry& registry);
+void add_probability_sampling_cases(Registry& registry);
 void add_fe_core_cases(Registry& registry);
 void add_fe_quadratic_cases(Registry& registry);
 void add_fe_import_cases(Registry& registry);
@@ -40,5 +42,6 @@ void add_opening_block_cases(Registry& registry);
 void add_fe_rock_cases(Registry& registry);
 void add_fe_radiating_cases(Registry& registry);
 void add_fe_radiating_tied_cases(Registry& registry);
+void add_fe_rock_floor_cases(Registry& registry);
 
 } // namespace damslip::verification

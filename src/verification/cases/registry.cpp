@@ -38,6 +38,8 @@ Registry all_cases()
     add_neighbour_cases(registry);
     add_wedge_cases(registry);
     add_anchor_cases(registry);
+    add_probability_cases(registry);
+    add_probability_sampling_cases(registry);
     add_fe_core_cases(registry);
     add_fe_quadratic_cases(registry);
     add_fe_import_cases(registry);
@@ -55,6 +57,7 @@ Registry all_cases()
     add_fe_rock_cases(registry);
     add_fe_radiating_cases(registry);
     add_fe_radiating_tied_cases(registry);
+    add_fe_rock_floor_cases(registry);
     add_fe_wave_contact_cases(registry);
     add_fe_sliding_cases(registry);
     add_fe_pairing_cases(registry);

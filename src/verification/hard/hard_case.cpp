@@ -25,6 +25,7 @@ HardCases all_hard_cases()
     add_self_excited_cases(cases);
     add_anchor_cases(cases);
     add_rate_cases(cases);
+    add_bond_cases(cases);
     return cases;
 }
 

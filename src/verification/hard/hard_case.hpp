@@ -51,5 +51,6 @@ void add_law_cases(HardCases& cases);
 void add_self_excited_cases(HardCases& cases);
 void add_anchor_cases(HardCases& cases);
 void add_rate_cases(HardCases& cases);
+void add_bond_cases(HardCases& cases);
 
 } // namespace damslip::hard

@@ -1,0 +1,119 @@
+#include "sliding/block/roots.hpp"
+#include "sliding/block/slip_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::sliding {
+namespace {
+
+/// Ground acceleration at the samples of a motion.
+struct Samples {
+    const double* h;
+    const double* v; ///< null: none
+    double polarity;
+
+    double horizontal(std::size_t k) const { return polarity * h[k]; }
+    double vertical(std::size_t k) const { return v ? v[k] : 0.0; }
+    double of(const GroundLinear& form, std::size_t k) const { return form.at(horizontal(k), vertical(k)); }
+};
+
+/// Independent of the ground's motion.
+bool is_constant(const GroundLinear& form, const Samples& ground)
+{
+    return form.per_a_h == 0.0 && (!ground.v || form.per_a_v == 0.0);
+}
+
+/// Open range of samples a_h below which a block plainly rests, whatever round-off says.
+struct RestRange {
+    double low = -never, high = never; ///< [m/s^2]
+};
+
+/// @param drive  per_a_h > 0  @param resistance  [N/m]
+RestRange rest_range(const GroundLinear& drive, double resistance, bool two_way)
+{
+    const double margin = 1e-13 * (std::abs(resistance) + std::abs(drive.constant)) / drive.per_a_h;
+    return {two_way ? (-resistance - drive.constant) / drive.per_a_h + margin : -never,
+            (resistance - drive.constant) / drive.per_a_h - margin};
+}
+
+Samples samples_of(const GroundMotion& motion, double polarity)
+{
+    return {motion.accel_h.data(), motion.accel_v.empty() ? nullptr : motion.accel_v.data(), polarity};
+}
+
+} // namespace
+
+std::size_t SlipMotion::pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
+                             std::size_t before)
+{
+    if (!touching_ || airborne_ || !plain_[stage_]) return k;
+    const std::size_t next =
+        moving_ ? pass_sliding(motion, polarity, k, last) : pass_resting(motion, polarity, k, last);
+    if (next > k) time_ = static_cast<double>(before + (next - k) - 1) * motion.dt + motion.dt;
+    return next;
+}
+
+/// What is linear between two samples and below zero at both is so all along.
+std::size_t SlipMotion::pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last) const
+{
+    const StageForms& f = forms();
+    const Samples ground = samples_of(motion, polarity);
+    if (!ground.v && is_constant(f.equations.normal, ground) && is_constant(f.free_normal, ground) &&
+        f.equations.drive.per_a_h > 0.0) {
+        if (!(f.equations.normal.constant > 0.0 && f.free_normal.constant > 0.0)) return k;
+        RestRange range =
+            rest_range(f.equations.drive, f.friction * f.equations.normal.constant + f.bond, options_.two_way);
+        if (polarity < 0.0) range = {-range.high, -range.low};
+        const auto plainly_rests = [&](std::size_t i) { return range.low < ground.h[i] && ground.h[i] < range.high; };
+        if (!plainly_rests(k)) return k;
+        while (k < last && plainly_rests(k + 1)) ++k;
+        return k;
+    }
+    const auto rests = [&](std::size_t i) {
+        const double drive = ground.of(f.equations.drive, i), normal = ground.of(f.equations.normal, i);
+        const double resistance = f.friction * normal + f.bond;
+        return normal > 0.0 && ground.of(f.free_normal, i) > 0.0 && drive - resistance <= 0.0 &&
+               (!options_.two_way || -drive - resistance <= 0.0);
+    };
+    if (!rests(k)) return k;
+    while (k < last && rests(k + 1)) ++k;
+    return k;
+}
+
+std::size_t SlipMotion::pass_sliding(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last)
+{
+    if (from_rest_) return k;
+    const StageForms& f = forms();
+    const Samples ground = samples_of(motion, polarity);
+    const bool downstream = direction_ == SlipDirection::downstream;
+    const GroundLinear& excess = downstream ? f.excess_downstream : f.excess_upstream;
+    const double mass = downstream ? f.mass_downstream : f.mass_upstream, dt = motion.dt;
+    const bool steady = is_constant(f.equations.normal, ground) && is_constant(f.free_normal, ground);
+    if (steady && !(f.equations.normal.constant > 0.0 && f.free_normal.constant > 0.0)) return k;
+    const auto pressed = [&](std::size_t i) {
+        return steady || (ground.of(f.equations.normal, i) > 0.0 && ground.of(f.free_normal, i) > 0.0);
+    };
+    if (!pressed(k)) return k;
+    span_ = dt;
+    Line accel;
+    accel.end = ground.of(excess, k) / mass;
+    for (; k < last && pressed(k + 1); ++k) {
+        accel = {accel.end, ground.of(excess, k + 1) / mass};
+        const double jerk = (accel.end - accel.now) / dt;
+        // A rate that rises at both ends of the interval does not fall to zero in it.
+        const bool rises = accel.now > 0.0 && accel.end > 0.0;
+        if (!rises && !(time_of_stop(rate_, accel.now, jerk) > dt)) break;
+        const double path = dt * (rate_ + dt * (2.0 * accel.now + accel.end) / 6.0);
+        if (next_stage_path() != never && time_of_stage(dt, accel) != never) break;
+        if (accel.now > 0.0 && accel.end < 0.0)
+            peak_rate_ = std::max(peak_rate_, rate_ - accel.now * accel.now / (2.0 * jerk));
+        add_slip(path);
+        rate_ = std::max(0.0, rate_ + 0.5 * dt * (accel.now + accel.end));
+        peak_rate_ = std::max(peak_rate_, rate_);
+    }
+    span_ = 0.0;
+    return k;
+}
+
+} // namespace damslip::sliding

@@ -1,0 +1,40 @@
+#include "cli/draw_command.hpp"
+
+#include "cli/flags.hpp"
+#include "core/file.hpp"
+#include "pages/scene/drawn_section.hpp"
+
+#include <ostream>
+
+namespace damslip::cli {
+
+int draw(const DrawArguments& arguments, const Streams& streams)
+{
+    const Scene scene = read_run_scene(arguments.inputs, streams);
+    need_section(scene, "damslip draw", "damslip screen SCENE --out DIR draws a wedge in its report");
+    const std::string svg = pages::drawn_section(scene);
+    if (arguments.out.empty())
+        streams.out << svg;
+    else
+        write_file(arguments.out, svg);
+    return exit_ok;
+}
+
+namespace {
+
+void draw_flags(CLI::App& sub, DrawArguments& a)
+{
+    add_scene(sub, a.inputs);
+    sub.add_option("-o,--out", a.out, "SVG file; without it the drawing goes to standard output")
+        ->check(output_to(OutputPath::file, "--out"));
+}
+
+} // namespace
+
+Command draw_command()
+{
+    return {"draw", "the section of a scene as SVG: water, uplift, curtain, drains, signs",
+            "damslip draw examples/reference_dam.toml --out dam.svg", with_flags<DrawArguments>(draw_flags, draw)};
+}
+
+} // namespace damslip::cli

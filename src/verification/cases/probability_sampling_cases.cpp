@@ -1,0 +1,205 @@
+#include "core/statistics.hpp"
+#include "probability/estimate/bands.hpp"
+#include "probability/estimate/subset.hpp"
+#include "probability/laws/normal.hpp"
+#include "probability/sampling/unit_points.hpp"
+#include "probability/sensitivity/indices.hpp"
+#include "verification/cases/modules.hpp"
+#include "verification/cases/probability_seeds.hpp"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace damslip::verification {
+
+namespace {
+
+using namespace damslip::probability;
+using Check = damslip::verification::Check;
+
+/// Variance of the mean of the sum of the coordinates, over replicates, divided by k / (12 N^3).
+double variance_ratio(Sampling sampling, std::size_t k, std::uint32_t n, std::uint32_t replicates)
+{
+    std::vector<std::string> names;
+    for (std::size_t v = 0; v < k; ++v) names.push_back(fmt::format("v{}", v));
+    double squares = 0.0;
+    for (std::uint32_t r = 0; r < replicates; ++r) {
+        const UnitPoints points(sampling, 3, names, n, r);
+        double sum = 0.0;
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::size_t v = 0; v < k; ++v) sum += points(i, v) - 0.5;
+        squares += std::pow(sum / n, 2) / replicates;
+    }
+    return squares * 12.0 * std::pow(n, 3) / static_cast<double>(k);
+}
+
+std::vector<Check> stratified_means()
+{
+    constexpr std::uint32_t replicates = 2000;
+    const double tolerance = 4.0 * std::sqrt(2.0 / replicates); // of chi^2 / degrees; the sum is normal to a part in N
+    std::vector<Check> checks;
+    for (const std::size_t k : {1u, 4u})
+        for (const Sampling sampling : {Sampling::lhs, Sampling::sobol})
+            checks.push_back({fmt::format("{} dimensions, {}, N = 32: variance of the mean of ΣU by k/(12 N³)", k,
+                                          sampling == Sampling::lhs ? "Latin hypercube" : "Sobol'"),
+                              "–", 1.0, variance_ratio(sampling, k, 32, replicates), tolerance, Measure::absolute});
+    return checks;
+}
+
+std::vector<Check> ishigami()
+{
+    constexpr double a = 7.0, b = 0.1, pi = std::numbers::pi;
+    const auto f = [](double u1, double u2, double u3) {
+        const double x1 = pi * (2.0 * u1 - 1.0), x2 = pi * (2.0 * u2 - 1.0), x3 = pi * (2.0 * u3 - 1.0);
+        return std::sin(x1) + a * std::pow(std::sin(x2), 2) + b * std::pow(x3, 4) * std::sin(x1);
+    };
+    constexpr std::uint32_t n = 8192;
+    const UnitPoints points(Sampling::sobol, 1, {"a1", "a2", "a3", "b1", "b2", "b3"}, n);
+    std::vector<double> f_a, f_b;
+    std::vector<std::vector<double>> f_ab(3);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::vector<double> u = points.point(i);
+        f_a.push_back(f(u[0], u[1], u[2]));
+        f_b.push_back(f(u[3], u[4], u[5]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::vector<double> mixed(u.begin(), u.begin() + 3);
+            mixed[k] = u[3 + k];
+            f_ab[k].push_back(f(mixed[0], mixed[1], mixed[2]));
+        }
+    }
+    const SobolIndices found = sobol_indices(f_a, f_b, f_ab, 0.0, 1, 200);
+    const double p4 = std::pow(pi, 4), v1 = 0.5 * std::pow(1.0 + b * p4 / 5.0, 2), v2 = a * a / 8.0,
+                 v13 = b * b * p4 * p4 * (1.0 / 18.0 - 1.0 / 50.0), v = v1 + v2 + v13;
+    const std::array<double, 3> first{v1 / v, v2 / v, 0.0}, total{(v1 + v13) / v, v2 / v, v13 / v};
+    std::vector<Check> checks{{"variance", "–", v, found.variance, 0.02}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const SobolIndex& index = found.variables[k];
+        const auto bound = [](const Estimated& e) { return 4.0 * (e.upper - e.lower) / 3.92; };
+        checks.push_back(
+            {fmt::format("S_{}", k + 1), "–", first[k], index.first.value, bound(index.first), Measure::absolute});
+        checks.push_back(
+            {fmt::format("T_{}", k + 1), "–", total[k], index.total.value, bound(index.total), Measure::absolute});
+        checks.push_back({fmt::format("half-width of S_{}", k + 1), "–", 0.05,
+                          0.5 * (index.first.upper - index.first.lower), 0.0, Measure::upper_bound});
+    }
+    return checks;
+}
+
+/// Lognormal pulse amplitude about an uncertain median friction: P_e and its percentiles, exact and with inner noise.
+std::vector<Check> bands()
+{
+    constexpr std::uint32_t n = 4096, inner = 50;
+    const LognormalBands closed{0.5, 0.4, 0.25};
+    const double x = 0.42;
+    const UnitPoints points(Sampling::sobol, 21, {"e"}, n);
+    const Stream counts(22, "inner");
+    std::vector<double> exact, noisy, none(n, 0.0), many(n, static_cast<double>(inner));
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const double p =
+            normal_cdf((std::log(x / closed.median) + closed.beta_epistemic * normal_quantile(points(i, 0))) /
+                       closed.beta_aleatory);
+        double z = 0.0;
+        for (std::uint32_t k = 0; k < inner; ++k) z += counts.uniform(i, k) < p;
+        exact.push_back(p);
+        noisy.push_back(z / inner);
+    }
+    const EpistemicBands found = epistemic_bands(exact, none), with_noise = epistemic_bands(noisy, many);
+    std::vector<Check> checks;
+    for (std::size_t k = 0; k < band_levels.size(); ++k)
+        checks.push_back({fmt::format("{:g} % of P_e", 100.0 * band_levels[k]), "–",
+                          closed.probability(x, band_levels[k]), found.percentiles[k], 1e-3, Measure::absolute});
+    checks.push_back({"mean curve, β² = β_R² + β_U²", "–", closed.mean(x), found.mean, 1e-5, Measure::absolute});
+    // s.d. of a variance of n draws, kurtosis below 3: sqrt(2/n); of the noise taken off much less.
+    const double noise_by_p = [&] {
+        double sum = 0.0;
+        for (const double p : exact) sum += p * (1.0 - p) / inner / n;
+        return sum;
+    }();
+    checks.push_back({"variance of P_e with the noise of 50 samples taken off", "–", found.variance,
+                      with_noise.variance, 4.0 * std::sqrt(2.0 / n)});
+    checks.push_back(
+        {"share of the noise", "–", noise_by_p / (noise_by_p + found.variance), with_noise.noise_share, 0.1});
+    return checks;
+}
+
+std::vector<Check> two_level_seeds()
+{
+    std::vector<Check> checks;
+    const auto add = [&](const std::string& name, const SeedStudy& s) {
+        checks.push_back({name + ": mean of 300 estimates", "–", s.exact, s.mean, s.bound(), Measure::absolute});
+        return s;
+    };
+    const SeedStudy good = add("good cheap model", study_two_level(300, 100, CheapModel::good, SuiteOf::all_records));
+    const SeedStudy worthless =
+        add("worthless cheap model", study_two_level(300, 100, CheapModel::worthless, SuiteOf::all_records));
+    add("ten records, the suite fixed", study_two_level(300, 100, CheapModel::good, SuiteOf::ten_records));
+    // 300 of 0.95: mean 285, s.d. 3.8; 276 ... 294 holds 98.8 %.
+    checks.push_back({"intervals that hold P, of 300: at least", "–", 276.0, static_cast<double>(good.covered), 0.0,
+                      Measure::lower_bound});
+    checks.push_back({"at most", "–", 294.0, static_cast<double>(good.covered), 0.0, Measure::upper_bound});
+    checks.push_back(
+        {"worthless: at least", "–", 276.0, static_cast<double>(worthless.covered), 0.0, Measure::lower_bound});
+    checks.push_back(
+        {"worthless: at most", "–", 294.0, static_cast<double>(worthless.covered), 0.0, Measure::upper_bound});
+    return checks;
+}
+
+std::vector<Check> mfmc_seeds()
+{
+    double variance = 0.0;
+    const SeedStudy s = study_mfmc(3000, &variance);
+    return {{"mean of 3000 estimates", "–", 0.0, s.mean, s.bound(), Measure::absolute},
+            {"their variance by the formula", "–", 1.0, s.sd * s.sd / variance, 4.0 * std::sqrt(2.0 / 3000.0),
+             Measure::absolute}};
+}
+
+std::vector<Check> subset_tail()
+{
+    const double exact = normal_cdf(-4.0);
+    constexpr std::uint32_t replicates = 40;
+    double mean = 0.0, squares = 0.0, cov = 0.0;
+    for (std::uint32_t r = 0; r < replicates; ++r) {
+        SubsetOptions options;
+        options.replicate = r;
+        const SubsetResult s = subset_simulation(
+            2, [](std::span<const double> z) { return (z[0] + z[1]) / std::numbers::sqrt2; }, 4.0, options);
+        mean += s.probability / replicates;
+        squares += s.probability * s.probability / replicates;
+        cov += s.cov / replicates;
+    }
+    const double sd = std::sqrt((squares - mean * mean) * replicates / (replicates - 1.0));
+    // The estimate is biased by O(1/N) (Au & Beck 2001, eq. 31): far below the scatter of 40 means of 1000 samples a level.
+    return {{"P(z > 4): mean of 40 runs", "–", exact, mean, 4.0 * sd / std::sqrt(replicates), Measure::absolute},
+            {"c.o.v. of a run of some 4,200 calls", "–", 0.6, sd / exact, 0.0, Measure::upper_bound},
+            {"c.o.v. each run states, on average: at least half of it", "–", 0.5 * sd / exact, cov, 0.0,
+             Measure::lower_bound}};
+}
+
+} // namespace
+
+void add_probability_sampling_cases(Registry& registry)
+{
+    registry.push_back(
+        {"probability.stratified", "Stratified points have the variance of theirs, without the floor of a plain shift",
+         "k/(12 N³): one point at random in each of N strata", "4 standard deviations of χ²", stratified_means});
+    registry.push_back({"probability.ishigami", "Sobol' indices of the Ishigami function",
+                        "Ishigami & Homma (1990), a = 7, b = 0.1",
+                        "4 standard deviations of the bootstrap, with the half-width bounded", ishigami});
+    registry.push_back({"probability.bands", "Bands of what is not known, and inner noise taken off",
+                        "Φ((ln(x/θ) + β_U z_q)/β_R); mean with β_R² + β_U² (Kennedy et al. 1980)",
+                        "percentiles of 4096 stratified points: 1/N over the density; variances: 4 standard deviations",
+                        bands});
+    registry.push_back({"probability.two-level",
+                        "Two models, cross-fitted: no bias for good, worthless and clustered cheap models; coverage",
+                        "P = Φ(-1.2) and its mean over ten records, known by construction",
+                        "4 standard deviations of the mean; coverage: 98.8 % of a true 95 %", two_level_seeds});
+    registry.push_back({"probability.mfmc", "Multifidelity Monte Carlo has no bias, and the variance of its formula",
+                        "Peherstorfer, Willcox & Gunzburger (2016)", "4 standard deviations of mean and χ²",
+                        mfmc_seeds});
+    registry.push_back({"probability.subset", "Subset simulation finds a tail of 3.2e-5", "Φ(-4)",
+                        "4 standard deviations of 40 runs", subset_tail});
+}
+
+} // namespace damslip::verification

@@ -1,0 +1,110 @@
+#include "verification/cases/registry.hpp"
+#include "verification/external/slammer_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::external {
+
+namespace {
+
+/// Published numbers that are held as checks of verification cases: those whose quantity begins with one of the words.
+struct Chosen {
+    std::string case_id;
+    std::vector<std::string> quantities; ///< empty: all
+};
+
+std::vector<Result> results_of(const std::vector<Chosen>& chosen)
+{
+    std::vector<Result> all;
+    for (const verification::Case& c : verification::all_cases())
+        for (const Chosen& choice : chosen) {
+            if (c.id != choice.case_id) continue;
+            for (const verification::Check& check : c.run()) {
+                const auto begins = [&](const std::string& words) { return check.quantity.starts_with(words); };
+                if (!choice.quantities.empty() &&
+                    std::none_of(choice.quantities.begin(), choice.quantities.end(), begins))
+                    continue;
+                const bool relative = check.measure == verification::Measure::relative;
+                all.push_back({.group = c.id,
+                               .what = check.quantity,
+                               .unit = check.unit,
+                               .theirs = check.expected,
+                               .ours = check.computed,
+                               .accuracy = check.tolerance * (relative ? std::abs(check.expected) : 1.0),
+                               .reason = ""});
+            }
+        }
+    return all;
+}
+
+Source source(std::string id, std::string citation, std::string subject, std::string accuracy,
+              std::vector<Chosen> chosen)
+{
+    return {std::move(id), std::move(citation), std::move(subject), std::move(accuracy), "", [chosen](const auto&) {
+                return results_of(chosen);
+            }};
+}
+
+} // namespace
+
+std::vector<Source> all_sources()
+{
+    return {
+        slammer_source(),
+        source("goldgruber-2015", "Goldgruber (2015), Nonlinear seismic modelling of concrete dams, Graz: chapter 4",
+               "dam of 62.5 and 125 m on massless rock, Westergaard's added mass and acoustic water: frequencies and "
+               "effective masses; `damslip study` has its 108 slips",
+               "One decimal; the figure of the section is missing in the source, so its shape is known to some per "
+               "cent: 6 % of "
+               "the added-mass frequencies, 2.5 % of the acoustic ones, 0.03 of a mass. The fifth frequency of the "
+               "source, 15.9 Hz, has "
+               "no counterpart on massless rock; the fourth is 11 % higher here",
+               {{"fe.modes.reference-dam",
+                 {"frequency, mode 1", "frequency, mode 2", "frequency, mode 3", "effective mass",
+                  "125 m, mode 1: frequency", "125 m, mode 2: frequency", "125 m, mode 3: frequency",
+                  "125 m, mode 4: frequency"}},
+                {"fe2d.fluid.reference-modes", {}}}),
+        source("chopra-chakrabarti-1973", "Chopra & Chakrabarti (1973), Bull. Seism. Soc. Am. 63: 381-397",
+               "Koyna dam, empty, rigid base, plane stress: four circular frequencies",
+               "From 136 elements: 3 %, the error of such a mesh in the fourth mode", {{"fe.modes.koyna", {}}}),
+        source("fenves-chopra-1986", "Fenves & Chopra (1986), UCB/EERC-85/10",
+               "Pine Flat dam, tallest monolith: periods empty and with water to 381 ft, on a rigid base and on rock "
+               "of the dam's "
+               "modulus that lets waves out",
+               "Standard values of a standard section with rounded coefficients: 4 %. They are those of one mode on a "
+               "rigid "
+               "strip; a base that bends with the rock is softer, 8 %",
+               {{"fe2d.rock.radiating-pine-flat", {}}}),
+        source(
+            "wyllie-mah-2004", "Wyllie & Mah (2004), Rock slope engineering, after Hoek & Bray (1981)",
+            "the worked plane failure and the worked wedge",
+            "Its printed digits; the wedge's angles are printed to whole degrees: 1.5 % with the shape made from them",
+            {{"sliding.neighbours.plane-failure",
+              {"depth of the crack, printed", "area of the plane, printed", "factor of safety, printed"}},
+             {"sliding.neighbours.wedge-example",
+              {"factor of safety with the book's", "factor of safety of the scene's"}}}),
+        source("nafems", "NAFEMS, Selected benchmarks for natural frequency analysis (1987), test 32",
+               "tapered membrane: six frequencies", "Five digits of its own fine mesh: 0.1 %",
+               {{"fe.modes.tapered-membrane", {}}}),
+        source("cook-1974", "Cook's membrane, reference value of the literature (23.96)", "deflection of the tip",
+               "Four digits: 0.1 %", {{"fe.static.cooks-membrane", {"v of the tip's middle, 64 x 64"}}}),
+    };
+}
+
+std::vector<std::string> not_to_be_had()
+{
+    return {
+        "Chopra & Zhang (1991), Chavez & Fenves (1995): slips of Pine Flat and of triangular dams under Taft and "
+        "others; the records as "
+        "they were scaled are not at hand, and the slips are read from figures",
+        "Mir & Taylor (1996), Tinawi et al. (2000), Korzec & Jankowski (2018): shake tables; the motions of the tables "
+        "were not published",
+        "Chopra (1967), curves of water pressure over frequency: no digits in print; the closed form is a case of "
+        "`damslip verify`",
+        "printed examples of the regressions' authors: of the three of Goldgruber (2015) values by hand are a case of "
+        "`damslip verify`",
+    };
+}
+
+} // namespace damslip::external
