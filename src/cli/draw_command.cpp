@@ -2,6 +2,7 @@
 
 #include "cli/flags.hpp"
 #include "core/file.hpp"
+#include "core/status.hpp"
 #include "pages/scene/drawn_section.hpp"
 
 #include <ostream>

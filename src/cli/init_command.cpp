@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
+#include "core/status.hpp"
 #include "core/usage_error.hpp"
 #include "pages/scene/drawn_section.hpp"
 #include "scene/read.hpp"

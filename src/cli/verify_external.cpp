@@ -1,6 +1,6 @@
-#include "cli/terminal/terminal_watch.hpp"
 #include "cli/verify_command.hpp"
 #include "core/file.hpp"
+#include "core/status.hpp"
 #include "core/stopwatch.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
