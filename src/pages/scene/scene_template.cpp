@@ -76,10 +76,10 @@ std::string scene_text(const SceneTemplate& dam)
     out += "\n[dam]\n";
     out += line("density_kg_m3", 2400, false, "concrete");
     out += line("young_modulus_GPa", 25, false, "finite elements only; static to dynamic: see docs/user-guide.md");
-    out += line("poisson_ratio", 0.2, false, "");
+    out += line("poisson_ratio", 0.2, false, "of the concrete");
     out += "\n[foundation]\n";
     out += line("young_modulus_GPa", 25, false, "rock; delete the table for a rigid base");
-    out += line("poisson_ratio", 0.25, false, "");
+    out += line("poisson_ratio", 0.25, false, "of the rock");
     out += line("width_m", std::round(5.0 * dam.height), false, "of the box for statics and seepage");
     out += line("depth_m", std::round(1.5 * dam.height), false, "the same");
     out += "\n[reservoir]\n";
