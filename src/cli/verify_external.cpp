@@ -1,5 +1,6 @@
 #include "cli/verify_command.hpp"
 #include "core/file.hpp"
+#include "core/input_error.hpp"
 #include "core/status.hpp"
 #include "core/stopwatch.hpp"
 #include "pages/report/json_object.hpp"
@@ -18,15 +19,21 @@ int verify_external(const VerifyArguments& arguments, const Streams& streams)
 {
     const std::vector<external::Source> sources = external::all_sources();
     const std::filesystem::path folder = arguments.filter;
+    if (!folder.empty()) // named: what it is named for has to be there
+        for (const external::Source& source : sources)
+            if (!source.folder.empty() && !std::filesystem::exists(folder / source.folder))
+                throw InputError(
+                    Diagnostic{(folder / source.folder).string(), 0, 0, "there is no such file.",
+                               "the results of " + source.id + " in the folder that is named",
+                               "correct the name, or leave the folder out: the sources in the program are run"});
     std::vector<SourceOutcome> outcomes;
     std::size_t numbers = 0, within = 0;
     double seconds = 0.0;
     for (const external::Source& source : sources) {
         outcomes.push_back({&source, {}, 0.0});
-        if (!source.folder.empty() && (folder.empty() || !std::filesystem::exists(folder / source.folder))) {
-            if (!folder.empty() && !streams.quiet)
-                streams.talk << fmt::format("{}: not run, {} is not there\n", source.id,
-                                            (folder / source.folder).string());
+        if (!source.folder.empty() && folder.empty()) {
+            if (!streams.quiet)
+                streams.talk << fmt::format("{}: not run; name the folder that holds {}\n", source.id, source.folder);
             continue;
         }
         const Stopwatch start;

@@ -150,7 +150,9 @@ public:
             out.update(json_of_point(run(question_of(j))));
             return out;
         } catch (const Json::exception&) {
-            return wrong(say("the line is no JSON."));
+            return wrong(Json::array({Json{{"message", "the line is no JSON."},
+                                           {"expected", "one object on a line"},
+                                           {"fix", "write  {\"id\": 1, \"set\": {\"contact.friction\": 0.7}}"}}}));
         } catch (const InputError& error) {
             return wrong(error_of(error));
         } catch (const NotConverged& error) {

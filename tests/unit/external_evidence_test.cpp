@@ -1,4 +1,6 @@
 // Results of others: what is in the program, and SLAMMER's schemes against the exact analyses they approximate.
+#include "program_answer.hpp"
+
 #include "sliding/flexible/flexible_slide.hpp"
 #include "verification/external/external.hpp"
 #include "verification/external/slammer_scheme.hpp"
@@ -83,6 +85,14 @@ TEST(ExternalEvidence, AMissingSetIsNamed)
     } catch (const std::exception& error) {
         EXPECT_NE(std::string(error.what()).find("slammer_results.json.gz"), std::string::npos) << error.what();
     }
+}
+
+// A folder that is named and does not hold the set is an error, not a smaller answer.
+TEST(ExternalEvidence, AFolderWithoutTheSetIsRefused)
+{
+    const ProgramAnswer a = answer_of({"verify", "--external", "/nowhere", "--quiet"});
+    EXPECT_EQ(a.code, 3);
+    EXPECT_NE(a.talk.find("slammer_results.json.gz"), std::string::npos) << a.talk;
 }
 
 } // namespace

@@ -71,6 +71,16 @@ TEST_F(InitDraw, WhatIsMissingIsNamed)
     EXPECT_FALSE(std::filesystem::exists(path("dam.toml")));
 }
 
+TEST_F(InitDraw, AbsurdNumbersAreRefusedWithTheirRange)
+{
+    for (const char* height : {"-3", "0", "nan", "1e9"}) {
+        const ProgramAnswer a = answer_of({"init", path("dam.toml"), "--height", height, "--quiet"});
+        EXPECT_EQ(a.code, 2) << height;
+        EXPECT_NE(a.talk.find("--height"), std::string::npos) << a.talk;
+        EXPECT_FALSE(std::filesystem::exists(path("dam.toml"))) << height;
+    }
+}
+
 TEST_F(InitDraw, TheSectionIsAFileOfItsOwn)
 {
     const ProgramAnswer drawn =
