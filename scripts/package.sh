@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and packs: damslip_<version>_<architecture>.deb in build/release.
+# Installs what is missing, builds, and packs: damslip_<version>_<architecture>.deb in build/release, and where
+# Python's development files are there (scripts/python.sh) python3-damslip_<version>_<architecture>.deb.
 #   scripts/package.sh                   packs
 #   scripts/package.sh --check           packs; builds examples/api on the installed libraries; then as below
 #   scripts/package.sh --check FILE.deb  installs the package with apt, tries it out, removes it
 # Checks need apt, and root or sudo; they install man-db to read the pages with.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-usage() { sed -n '3,6p' "$0" | sed 's/^# *//' >&2; exit 2; }
+usage() { sed -n '4,7p' "$0" | sed 's/^# *//' >&2; exit 2; }
 case "${1:-}" in '') [ $# -eq 0 ] || usage ;; --check) [ $# -le 2 ] || usage ;; *) usage ;; esac
 fail() { echo "package: $*" >&2; exit 1; }
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
@@ -15,9 +16,9 @@ pack() {
     scripts/setup.sh package
     cmake --preset release -DDAMSLIP_TESTS=OFF >/dev/null
     cmake --build --preset release
-    rm -f build/release/damslip_*.deb
+    rm -f build/release/{,python3-}damslip_*.deb
     (cd build/release && cpack --config CPackConfig.cmake >cpack.log || { cat cpack.log >&2; exit 1; })
-    ls build/release/damslip_*.deb
+    ls build/release/*damslip_*.deb
 }
 
 # The package on this machine, from a folder that knows nothing of the source.

@@ -4,7 +4,13 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libgsl-dev libsuitesparse-dev libopenblas-dev libcli11-dev libtomlplusplus-dev
           nlohmann-json3-dev libfmt-dev libspectra-dev libssl-dev zlib1g-dev)
 for part in "$@"; do
-    case "$part" in tests) packages+=(libgtest-dev) ;; coverage) packages+=(gcovr) ;; package) packages+=(dpkg-dev file) ;; esac
+    case "$part" in
+        tests) packages+=(libgtest-dev) ;;
+        coverage) packages+=(gcovr) ;;
+        package) packages+=(dpkg-dev file) ;;
+        python) packages+=(python3-dev pybind11-dev python3-numpy python3-pandas python3-vtk9) ;;
+        notebook) packages+=(jupyter-nbconvert python3-ipykernel) ;;
+    esac
 done
 missing=()
 for p in "${packages[@]}"; do

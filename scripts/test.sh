@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. --all: then the long tests too, a build of every file by itself, the
-# suite under the address and undefined-behaviour checkers, and what share of the lines the tests reach (an hour or more on two cores).
+# Installs what is missing, builds, and runs all tests. --all: then the long tests too, the Python package with its notebook, a build of every
+# file by itself, a comparison with another finite-element program, the suite under the address and undefined-behaviour checkers, and what
+# share of the lines the tests reach (an hour or more on two cores).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-}" in '' | --all) ;; *) echo "usage: scripts/test.sh [--all]" >&2; exit 2 ;; esac
@@ -11,7 +12,9 @@ ctest --preset release --parallel "$(nproc)"
 [ "${1:-}" = --all ] || exit 0
 
 ctest --test-dir build/release --label-regex '^long$' --output-on-failure --no-tests=error --parallel "$(nproc)"
+scripts/python.sh --notebook
 cmake --preset dev >/dev/null   # every file by itself, warnings are errors
 cmake --build --preset dev
+scripts/second-solver.sh         # damslip beside CalculiX, where that can be had
 scripts/sanitize.sh
 scripts/coverage.sh

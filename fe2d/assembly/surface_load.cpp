@@ -1,5 +1,7 @@
 #include "fe2d/assembly/surface_load.hpp"
 
+#include "fe2d/assembly/added_mass_points.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -160,6 +162,22 @@ Eigen::VectorXd added_mass_inertia(const Mesh& mesh, const DofMap& dofs, const N
         for (int i = 0; i < edge.size(); ++i) add(sum, dofs, edge.nodes()[i], m.row(i).sum() * normal);
     });
     return sum;
+}
+
+std::vector<AddedMassPoint> added_mass_points(const Mesh& mesh, const NodeChain& chain, const AddedMassLaw& law,
+                                              double surface_level)
+{
+    std::vector<AddedMassPoint> points;
+    for_each_wet_edge(mesh, chain, surface_level, [&](const Edge& edge) {
+        const Eigen::Vector2d normal = edge.outward();
+        const double inclination = std::asin(std::clamp(normal[1], -1.0, 1.0));
+        for (const LinePoint& p : five_points) {
+            const double t = edge.from + p.t * (edge.to - edge.from);
+            const double m = law(edge.at(t), inclination) * p.weight * (edge.to - edge.from) * edge.length;
+            points.push_back({edge.nodes(), edge.shape(t), normal, edge.at(t), m});
+        }
+    });
+    return points;
 }
 
 Eigen::VectorXd uplift_load(const Mesh& mesh, const DofMap& dofs, const PressureProfile& profile, ContactSide side)

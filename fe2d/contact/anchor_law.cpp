@@ -174,6 +174,14 @@ constexpr double not_snapped = -1.0; ///< as a time
 
 } // namespace
 
+double AnchorLaw::reach() const
+{
+    double longest = 0.0;
+    for (const Row& row : rows_)
+        if (row.history.state != AnchorState::snapped) longest = std::max(longest, row.at.bar.length);
+    return longest;
+}
+
 void AnchorLaw::save(JointLawState& state) const
 {
     const auto list = [&](const char* key, auto&& value) {

@@ -55,6 +55,9 @@ public:
     /// @param first, count  pairs of the plane @param pair_distance  of them from the plane's upstream end [m]
     Support support(Force force, Eigen::Index first, Eigen::Index count, const Eigen::VectorXd& pair_distance) const;
 
+    /// Slip at which every bar that has not snapped pulls back, whatever its inclination: the longest free length [m]; 0: none.
+    double reach() const;
+
     bool locked_off() const { return phase_ == Phase::locked; }
     std::vector<AnchorOutcome> outcomes() const;
 

@@ -69,16 +69,16 @@ std::string array(const VtuArray& a, Appended& data)
     return header("Float64", a.name, static_cast<int>(written), data.add(values));
 }
 
-std::string points(const Mesh& mesh, Appended& data)
+std::string points(const Polyline& nodes, Appended& data)
 {
     std::vector<double> xyz;
-    xyz.reserve(3 * mesh.nodes.size());
-    for (const Point& p : mesh.nodes) xyz.insert(xyz.end(), {p.x, p.y, 0.0});
+    xyz.reserve(3 * nodes.size());
+    for (const Point& p : nodes) xyz.insert(xyz.end(), {p.x, p.y, 0.0});
     return "<Points>\n" + header("Float64", "points_m", 3, data.add(xyz)) + "</Points>\n";
 }
 
-// VTK_TRIANGLE ... VTK_BIQUADRATIC_QUAD; VTK orders the nodes of these cells as Element::all does.
-constexpr std::uint8_t triangle = 5, polygon = 7, quad = 9, quadratic_triangle = 22, quadratic_quad = 23,
+// VTK_LINE ... VTK_BIQUADRATIC_QUAD; VTK orders the nodes of these cells as Element::all does.
+constexpr std::uint8_t line = 3, triangle = 5, polygon = 7, quad = 9, quadratic_triangle = 22, quadratic_quad = 23,
                        biquadratic_quad = 28;
 
 /// VTK has no cell with some edges linear and some quadratic: transition elements are polygons.
@@ -101,6 +101,16 @@ ElementNodes outline(const Element& e)
     return nodes;
 }
 
+std::string cells(const std::vector<std::int64_t>& connectivity, const std::vector<std::int64_t>& offsets,
+                  const std::vector<std::uint8_t>& types, Appended& data)
+{
+    std::string text = "<Cells>\n";
+    text += header("Int64", "connectivity", 1, data.add(connectivity));
+    text += header("Int64", "offsets", 1, data.add(offsets));
+    text += header("UInt8", "types", 1, data.add(types));
+    return text + "</Cells>\n";
+}
+
 std::string cells(const Mesh& mesh, Appended& data)
 {
     std::vector<std::int64_t> connectivity, offsets;
@@ -110,11 +120,7 @@ std::string cells(const Mesh& mesh, Appended& data)
         for (const int node : types.back() == polygon ? outline(e) : e.all()) connectivity.push_back(node);
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     }
-    std::string text = "<Cells>\n";
-    text += header("Int64", "connectivity", 1, data.add(connectivity));
-    text += header("Int64", "offsets", 1, data.add(offsets));
-    text += header("UInt8", "types", 1, data.add(types));
-    return text + "</Cells>\n";
+    return cells(connectivity, offsets, types, data);
 }
 
 VtuArray regions(const Mesh& mesh)
@@ -124,31 +130,71 @@ VtuArray regions(const Mesh& mesh)
     return a;
 }
 
+std::string arrays(const char* element, const std::vector<VtuArray>& list, Appended& data)
+{
+    std::string text = fmt::format("<{}>\n", element);
+    for (const VtuArray& a : list) text += array(a, data);
+    return text + fmt::format("</{}>\n", element);
+}
+
+/// The file around points, cells and arrays, which `data` holds.
+void write_grid(const std::filesystem::path& path, std::size_t nodes, std::size_t elements, const std::string& inside,
+                const Appended& data)
+{
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+    text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", nodes, elements);
+    text += inside + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    text += data.bytes();
+    text += "\n</AppendedData>\n</VTKFile>\n";
+    write_file(path, text);
+}
+
 } // namespace
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal,
                const std::vector<VtuArray>& elemental)
 {
+    for ([[maybe_unused]] const VtuArray& a : nodal) assert(a.values.cols() == mesh.node_count());
+    for ([[maybe_unused]] const VtuArray& a : elemental) assert(a.values.cols() == mesh.element_count());
+    std::vector<VtuArray> of_elements{regions(mesh)};
+    of_elements.insert(of_elements.end(), elemental.begin(), elemental.end());
     Appended data;
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-                       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-    text += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.node_count(),
-                        mesh.element_count());
-    text += points(mesh, data) + cells(mesh, data);
-    text += "<PointData>\n";
-    for (const VtuArray& a : nodal) {
-        assert(a.values.cols() == mesh.node_count());
-        text += array(a, data);
+    const std::string connected = cells(mesh, data); // its data come first, whatever the order of the text
+    std::string inside = points(mesh.nodes, data) + connected;
+    inside += arrays("PointData", nodal, data);
+    inside += arrays("CellData", of_elements, data);
+    write_grid(path, mesh.nodes.size(), mesh.elements.size(), inside, data);
+}
+
+void write_lines_vtu(const std::filesystem::path& path, const std::vector<Polyline>& lines,
+                     const std::vector<VtuArray>& nodal)
+{
+    Polyline all;
+    std::vector<std::int64_t> connectivity, offsets;
+    for (const Polyline& one : lines) {
+        const auto first = static_cast<std::int64_t>(all.size());
+        all.insert(all.end(), one.begin(), one.end());
+        for (auto i = first + 1; i < static_cast<std::int64_t>(all.size()); ++i) {
+            connectivity.insert(connectivity.end(), {i - 1, i});
+            offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        }
     }
-    text += "</PointData>\n<CellData>\n" + array(regions(mesh), data);
-    for (const VtuArray& a : elemental) {
-        assert(a.values.cols() == mesh.element_count());
-        text += array(a, data);
-    }
-    text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    text += data.bytes();
-    text += "\n</AppendedData>\n</VTKFile>\n";
-    write_file(path, text);
+    Appended data;
+    std::string inside = points(all, data);
+    inside += cells(connectivity, offsets, std::vector<std::uint8_t>(offsets.size(), line), data);
+    inside += arrays("PointData", nodal, data);
+    write_grid(path, all.size(), offsets.size(), inside, data);
+}
+
+void write_vtm(const std::filesystem::path& path, const std::vector<VtmBlock>& blocks)
+{
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+                       "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", i, escaped(blocks[i].name),
+                            escaped(blocks[i].file));
+    write_file(path, text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries)

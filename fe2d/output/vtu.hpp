@@ -25,12 +25,25 @@ struct VtuArray {
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<VtuArray>& nodal,
                const std::vector<VtuArray>& elemental);
 
-struct PvdEntry {
-    double time = 0.0; ///< [s]
-    std::string file;  ///< of the .vtu, relative to the .pvd
+/// Lines along joints in the same form: each from point to point, without elements of area.
+/// @param nodal  one column per point, line after line @throws InputError when the file cannot be written.
+void write_lines_vtu(const std::filesystem::path& path, const std::vector<Polyline>& lines,
+                     const std::vector<VtuArray>& nodal);
+
+struct VtmBlock {
+    std::string name; ///< "dam"
+    std::string file; ///< of the .vtu, relative to the .vtm
 };
 
-/// Collection of .vtu files over time for ParaView (.pvd).
+/// Several .vtu files of one instant as one multiblock data set (.vtm).
+void write_vtm(const std::filesystem::path& path, const std::vector<VtmBlock>& blocks);
+
+struct PvdEntry {
+    double time = 0.0; ///< [s]
+    std::string file;  ///< of the .vtu or .vtm, relative to the .pvd
+};
+
+/// Collection of .vtu or .vtm files over time for ParaView (.pvd).
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries);
 
 } // namespace damslip::fe2d

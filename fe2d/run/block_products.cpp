@@ -1,5 +1,9 @@
 #include "fe2d/run/block_products.hpp"
 
+#if DAMSLIP_HAS_AVX2
+#include <immintrin.h>
+#endif
+
 namespace damslip::fe2d {
 
 BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass)
@@ -30,7 +34,7 @@ BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& 
     }
 }
 
-void BlockProducts::multiply(const ProductVectors& in, Products& out) const
+void BlockProducts::multiply(const ProductVectors& in, Products& out, [[maybe_unused]] VectorLevel level) const
 {
     const int nodes = static_cast<int>(begin_.size()) - 1;
     for (Eigen::VectorXd* y : {&out.stiffness_1, &out.stiffness_2, &out.mass_1, &out.mass_2}) y->resize(2 * nodes);
@@ -42,6 +46,9 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out) const
             gathered[8 * j + 2 * v] = (*x[v])[2 * j];
             gathered[8 * j + 2 * v + 1] = (*x[v])[2 * j + 1];
         }
+#if DAMSLIP_HAS_AVX2
+    if (level == VectorLevel::avx2) return multiply_avx2(gathered, out);
+#endif
     using Pair = Eigen::Array2d;
     using Values = Eigen::Map<const Pair>;
     for (int j = 0; j < nodes; ++j) {
@@ -62,11 +69,15 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out) const
     }
 }
 
-void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass) const
+void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass,
+                             [[maybe_unused]] VectorLevel level) const
 {
     const int nodes = static_cast<int>(begin_.size()) - 1;
     stiffness.resize(2 * nodes);
     mass.resize(2 * nodes);
+#if DAMSLIP_HAS_AVX2
+    if (level == VectorLevel::avx2) return multiply_avx2(x.data(), stiffness.data(), mass.data());
+#endif
     using Pair = Eigen::Array2d;
     using Values = Eigen::Map<const Pair>;
     for (int j = 0; j < nodes; ++j) {
@@ -81,5 +92,57 @@ void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffnes
         mass.segment<2>(2 * j) = m.matrix();
     }
 }
+
+#if DAMSLIP_HAS_AVX2
+
+/// Two vectors of one matrix side by side: [K x1, K x2] and [M x3, M x4].
+DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const gathered, Products& out) const
+{
+    const int nodes = static_cast<int>(begin_.size()) - 1;
+    double *const k1 = out.stiffness_1.data(), *const k2 = out.stiffness_2.data(), *const m1 = out.mass_1.data(),
+                  *const m2 = out.mass_2.data();
+    for (int j = 0; j < nodes; ++j) {
+        __m256d k = _mm256_setzero_pd(), m = k;
+        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
+            const Block& b = block_[e];
+            const double* const g = gathered + 8 * column_[e];
+            const __m256d of_k = _mm256_loadu_pd(g), of_m = _mm256_loadu_pd(g + 4);
+            const __m256d kx = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.k)),
+                          ky = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.k + 2)),
+                          mx = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.m)),
+                          my = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.m + 2));
+            k = _mm256_add_pd(k, _mm256_add_pd(_mm256_mul_pd(kx, _mm256_movedup_pd(of_k)),
+                                               _mm256_mul_pd(ky, _mm256_permute_pd(of_k, 0b1111))));
+            m = _mm256_add_pd(m, _mm256_add_pd(_mm256_mul_pd(mx, _mm256_movedup_pd(of_m)),
+                                               _mm256_mul_pd(my, _mm256_permute_pd(of_m, 0b1111))));
+        }
+        _mm_storeu_pd(k1 + 2 * j, _mm256_castpd256_pd128(k));
+        _mm_storeu_pd(k2 + 2 * j, _mm256_extractf128_pd(k, 1));
+        _mm_storeu_pd(m1 + 2 * j, _mm256_castpd256_pd128(m));
+        _mm_storeu_pd(m2 + 2 * j, _mm256_extractf128_pd(m, 1));
+    }
+}
+
+/// Both matrices side by side: [K x, M x].
+DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const x, double* const stiffness, double* const mass) const
+{
+    const int nodes = static_cast<int>(begin_.size()) - 1;
+    for (int j = 0; j < nodes; ++j) {
+        __m256d sum = _mm256_setzero_pd();
+        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
+            const Block& b = block_[e];
+            const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(x + 2 * column_[e]));
+            const __m256d values = _mm256_permute_pd(both, 0b1100); // x0, x0, x1, x1
+            const __m256d k = _mm256_mul_pd(_mm256_load_pd(b.k), values),
+                          m = _mm256_mul_pd(_mm256_load_pd(b.m), values);
+            sum = _mm256_add_pd(sum,
+                                _mm256_add_pd(_mm256_permute2f128_pd(k, m, 0x20), _mm256_permute2f128_pd(k, m, 0x31)));
+        }
+        _mm_storeu_pd(stiffness + 2 * j, _mm256_castpd256_pd128(sum));
+        _mm_storeu_pd(mass + 2 * j, _mm256_extractf128_pd(sum, 1));
+    }
+}
+
+#endif
 
 } // namespace damslip::fe2d

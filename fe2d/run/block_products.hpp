@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/run/node_order.hpp"
+#include "fe2d/run/vector_level.hpp"
 
 #include <Eigen/Core>
 
@@ -28,15 +29,21 @@ class BlockProducts {
 public:
     BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& mass);
 
-    void multiply(const ProductVectors& in, Products& out) const;
+    /// @param level  the same bits on every level
+    void multiply(const ProductVectors& in, Products& out, VectorLevel level = vector_level()) const;
     /// K x and M x of one vector.
-    void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass) const;
+    void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass,
+                  VectorLevel level = vector_level()) const;
     std::size_t bytes() const { return block_.size() * sizeof(Block) + (column_.size() + begin_.size()) * sizeof(int); }
 
 private:
-    struct Block {
-        double k[4], m[4]; ///< xx, yx, xy, yy
+    struct alignas(64) Block { // a line of the cache
+        double k[4], m[4];     ///< xx, yx, xy, yy
     };
+#if DAMSLIP_HAS_AVX2
+    void multiply_avx2(const double* gathered, Products& out) const;
+    void multiply_avx2(const double* x, double* stiffness, double* mass) const;
+#endif
     std::vector<int> begin_, column_;
     std::vector<Block> block_;
 };

@@ -64,7 +64,7 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
         result.dt = step;
         result.halvings = halvings;
         result.status = Status::sliding_at_end;
-        HistoryRecorder recorder(dynamics, result.history, options_.pair_series);
+        HistoryRecorder recorder(dynamics, result.history, options_.pair_series, frame_interval(duration));
         const SlideProbe probe(structure_->planes(), lane->result.stages.back(), dynamics.state().contact.slip);
         SlideWatch watch = slide_watch(*lane, duration);
         const auto look = [&] { watch.add(probe.instant(dynamics, strength.law())); };
@@ -97,6 +97,7 @@ std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motio
             else if (watch.self_excited())
                 result.status = Status::self_excited;
         }
+        recorder.finish();
         result.run_out = watch.figures();
         end_lane(dynamics, strength, *lane, result);
         result.seconds.dynamics += clock.seconds();

@@ -161,10 +161,10 @@ struct Pass {
     bool going = true;
 
     Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series,
-         const std::optional<HistoryBefore>& before, SlideWatch watching)
+         double frame_interval, const std::optional<HistoryBefore>& before, SlideWatch watching)
         : dynamics(std::move(start)), strength(at_start), result(so_far),
           recorder(before ? HistoryRecorder(dynamics, result.history, series, *before)
-                          : HistoryRecorder(dynamics, result.history, series)),
+                          : HistoryRecorder(dynamics, result.history, series, frame_interval)),
           probe(dynamics.structure().planes(), so_far.rest(), dynamics.state().contact.slip), watch(std::move(watching))
     {
         if (before) dynamics.count_slips_from(before->slip_zero);
@@ -193,6 +193,12 @@ StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
     return {lane.local_error / std::pow(8.0, level), level};
 }
 
+/// Of frames, by the end of the record's samples [s]; 0: none are asked for.
+double EarthquakeRun::frame_interval(double record_end) const
+{
+    return options_.frames > 1 ? record_end / (options_.frames - 1) : 0.0;
+}
+
 std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
                                             std::span<Lane* const> lanes) const
 {
@@ -212,7 +218,8 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
         DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
         if (adaptive) start.control(control_of(*lane, halvings));
         passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series,
-                                                lane->before, slide_watch(*lane, ground.end())));
+                                                frame_interval(ground.samples_end()), lane->before,
+                                                slide_watch(*lane, ground.end())));
         RunResult& result = passes.back()->result;
         result.dt = step;
         result.halvings = halvings;
@@ -284,6 +291,7 @@ std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halv
     std::vector<RunResult> results;
     for (std::size_t i = 0; i < passes.size(); ++i) {
         Pass& pass = *passes[i];
+        pass.recorder.finish();
         if (adaptive && halvings == 0) lanes[i]->local_error = worst(pass.dynamics.local_errors());
         if (adaptive) pass.result.dt = pass.dynamics.state().time / std::max(1, pass.dynamics.counts().steps);
         pass.result.run_out = pass.watch.figures();

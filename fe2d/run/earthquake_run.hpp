@@ -42,6 +42,8 @@ struct RunOptions {
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
     PairSeries pair_series = PairSeries::none;
+    int frames =
+        0; ///< >= 2: kept over the record at equal intervals (RunHistory::frames), start and end included; 0: none
     /// Asked after every step of the record; empty: none. Steps count sub-steps of all passes of the chosen halvings,
     /// as far as they are known. Runs that go on in parallel call it from their own threads.
     std::function<RunAnswer(const RunProgress&)> progress;
@@ -180,6 +182,7 @@ private:
     void go_on(StaticContact& statics, Lane& lane, const RunState& from) const;
     bool rests_between(const GroundMotion& motion) const;
     RunResult shake_with_rests(const GroundMotion& motion, int halvings, Lane& lane) const;
+    double frame_interval(double record_end) const;
     StepControl control_of(const Lane& lane, int level) const;
     void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;

@@ -4,6 +4,10 @@
 
 #include <cassert>
 
+#if DAMSLIP_HAS_AVX2
+#include <immintrin.h>
+#endif
+
 namespace damslip::fe2d {
 
 using Eigen::Index;
@@ -130,14 +134,85 @@ void InterfaceFactor::backward_lanes(double* const x) const
     }
 }
 
-void InterfaceFactor::forward(Eigen::VectorXd& b) const
+#if DAMSLIP_HAS_AVX2
+
+/// Blocks two by two: their rows are different nodes.
+DAMSLIP_AVX2 void InterfaceFactor::forward_avx2(double* const x) const
 {
-    forward_lanes<1>(b.data());
+    for (int j = 0; j < inner_; ++j) {
+        const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(x + 2 * j));
+        const __m256d values = _mm256_permute_pd(both, 0b1100); // x0, x0, x1, x1
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
+            const __m256d l = _mm256_mul_pd(_mm256_load_pd(block_[k].v), values),
+                          m = _mm256_mul_pd(_mm256_load_pd(block_[k + 1].v), values);
+            const __m256d sum = _mm256_add_pd(_mm256_permute2f128_pd(l, m, 0x20), _mm256_permute2f128_pd(l, m, 0x31));
+            double *const y = x + 2 * row_[k], *const z = x + 2 * row_[k + 1];
+            const __m128d of_y = _mm_sub_pd(_mm_loadu_pd(y), _mm256_castpd256_pd128(sum)),
+                          of_z = _mm_sub_pd(_mm_loadu_pd(z), _mm256_extractf128_pd(sum, 1));
+            _mm_storeu_pd(y, of_y);
+            _mm_storeu_pd(z, of_z);
+        }
+        if (k < begin_[j + 1]) {
+            const __m256d l = _mm256_mul_pd(_mm256_load_pd(block_[k].v), values);
+            double* const y = x + 2 * row_[k];
+            _mm_storeu_pd(
+                y, _mm_sub_pd(_mm_loadu_pd(y), _mm_add_pd(_mm256_castpd256_pd128(l), _mm256_extractf128_pd(l, 1))));
+        }
+    }
 }
 
-void InterfaceFactor::backward(Eigen::VectorXd& b) const
+/// Both columns of a block side by side: [first, second] of backward_lanes().
+DAMSLIP_AVX2 void InterfaceFactor::backward_avx2(double* const x) const
 {
-    backward_lanes<1>(b.data());
+    for (int j = inner_ - 1; j >= 0; --j) {
+        __m256d even = _mm256_setzero_pd(), odd = even;
+        const auto node = [x](int row) { return reinterpret_cast<const __m128d*>(x + 2 * row); };
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
+            even = _mm256_add_pd(even, _mm256_mul_pd(_mm256_load_pd(block_[k].v), _mm256_broadcast_pd(node(row_[k]))));
+            odd = _mm256_add_pd(odd,
+                                _mm256_mul_pd(_mm256_load_pd(block_[k + 1].v), _mm256_broadcast_pd(node(row_[k + 1]))));
+        }
+        if (k < begin_[j + 1])
+            even = _mm256_add_pd(even, _mm256_mul_pd(_mm256_load_pd(block_[k].v), _mm256_broadcast_pd(node(row_[k]))));
+        const __m256d sum = _mm256_add_pd(even, odd);
+        alignas(32) double s[4];
+        _mm256_store_pd(s, sum);
+        const Pivot& p = pivot_[j];
+        double* const here = x + 2 * j;
+        const double b0 = here[0], b1 = here[1];
+        here[0] = p.xx * b0 + p.xy * b1 - (s[0] + s[1]);
+        here[1] = p.xy * b0 + p.yy * b1 - (s[2] + s[3]);
+    }
+}
+
+#endif
+
+void InterfaceFactor::forward_one(double* const x, [[maybe_unused]] VectorLevel level) const
+{
+#if DAMSLIP_HAS_AVX2
+    if (level == VectorLevel::avx2) return forward_avx2(x);
+#endif
+    forward_lanes<1>(x);
+}
+
+void InterfaceFactor::backward_one(double* const x, [[maybe_unused]] VectorLevel level) const
+{
+#if DAMSLIP_HAS_AVX2
+    if (level == VectorLevel::avx2) return backward_avx2(x);
+#endif
+    backward_lanes<1>(x);
+}
+
+void InterfaceFactor::forward(Eigen::VectorXd& b, VectorLevel level) const
+{
+    forward_one(b.data(), level);
+}
+
+void InterfaceFactor::backward(Eigen::VectorXd& b, VectorLevel level) const
+{
+    backward_one(b.data(), level);
 }
 
 namespace {
@@ -186,14 +261,14 @@ void in_groups(std::span<Eigen::VectorXd* const> vectors, One one, Two two, Four
 void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b) const
 {
     in_groups(
-        b, [this](double* x) { forward_lanes<1>(x); }, [this](double* x) { forward_lanes<2>(x); },
+        b, [this](double* x) { forward_one(x, vector_level()); }, [this](double* x) { forward_lanes<2>(x); },
         [this](double* x) { forward_lanes<4>(x); });
 }
 
 void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b) const
 {
     in_groups(
-        b, [this](double* x) { backward_lanes<1>(x); }, [this](double* x) { backward_lanes<2>(x); },
+        b, [this](double* x) { backward_one(x, vector_level()); }, [this](double* x) { backward_lanes<2>(x); },
         [this](double* x) { backward_lanes<4>(x); });
 }
 

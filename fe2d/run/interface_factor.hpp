@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/run/node_order.hpp"
+#include "fe2d/run/vector_level.hpp"
 
 #include <Eigen/Core>
 
@@ -27,8 +28,10 @@ public:
     bool regular() const { return regular_; }
     const Eigen::MatrixXd& schur() const { return schur_; } ///< A_cc - A_ci A_ii⁻¹ A_ic, unknowns (x, y) by node
 
-    void forward(Eigen::VectorXd& b) const;
-    void backward(Eigen::VectorXd& b) const; ///< interface part: u_c on entry, kept
+    /// @param level  the same bits on every level
+    void forward(Eigen::VectorXd& b, VectorLevel level = vector_level()) const;
+    /// @param b  interface part: u_c on entry, kept
+    void backward(Eigen::VectorXd& b, VectorLevel level = vector_level()) const;
     /// Several vectors in one pass over the factor: up to four at a time, each with the same bits as alone.
     void forward(std::span<Eigen::VectorXd* const> b) const;
     void backward(std::span<Eigen::VectorXd* const> b) const;
@@ -39,7 +42,7 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct Block {
+    struct alignas(32) Block {
         double v[4]; ///< L(2i, 2j), L(2i+1, 2j), L(2i, 2j+1), L(2i+1, 2j+1): by columns
     };
     struct Pivot {
@@ -50,6 +53,12 @@ private:
     void forward_lanes(double* x) const;
     template <int lanes>
     void backward_lanes(double* x) const;
+    void forward_one(double* x, VectorLevel level) const;
+    void backward_one(double* x, VectorLevel level) const;
+#if DAMSLIP_HAS_AVX2
+    void forward_avx2(double* x) const;
+    void backward_avx2(double* x) const;
+#endif
 
     int inner_;
     bool regular_ = false;

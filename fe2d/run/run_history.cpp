@@ -36,6 +36,21 @@ VectorXd weights_at_middle(const Plane& plane)
     return weights;
 }
 
+/// Pressure of acoustic water, p = s φ̇, at the nodes of its mesh; zero where it is held [Pa].
+VectorXd pressure_at_nodes(const WaterBody& water, const NodeOrder& order, const VectorXd& rate)
+{
+    const DofMap& dofs = water.water.dofs;
+    const int nodes = water.water.reservoir.mesh.node_count();
+    VectorXd pressure = VectorXd::Zero(nodes);
+    for (int node = 0; node < nodes; ++node) {
+        const int unknown = dofs(node);
+        if (unknown == no_dof) continue;
+        const Index place = water.place[static_cast<std::size_t>(unknown)];
+        pressure[node] = water.scale * rate[2 * order.new_node[static_cast<std::size_t>(place / 2)] + place % 2];
+    }
+    return pressure;
+}
+
 } // namespace
 
 bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, double rest_time)
@@ -84,7 +99,8 @@ HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& hist
     crest_ = 2 * dynamics.structure().order().new_node[dynamics.structure().model().mesh.crest.back()];
 }
 
-HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series)
+HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series,
+                                 double frame_interval)
     : dynamics_(dynamics), history_(history), series_(series), start_(dynamics.state().contact.slip),
       to_middle_(weights_at_middle(dynamics.structure().plane()))
 {
@@ -92,6 +108,7 @@ HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& hist
     crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.back()];
     crest_start_ = dynamics.state().u[crest_];
     history_ = {};
+    if (frame_interval > 0.0) history_.frames = std::make_shared<FrameSpool>(frame_interval);
     history_.lifts.resize(static_cast<std::size_t>(dynamics.structure().planes().count() - 1));
 }
 
@@ -137,9 +154,37 @@ void HistoryRecorder::add()
     history_.imbalance.push_back(before_.imbalance + dynamics_.energy_imbalance());
     add_lifts(force);
     add_anchors();
+    if (history_.frames && history_.frames->due(history_.time.back())) add_frame(force);
     if (series_ == PairSeries::none) return;
     add_pairs(force);
     history_.states.look(s, history_.time.back(), history_.slip.back(), history_.crest_x.back());
+}
+
+void HistoryRecorder::finish()
+{
+    if (history_.frames && history_.frames->last_time() < history_.time.back())
+        add_frame(dynamics_.state().contact.contact_force());
+}
+
+void HistoryRecorder::add_frame(const VectorXd& force)
+{
+    const DynamicState& s = dynamics_.state();
+    const ContactMemory& c = s.contact;
+    const VectorXd& area = dynamics_.structure().planes().area();
+    RunFrame frame;
+    frame.time = history_.time.back();
+    frame.mean_slip = history_.slip.back();
+    frame.dam = s.u;
+    frame.rock = s.rock;
+    frame.pressure = force.head(area.size()).cwiseQuotient(area);
+    frame.shear = -force.tail(area.size()).cwiseQuotient(area);
+    frame.slip = c.slip - start_;
+    frame.opening = c.opening;
+    if (const auto* water = c.laws.find<CrackWater>()) frame.joint_water = water->report().pressure;
+    if (const WaterBody* water = dynamics_.structure().water())
+        frame.water = pressure_at_nodes(*water, dynamics_.structure().order(), s.v);
+    for (const ContactState state : c.states) frame.states.push_back(static_cast<double>(state));
+    history_.frames->add(frame);
 }
 
 void HistoryRecorder::add_lifts(const VectorXd& force)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "fe2d/run/frame_spool.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stored_states.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,16 +66,17 @@ struct RunHistory {
     std::vector<double> slipping_length; ///< [m]
     std::vector<double> largest_opening; ///< [m]
     // Of water that follows the opening of the base; empty without it.
-    std::vector<double> crack_length;  ///< of the run of open pairs from the heel to its tip [m]
-    std::vector<double> wet_length;    ///< how far water has come in it; opening mouth [m]
-    std::vector<float> joint_pressure; ///< of the base's m pairs, row by row [Pa]
-    std::vector<Energy> energy;        ///< [J/m]
-    std::vector<double> imbalance;     ///< [J/m]
-    std::vector<LiftHistory> lifts;    ///< from bottom to top
-    std::vector<AnchorSeries> anchors; ///< in the order of the scene
-    SlideHistory slide;                ///< what pays for the sliding; rows of `time`
-    PairHistory by_pair;               ///< rows of `time`; empty with PairSeries::none
-    StateKeeper states;                ///< displacements of some instants; empty with PairSeries::none
+    std::vector<double> crack_length;   ///< of the run of open pairs from the heel to its tip [m]
+    std::vector<double> wet_length;     ///< how far water has come in it; opening mouth [m]
+    std::vector<float> joint_pressure;  ///< of the base's m pairs, row by row [Pa]
+    std::vector<Energy> energy;         ///< [J/m]
+    std::vector<double> imbalance;      ///< [J/m]
+    std::vector<LiftHistory> lifts;     ///< from bottom to top
+    std::vector<AnchorSeries> anchors;  ///< in the order of the scene
+    SlideHistory slide;                 ///< what pays for the sliding; rows of `time`
+    PairHistory by_pair;                ///< rows of `time`; empty with PairSeries::none
+    StateKeeper states;                 ///< displacements of some instants; empty with PairSeries::none
+    std::shared_ptr<FrameSpool> frames; ///< null: not asked for
 };
 
 /// Rotation of the base over the rock [rad]: the slope of the area-weighted least-squares line through the openings,
@@ -101,16 +104,20 @@ struct HistoryBefore {
 /// Writes the rows of a history while a run goes on.
 class HistoryRecorder {
 public:
-    HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series = PairSeries::none);
+    /// @param frame_interval  of RunHistory::frames [s]; 0: none
+    HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series = PairSeries::none,
+                    double frame_interval = 0.0);
     /// Adds rows to a history. @param before  what its rows are counted from
     HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series, const HistoryBefore& before);
 
-    void add(); ///< a row for the present state
+    void add();    ///< a row for the present state
+    void finish(); ///< the present state as the last frame, where frames are kept
 
 private:
     void add_lifts(const Eigen::VectorXd& force);
     void add_anchors();
     void add_pairs(const Eigen::VectorXd& force);
+    void add_frame(const Eigen::VectorXd& force);
 
     const ContactMotion& dynamics_;
     RunHistory& history_;

@@ -202,7 +202,7 @@ bool follow_bond(StaticContact& statics, const ContactStructure& structure, cons
                                                      plane_load(base_resultant(structure, load.dam, k))));
     const StaticPath path = follow_damage(statics.with_laws(), statics.linear().shut_force(before),
                                           statics.linear().shut_force(load), law, memory);
-    bond.largest = path.largest_load;
+    bond.largest = bond.carried = path.largest_load;
     bond.events = path.events;
     result.contact = path.contact;
     return path.holds;
@@ -235,7 +235,7 @@ bool jump(StaticContact& statics, const SplitLoad& before, const SplitLoad& load
         if (!release.rests) return false;
         ++bond.jumps;
         at = next;
-        bond.largest = std::max(bond.largest, at);
+        bond.carried = at;
         ContactMemory settled = memory;
         if (const ContactReport end = statics.solve(load, law, settled); end.resolved()) {
             report = end;
@@ -247,9 +247,9 @@ bool jump(StaticContact& statics, const SplitLoad& before, const SplitLoad& load
         bond.events += path.events;
         if (path.contact.resolved()) report = path.contact;
         at = path.holds ? 1.0 : at + path.largest_load * (1.0 - at);
-        bond.largest = std::max(bond.largest, at);
+        bond.carried = at;
     }
-    bond.largest = 1.0;
+    bond.carried = 1.0;
     return true;
 }
 
@@ -342,9 +342,12 @@ std::string StageResult::text() const
     case StageStatus::progressive:
         return fmt::format(
             "{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
-            "stage's load is in equilibrium, {:.3g} with all strength at once, and let go the dam does not "
+            "stage's load is in equilibrium, {:.3g} with all strength at once, and let go {}the dam does not "
             "come to rest; give more strength or fracture energy.",
-            stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0);
+            stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0,
+            bond && bond->jumps > 0 ? fmt::format("at {:.4g}, after {} {}, ", bond->carried, bond->jumps,
+                                                  bond->jumps == 1 ? "jump" : "jumps")
+                                    : "");
     case StageStatus::not_resolved:
         return fmt::format(
             "{}: not resolved: the solver found no contact state in {} iterations, which says nothing of the dam; "

@@ -47,11 +47,12 @@ struct PlaneBalance {
 
 /// How much of a stage's load a bond carries.
 struct BondLoad {
-    double largest = 1.0; ///< t_max: share of the load on the way to its equilibrium, or to failure [-]
+    double largest = 1.0; ///< t_max: largest share of the load on the way in equilibrium, before any jump [-]
+    double carried = 1.0; ///< share with the equilibria found by jumps; 1: the stage holds [-]
     double limit = 0.0;   ///< t_LP: upper bound with all of the bond's strength at once (limit_load()) [-]
     int events = 0;       ///< damage updates on the way; 0: found without following the load
     int jumps = 0;        ///< times that the dam lost its equilibrium and found another one
-    double lost = 0.0;    ///< energy that damping took on the way [J/m]
+    double lost = 0.0;    ///< kinetic energy of the jumps, all of it taken by damping and waves [J/m]
 };
 
 /// A stage: the base's balance, and those of the lift joints.

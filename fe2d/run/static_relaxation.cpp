@@ -1,5 +1,6 @@
 #include "fe2d/run/static_relaxation.hpp"
 
+#include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 
 #include <algorithm>
@@ -18,8 +19,10 @@ constexpr int still_periods = 5;             ///< without slip: at rest
 constexpr int most_periods = 400;
 constexpr double still = 1e-8;         ///< largest slip of a pair within a period of a dam at rest [m]
 constexpr double still_kinetic = 1e-4; ///< kinetic energy of a dam at rest, over the largest on the way [-]
-constexpr double far = 0.1;            ///< mean slip beyond which a dam whose rate grows slides away [m]
-constexpr int growing_periods = 5;     ///< for so long
+/// Mean slip beyond which a dam whose rate grows slides away [m]; with anchors their longest free length, if that is more: a bar
+/// across the joint tightens with the square of the slip.
+constexpr double far = 0.1;
+constexpr int growing_periods = 5; ///< for so long
 
 /// What one period brought.
 struct PeriodWatch {
@@ -28,11 +31,12 @@ struct PeriodWatch {
     int still_for = 0, growing_for = 0;
 
     /// @param now  slips of all pairs [m] @param mean_now  the largest mean of a plane since the start [m]
-    void add(const VectorXd& now, double mean_now, bool calm)
+    /// @param away  slip beyond which nothing tightens any more [m]
+    void add(const VectorXd& now, double mean_now, double away, bool calm)
     {
         still_for = calm && (now - slip).cwiseAbs().maxCoeff() <= still ? still_for + 1 : 0;
         const double rate_now = std::abs(mean_now - mean);
-        growing_for = mean_now > far && rate_now >= rate ? growing_for + 1 : 0;
+        growing_for = mean_now > away && rate_now >= rate ? growing_for + 1 : 0;
         slip = now;
         mean = mean_now;
         rate = rate_now;
@@ -64,7 +68,9 @@ Release let_go(const std::shared_ptr<StepOperators>& operators, const SplitLoad&
         }
         const double kinetic = motion.energy().kinetic;
         fastest = std::max(fastest, kinetic);
-        watch.add(slip, largest_mean(planes, slip - memory.slip), kinetic <= still_kinetic * fastest);
+        const auto* anchors = motion.state().contact.laws.find<AnchorLaw>();
+        const double away = std::max(far, anchors ? anchors->reach() : 0.0);
+        watch.add(slip, largest_mean(planes, slip - memory.slip), away, kinetic <= still_kinetic * fastest);
         release.lost = motion.energy().damping + motion.energy().numerical + motion.energy().radiated;
         if (watch.still_for < still_periods) continue;
         memory = motion.state().contact;

@@ -153,6 +153,88 @@ double macedo(const Inputs& x)
            0.607 * *x.magnitude + of_pulse;
 }
 
+/// Near-fault motions of Bray & Macedo (2019): in the direction of the largest slip (D100) or of the median one (D50).
+struct NearFault {
+    double short_period, rigid_slope;     ///< c1 + c2 T_s below 0.1 s, at moderate PGV
+    double long_period, slope, curvature; ///< c1 + c2 T_s + c3 T_s^2 from 0.1 s on, at moderate PGV
+    double moderate, strong;              ///< c4 up to and above 150 cm/s
+    double strong_shift;                  ///< of c1 above 150 cm/s
+    double ky, ky_squared, product, sa, sa_squared, magnitude;
+};
+constexpr NearFault largest_direction{-6.235,        -2.744, -6.462, 1.069, -0.498, 1.547,  -0.097,
+                                      2.480 + 6.235, -2.632, -0.278, 0.527, 1.978,  -0.233, 0.06};
+// c1 = -0.148 above 150 cm/s at short periods: see docs/regressions.md.
+constexpr NearFault median_direction{-7.497,         -2.731, -7.718, 1.031, -0.480, 1.458,  0.025,
+                                     -0.148 + 7.497, -2.931, -0.319, 0.584, 2.261,  -0.241, 0.05};
+
+double near_fault(const Inputs& x, const NearFault& c)
+{
+    constexpr double strong_pulse = 150.0; // cm/s
+    const double t = period(x), ky = std::log(x.yield_coefficient), sa = std::log(*x.sa_13_g),
+                 pgv = std::log(*x.pgv_cm_s);
+    const bool strong = *x.pgv_cm_s > strong_pulse;
+    const double of_period =
+        t < 0.1 ? c.short_period + c.rigid_slope * t : c.long_period + (c.slope + c.curvature * t) * t;
+    return of_period + (strong ? c.strong_shift + c.strong * pgv : c.moderate * pgv) + c.ky * ky +
+           c.ky_squared * ky * ky + c.product * ky * sa + c.sa * sa + c.sa_squared * sa * sa +
+           c.magnitude * *x.magnitude;
+}
+
+/// P(D < 0.5 cm) = 1/(1 + exp(c1 + c2 ln ky + c3 ln PGV + c4 Ts + c5 ln Sa)).
+struct NearFaultZero {
+    double c1, ky, pgv, period, sa;
+};
+
+double near_fault_zero(const Inputs& x, const NearFaultZero& to_07_s, const NearFaultZero& above)
+{
+    const NearFaultZero& c = period(x) <= 0.7 ? to_07_s : above;
+    return 1.0 / (1.0 + std::exp(c.c1 + c.ky * std::log(x.yield_coefficient) + c.pgv * std::log(*x.pgv_cm_s) +
+                                 c.period * period(x) + c.sa * std::log(*x.sa_13_g)));
+}
+
+double near_fault_largest(const Inputs& x)
+{
+    return near_fault(x, largest_direction);
+}
+
+double near_fault_median(const Inputs& x)
+{
+    return near_fault(x, median_direction);
+}
+
+/// Eqs. (4a), (4b).
+double near_fault_largest_zero(const Inputs& x)
+{
+    return near_fault_zero(x, {-10.787, -8.717, 1.660, 3.150, 7.560}, {-12.771, -9.979, 2.286, -4.965, 4.817});
+}
+
+/// Eqs. (6a), (6b).
+double near_fault_median_zero(const Inputs& x)
+{
+    return near_fault_zero(x, {-14.930, -10.383, 1.971, 3.763, 8.812}, {-14.671, -10.489, 2.222, -4.759, 5.549});
+}
+
+Regression near_fault_row(std::string_view id, std::string_view name, std::string_view formula,
+                          double (*log_median)(const Inputs&), double (*sigma)(const Inputs&),
+                          double (*zero)(const Inputs&))
+{
+    return {id,
+            name,
+            formula,
+            Logarithm::natural,
+            log_median,
+            sigma,
+            {Input::yield_coefficient, Input::magnitude, Input::pgv, Input::spectral_13},
+            {{Input::yield_coefficient, 0.01, 0.80},
+             {Input::period, 0.0, 2.0},
+             {Input::magnitude, 5.5, 7.9, RangeSource::assumed}},
+            "near-fault pulse motions of shallow crustal earthquakes; nonzero D",
+            bray_macedo,
+            EnsembleUse::on_request,
+            nullptr,
+            zero};
+}
+
 // c2 = 3.081 for T_s >= 0.1 s; some programs have 3.801, see docs/regressions.md.
 double subduction(const Inputs& x)
 {
@@ -242,6 +324,20 @@ std::vector<Regression> flexible_block_rows()
          EnsembleUse::estimate,
          nullptr,
          macedo_zero},
+        near_fault_row("bray-macedo-2019-near-fault-d100", "Bray & Macedo 2019, near fault, largest direction",
+                       "ln D = c1 + c2 Ts + c3 Ts^2 + c4 ln PGV - 2.632 ln ky - 0.278 ln^2 ky + 0.527 ln ky ln Sa + "
+                       "1.978 ln Sa - 0.233 ln^2 "
+                       "Sa + 0.06 M, Sa at 1.3 Ts; c = (-6.235, -2.744, 0) Ts < 0.1 s, (-6.462, 1.069, -0.498) else, "
+                       "c4 = 1.547; PGV > 150 "
+                       "cm/s: c1 + 8.715, c4 = -0.097",
+                       near_fault_largest, constant_sigma<560>, near_fault_largest_zero),
+        near_fault_row("bray-macedo-2019-near-fault-d50", "Bray & Macedo 2019, near fault, median direction",
+                       "ln D = c1 + c2 Ts + c3 Ts^2 + c4 ln PGV - 2.931 ln ky - 0.319 ln^2 ky + 0.584 ln ky ln Sa + "
+                       "2.261 ln Sa - 0.241 ln^2 "
+                       "Sa + 0.05 M, Sa at 1.3 Ts; c = (-7.497, -2.731, 0) Ts < 0.1 s, (-7.718, 1.031, -0.480) else, "
+                       "c4 = 1.458; PGV > 150 "
+                       "cm/s: c1 + 7.349, c4 = 0.025",
+                       near_fault_median, constant_sigma<540>, near_fault_median_zero),
         {"bray-macedo-travasarou-2018",
          "Bray, Macedo & Travasarou 2018 (subduction)",
          "ln D = c1 + 0.550 M + c2 Ts + c3 Ts^2 - 3.353 ln ky - 0.390 ln^2 ky + 0.538 ln ky ln Sa + 3.060 ln Sa - "

@@ -67,6 +67,24 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
     return base;
 }
 
+std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,
+                                                    const BaseState& before, Side opens, const SeepageProfile& seepage)
+{
+    if (!scene.uplift || scene.uplift->model == UpliftModel::none) return std::nullopt;
+    const Crack through{opens, before.frame.length};
+    switch (scene.uplift->water.opening) {
+    case OpeningWater::zero:
+        return resultant(without_new_crack(before.base, through, before.frame.length));
+    case OpeningWater::full:
+    case OpeningWater::mouth:
+        return resultant(crack_uplift(scene, static_case.uplift, static_case.uplift_factor, seepage)(through));
+    case OpeningWater::unchanged:
+    case OpeningWater::reynolds:
+        break;
+    }
+    return std::nullopt;
+}
+
 double bonded_length(const BaseState& before, const CrackedBase& base)
 {
     const double length = before.frame.length;

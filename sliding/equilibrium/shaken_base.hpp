@@ -2,6 +2,7 @@
 
 #include "sliding/equilibrium/base_state.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace damslip::sliding {
@@ -14,6 +15,13 @@ std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& 
 /// crack rules.
 CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const BaseState& before, const Force& load,
                         const SeepageProfile& seepage);
+
+/// Uplift of a joint open from end to end, by uplift.opening: `zero` nothing but what the crack of the static state holds,
+/// `full` and `mouth` the higher of the heads at both ends along the whole base.
+/// @param opens  the end at which the base leaves the rock
+/// @returns none where uplift.opening leaves the uplift as it is: unchanged, reynolds, no uplift
+std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,
+                                                    const BaseState& before, Side opens, const SeepageProfile& seepage);
 
 /// Length still bonded [m]: neither in the static crack nor in the one under the earthquake.
 double bonded_length(const BaseState& before, const CrackedBase& base);

@@ -23,9 +23,12 @@ double Corner::static_moment(double theta) const
 
 Corner corner(const RockingBlock& block, const RockingStage& stage, Stance stance)
 {
-    const bool toe = stance == Stance::toe;
+    const bool toe = stance != Stance::heel;
     const double x = toe ? block.length : 0.0; // of the corner, from the heel
-    const double uplift = stage.slip.block.uplift;
+    const std::optional<UpliftResultant>& open = toe ? block.uplift_on_toe : block.uplift_on_heel;
+    const bool opened = stance != Stance::base && open;
+    const double uplift = opened ? open->force : stage.slip.block.uplift;
+    const double about_heel = opened ? open->moment_about_heel : uplift * stage.uplift_distance;
     Corner k;
     k.sense = toe ? 1.0 : -1.0;
     k.arm = {block.centroid.x - x, block.centroid.y};
@@ -36,7 +39,7 @@ Corner corner(const RockingBlock& block, const RockingStage& stage, Stance stanc
     k.inertia = block.inertia + block.mass * (k.arm.x * k.arm.x + k.arm.y * k.arm.y) + k.water.rr;
     k.force_t = block.force_t;
     k.force_n = block.force_n + uplift;
-    k.moment = block.moment - uplift * stage.uplift_distance + k.force_n * x;
+    k.moment = block.moment - about_heel + k.force_n * x;
     k.virial = block.virial - block.force_t * x;
     return k;
 }

@@ -42,7 +42,8 @@ struct Corner {
     double static_moment(double theta) const;
 };
 
-/// @param stage  whose uplift counts
+/// @param stage  whose uplift counts on the base, and on a corner where the block has no other uplift for it
+/// @param stance  base: about the toe
 Corner corner(const RockingBlock& block, const RockingStage& stage, Stance stance);
 
 /// The equations of a corner at one instant: mass terms and right-hand sides.

@@ -4,6 +4,7 @@
 #include "sliding/block/slip_stage.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
+#include <optional>
 #include <vector>
 
 /// The rigid block that may stand on its toe or on its heel, and slide on either (docs/rocking.md).
@@ -42,6 +43,9 @@ struct RockingBlock {
     double cohesion = 0.0;            ///< of the bond before any slip [Pa]; 0: none
     Crack crack;                      ///< open before the earthquake: no bond there
     std::vector<RockingStage> stages; ///< by path, at least one
+
+    /// Uplift on the toe and on the heel, the joint open from end to end; none: that of the stage (uplift.opening)
+    std::optional<UpliftResultant> uplift_on_toe, uplift_on_heel;
 };
 
 /// The block of a static state. Moments, added mass and uplift are those of tipping_acceleration, so the block starts to

@@ -21,6 +21,7 @@ RockingMotion::RockingMotion(const RockingBlock& block, const SlideOptions& opti
     : block_(block), options_(options.sliding)
 {
     for (const RockingStage& stage : block.stages) {
+        bases_.push_back(corner(block, stage, Stance::base));
         toes_.push_back(corner(block, stage, Stance::toe));
         heels_.push_back(corner(block, stage, Stance::heel));
     }
@@ -35,7 +36,15 @@ RockingMotion::RockingMotion(const RockingBlock& block, const SlideOptions& opti
 
 const Corner& RockingMotion::corner_of(Stance stance) const
 {
-    return stance == Stance::heel ? heels_[stage_] : toes_[stage_];
+    switch (stance) {
+    case Stance::toe:
+        return toes_[stage_];
+    case Stance::heel:
+        return heels_[stage_];
+    case Stance::base:
+        break;
+    }
+    return bases_[stage_];
 }
 
 BaseAcceleration RockingMotion::ground(double x) const
@@ -50,7 +59,7 @@ double RockingMotion::bonded_length(const Instant& now) const
 {
     const double length = block_.length;
     if (!(now.normal > 0.0)) return 0.0;
-    const double from_toe = -now.over_toe / now.normal;
+    const double from_toe = now.from_toe / now.normal;
     double heel_open = std::max(0.0, length - 3.0 * from_toe);
     double toe_open = std::max(0.0, length - 3.0 * (length - from_toe));
     double& cracked = block_.crack.side == Side::heel ? heel_open : toe_open;
@@ -65,9 +74,8 @@ bool RockingMotion::brittle(const State& y) const
 }
 
 /// Accelerations of what the block does now. Sliding: T = -direction (mu N' + c A').
-void RockingMotion::accelerate(const CornerEquations& e, double mu, double bond, Instant& now) const
+void RockingMotion::accelerate(const CornerEquations& e, bool turns, double mu, double bond, Instant& now) const
 {
-    const bool turns = stance_ != Stance::base;
     if (!sliding_) {
         now.turn_accel = turns ? e.turn / e.rr : 0.0;
         return;
@@ -87,6 +95,16 @@ void RockingMotion::accelerate(const CornerEquations& e, double mu, double bond,
     now.turn_accel = (tt * e.turn - e.tr * push) / determinant;
 }
 
+/// Clockwise moment about a corner that the block would have to turn with if it stood on it now, without turning yet: with the
+/// uplift of the joint that is open to there, which also presses it less where it slides.
+double RockingMotion::tipping_moment(Stance stance, double bond, const BaseAcceleration& a, const State& y) const
+{
+    const CornerEquations e = equations(corner_of(stance), 0.0, 0.0, a);
+    Instant now;
+    accelerate(e, false, pressed_ ? friction(y[path]) : 0.0, bond, now);
+    return e.turn - e.tr * now.slip_accel;
+}
+
 RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
 {
     const BaseAcceleration a = ground(x);
@@ -94,14 +112,15 @@ RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
     const double mu = pressed_ ? friction(y[path]) : 0.0;
     const double kept = bonded_ && pressed_ ? block_.stages[stage_].slip.block.cohesion_force : 0.0;
     Instant now;
-    accelerate(e, mu, sliding_ ? kept : 0.0, now);
+    const double bond = sliding_ ? kept : 0.0;
+    accelerate(e, stance_ != Stance::base, mu, bond, now);
     now.normal = e.press + e.nt * now.slip_accel + e.nr * now.turn_accel;
     now.drive = e.push - e.tr * (sliding_ ? 0.0 : now.turn_accel);
     now.resistance = mu * std::max(0.0, now.normal);
     if (stance_ == Stance::base) {
-        const CornerEquations heel = equations(corner_of(Stance::heel), 0.0, 0.0, a);
-        now.over_toe = e.turn - e.tr * now.slip_accel;
-        now.over_heel = heel.turn - heel.tr * now.slip_accel;
+        now.from_toe = -(e.turn - e.tr * now.slip_accel);
+        now.over_toe = block_.uplift_on_toe ? tipping_moment(Stance::toe, bond, a, y) : -now.from_toe;
+        now.over_heel = tipping_moment(Stance::heel, bond, a, y);
         if (kept > 0.0) now.resistance += !sliding_ && brittle(y) ? block_.cohesion * bonded_length(now) : kept;
     }
     return now;

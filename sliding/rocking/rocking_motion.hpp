@@ -42,6 +42,7 @@ private:
         double normal = 0.0; ///< N' [N/m]
         double drive = 0.0; ///< friction that keeps the corner where it is, with the sign of the slip it prevents [N/m]
         double resistance = 0.0; ///< at most that much [N/m]
+        double from_toe = 0.0;   ///< moment of N' about the toe [N]; of a block flat on its base
         double over_toe = 0.0;   ///< clockwise moment about the toe that N' has to balance: positive tips [N]
         double over_heel = 0.0;  ///< the same about the heel: negative tips [N]
         bool jams = false;       ///< friction and weight hold the sliding corner however hard it is driven: no answer
@@ -54,7 +55,7 @@ private:
 
     BaseAcceleration ground(double x) const;
     Instant instant(double x, const State& y) const;
-    void accelerate(const CornerEquations& e, double friction, double bond, Instant& now) const;
+    void accelerate(const CornerEquations& e, bool turns, double friction, double bond, Instant& now) const;
     bool brittle(const State& y) const;
     double bonded_length(const Instant& now) const;
     State rates(double x, const State& y) const;
@@ -81,14 +82,15 @@ private:
     void lose_bond();
 
     const Corner& corner_of(Stance stance) const;
-    const Corner& standing() const { return corner_of(stance_ == Stance::heel ? Stance::heel : Stance::toe); }
+    const Corner& standing() const { return corner_of(stance_); }
+    double tipping_moment(Stance stance, double bond, const BaseAcceleration& ground, const State& y) const;
     double friction(double path_slipped) const { return friction_at(block_.stages[stage_].slip, path_slipped); }
     double next_stage_path() const;
     double sum_of_losses() const { return y_[work_friction] + landing_loss_; }
 
     const RockingBlock& block_;
     SlidingOptions options_;
-    std::vector<Corner> toes_, heels_; ///< of each stage
+    std::vector<Corner> bases_, toes_, heels_; ///< of each stage; on its whole base: about the toe
 
     // The interval: what is left of it.
     double time_ = 0.0, span_ = 0.0; ///< [s]

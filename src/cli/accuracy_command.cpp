@@ -4,6 +4,7 @@
 #include "analysis/accuracy/rung_runner.hpp"
 #include "analysis/accuracy/variant.hpp"
 #include "analysis/prepare/contact_law.hpp"
+#include "cli/print_pdf.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
@@ -31,6 +32,8 @@ namespace {
 
 void check(const AccuracyArguments& a)
 {
+    if (!a.pdf.empty() && !a.rung.empty())
+        refuse_usage("--pdf with --rung.", "a report of all rungs", "leave one of them out");
     if (!(a.tolerance > 0.0 && std::isfinite(a.tolerance)))
         refuse_usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
                      "for 2 % write  --tolerance 0.02");
@@ -232,6 +235,10 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     if (!a.report.empty()) {
         write_file(a.report, page());
         if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
+    }
+    if (!a.pdf.empty()) {
+        print_pdf(page(), a.pdf);
+        if (!streams.quiet) streams.talk << "report: " << a.pdf.string() << "\n";
     }
     const bool answered = judgement.choice || all_fail_statically(results);
     return answered && !watch.stop_asked() ? exit_ok : exit_no_answer;

@@ -15,6 +15,7 @@ struct AccuracyArguments {
     std::string rung;             ///< run this one alone; empty: the ladder
     std::filesystem::path out;    ///< folder for report, tables, figure and the rungs' scenes; empty: none
     std::filesystem::path report; ///< the report alone; empty: none
+    std::filesystem::path pdf;    ///< the report on paper; empty: none
     std::filesystem::path svg;    ///< the figure alone; empty: none
 };
 

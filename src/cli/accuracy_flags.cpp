@@ -25,6 +25,7 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
                    "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes")
         ->check(output_to(OutputPath::folder, "--out"));
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
+    add_pdf(sub, a.pdf);
     sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));
 }
 

@@ -5,8 +5,11 @@ namespace damslip::cli {
 // A new command is a file with a function like these and its line here; nothing else knows their number.
 Command init_command();
 Command draw_command();
+Command assess_command();
 Command screen_command();
+Command regress_command();
 Command sweep_command();
+Command fragility_command();
 Command worker_command();
 Command study_command();
 Command fe_command();
@@ -27,8 +30,11 @@ std::span<const Command> commands()
         for (auto* command : {
                  init_command,
                  draw_command,
+                 assess_command,
                  screen_command,
+                 regress_command,
                  sweep_command,
+                 fragility_command,
                  worker_command,
                  study_command,
                  fe_command,

@@ -1,6 +1,8 @@
 #include "cli/fe_command.hpp"
 
+#include "cli/print_pdf.hpp"
 #include "core/usage_error.hpp"
+#include "pages/report/page_html.hpp"
 
 #include <fmt/format.h>
 #include <ostream>
@@ -11,19 +13,25 @@ using namespace pages;
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity, arguments.mesh_error, !arguments.out.empty(), arguments.modes};
+    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0), arguments.modes};
 }
 
 void put_answer(const FeAnswer& answer, const FeArguments& arguments, const Scene& scene, const FieldSeries& fields,
                 const std::function<Page()>& page, const Streams& streams)
 {
     streams.out << (streams.form == Form::json ? answer.json.dump(2) + "\n" : answer.text);
-    if (arguments.out.empty()) return;
-    write_fe_files(arguments.out, scene, answer, fields, page());
-    if (streams.quiet) return;
-    streams.talk << "written: " << (arguments.out / "summary.json").string()
-                 << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n"
-                 << "report: " << (arguments.out / "report.html").string() << "\n";
+    if (!arguments.reports()) return;
+    const Page report = page();
+    if (!arguments.out.empty()) {
+        write_fe_files(arguments.out, scene, answer, fields, report);
+        if (!streams.quiet)
+            streams.talk << "written: " << (arguments.out / "summary.json").string()
+                         << ", tables of each record (*.csv), fields.pvd, scene.resolved.toml\n"
+                         << "report: " << (arguments.out / "report.html").string() << "\n";
+    }
+    if (arguments.pdf.empty()) return;
+    print_pdf(page_html(report), arguments.pdf);
+    if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
 }
 
 int fe(const FeArguments& arguments, const Streams& streams)
@@ -39,6 +47,9 @@ int fe(const FeArguments& arguments, const Streams& streams)
         refuse_usage(arguments.reduced ? "--state-in or --state-out with --reduced."
                                        : "--state-in or --state-out with --base tied.",
                      "the state of joints that slide and open, of a full run", "leave one of them out");
+    if (arguments.frames && arguments.base == "tied")
+        refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
+                     "leave one of them out");
     if (arguments.reduced) return run_reduced(arguments, ready, streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, streams) : run_contact(arguments, ready, streams);
 }

@@ -14,18 +14,23 @@ struct FeArguments {
     std::string base =
         "contact";               ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
     bool reduced = false;        ///< on few modes of the dam, with an error estimate; contact base only
+    std::optional<int> frames;   ///< of a series for ParaView, by record, >= 2; none: no series
     std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
     std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
+    std::filesystem::path pdf;   ///< the report on paper; empty: none
     std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
     bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
+
+    bool reports() const { return !out.empty() || !pdf.empty(); }
 };
 
 FeOptions fe_options(const FeArguments& arguments);
 
-/// The answer on standard output, and in the folder, if there is one, beside what the runs left there.
-/// @param page  made where there is a folder
+/// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked
+/// for.
+/// @param page  made where a report is wanted
 void put_answer(const pages::FeAnswer& answer, const FeArguments& arguments, const Scene& scene,
                 const pages::FieldSeries& fields, const std::function<pages::Page()>& page, const Streams& streams);
 

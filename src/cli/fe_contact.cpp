@@ -7,6 +7,7 @@
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/usage_error.hpp"
 #include "pages/fe/fe_report.hpp"
+#include "pages/fe/frame_files.hpp"
 #include "pages/fe/rock_lines.hpp"
 
 #include <optional>
@@ -43,7 +44,7 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
     const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift()};
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
-    if (!arguments.out.empty()) page.emplace(shared);
+    if (arguments.reports()) page.emplace(shared);
     std::vector<std::string> of_rock = radiating_messages(ready.scene, model);
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         for (const std::string& warning : rock_warnings(ready.scene, model.model().mesh, motion))
@@ -51,7 +52,11 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
                 of_rock.push_back(std::move(note));
         keep_contact_run(arguments.out, shared, r, fields);
         if (page) page->add(r, motion);
+        if (const std::string series = write_frames(arguments.out, {ready.scene, model, all.uplift()}, r);
+            !series.empty() && !streams.quiet)
+            streams.talk << "for ParaView: " << (arguments.out / series).string() << "\n";
         r.fe.history.by_pair = {};
+        r.fe.history.frames = {};
         r.fe.history.states = {};
     });
     if (!arguments.state_out.empty() && !runs.empty() && has_slip(runs.front()))

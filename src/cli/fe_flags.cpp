@@ -40,8 +40,15 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->needs(reduced)
         ->group("Reduced run");
     reduced->excludes(sub.get_option("--base"));
-    sub.add_option("--out", a.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
-        ->check(output_to(OutputPath::folder, "--out"));
+    CLI::Option* out =
+        sub.add_option("--out", a.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
+            ->check(output_to(OutputPath::folder, "--out"));
+    sub.add_option("--frames", a.frames,
+                   "so many instants of each record as a time series for ParaView: frames_*.pvd in the folder of --out")
+        ->check(CLI::Range(2, 10000))
+        ->needs(out)
+        ->excludes(reduced);
+    add_pdf(sub, a.pdf);
 }
 
 } // namespace

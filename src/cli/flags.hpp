@@ -16,6 +16,9 @@ void add_run_inputs(CLI::App& sub, RunInputs& in);
 /// --rock, of commands that run finite elements.
 void add_rock(CLI::App& sub, RunInputs& in);
 
+/// --pdf, of commands that have a report; checked before anything begins.
+void add_pdf(CLI::App& sub, std::filesystem::path& target);
+
 /// Check of an option that names output: what would fail after minutes is said before anything begins.
 /// @throws UsageError, from the check
 std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);

@@ -1,11 +1,12 @@
 #include "cli/screen_command.hpp"
 
+#include "analysis/spectrum/spectrum_level.hpp"
+#include "cli/print_pdf.hpp"
 #include "core/usage_error.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/screen/screen_report.hpp"
-#include "scene/plausible.hpp"
+#include "records/generate/spectrum_file.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -13,27 +14,48 @@ namespace damslip::cli {
 
 using namespace pages;
 
+namespace {
+
+/// The response spectrum's answer, on the model of finite elements.
+SpectrumLevel find_spectrum_level(const ScreenArguments& a, const Scene& given_scene, const Ready& ready,
+                                  const Streams& streams)
+{
+    need_section(given_scene, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
+    std::vector<LevelSpectrum> given;
+    if (!a.spectrum.empty()) {
+        const records::TargetSpectrum shape = records::read_target_spectrum(a.spectrum);
+        constexpr double ratio_of_files = 0.05;
+        given.push_back({shape.name, ratio_of_files,
+                         [shape, pga = *a.pga](double period) { return pga * shape.amplification(period); }});
+    } else if (ready.records().empty()) {
+        refuse_usage("--response-spectrum without a record.", "a record, or a spectrum",
+                     "add  --record FILE , or  --spectrum FILE --spectrum-pga 1.0");
+    }
+    return spectrum_level(prepare(given_scene, Method::finite_elements, ready.pairs, {.stop = streams.stop}), given);
+}
+
+} // namespace
+
 int screen(const ScreenArguments& arguments, const Streams& streams)
 {
     PrepareOptions options;
     options.flexible_modes = true;
     options.stop = streams.stop;
-    const Ready ready = prepare(read_run_scene(arguments.inputs, streams), Method::rigid_block, options);
+    const Scene given = read_run_scene(arguments.inputs, streams);
+    const Ready ready = prepare(given, Method::rigid_block, options);
     if (!streams.quiet)
         for (const std::string& warning : record_warnings(ready.records())) streams.talk << "note: " << warning << "\n";
 
     if (arguments.rocking && ready.scene.wedge)
         refuse_usage("--rocking cannot take a [wedge]: it has no toe to rock on.", "a scene with a [section]",
                      "delete --rocking");
+    std::optional<SpectrumLevel> spectrum;
+    if (arguments.response_spectrum) spectrum = find_spectrum_level(arguments, given, ready, streams);
     Screening s = run_screening(ready, arguments.jobs,
                                 arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
-    for (std::string& note : note_texts(ready.given.notes)) s.warnings.push_back(std::move(note));
-    if (!ready.flexible_modes.empty()) s.warnings.push_back(ready.flexible_modes);
-    if (!ready.given.lift_joints.empty())
-        s.warnings.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
-                                         "[[lift_joint]] is left to `damslip fe`.",
-                                         ready.given.lift_joints.size()));
-    const ScreenReportInput in{ready.given, ready.scene, s, ready.records(), arguments.jobs};
+    for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
+    const ScreenReportInput in{ready.given,     ready.scene,    s,
+                               ready.records(), arguments.jobs, spectrum ? &*spectrum : nullptr};
     streams.out << (streams.form == Form::json ? screen_json(in).dump(2) + "\n" : screen_text(in));
     if (!arguments.out.empty()) {
         write_screening(arguments.out, in);
@@ -41,6 +63,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
             streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
                          << (has_rocking(s) ? "rocking_block.csv, " : "") << (s.flexible ? "flexible_block.csv, " : "")
                          << "scene.resolved.toml\nreport: " << (arguments.out / "report.html").string() << "\n";
+    }
+    if (!arguments.pdf.empty()) {
+        print_pdf(screen_report(in), arguments.pdf);
+        if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
     }
     return statuses_of(s).exit_code();
 }

@@ -1,11 +1,13 @@
 #include "cli/sweep_command.hpp"
 
 #include "cli/input/make_axes.hpp"
+#include "cli/print_pdf.hpp"
 #include "cli/sweep_plan.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/sweep/needed_friction_table.hpp"
 #include "pages/sweep/opening_water_table.hpp"
 #include "pages/sweep/sweep_parts.hpp"
 #include "pages/sweep/sweep_report.hpp"
@@ -38,6 +40,9 @@ void check_flags(const SweepArguments& a, Form form)
                                           {"--plan", a.plan},
                                           {"--slurm-array", !a.slurm_array.empty()}})
             if (given) refuse_usage(fmt::format("{} without --out.", flag), "both", "add  --out results.csv");
+    if (!a.pdf.empty() && (parts || !a.shard.empty()))
+        refuse_usage("--pdf with a part or a plan of a sweep.", "a whole sweep, or --merge: parts have no report",
+                     "delete --pdf, and add it where the parts are put together");
     if (a.parts && !parts)
         refuse_usage("--parts without --plan or --slurm-array.", "with one of them", "delete --parts");
     if (parts && !a.shard.empty())
@@ -62,10 +67,30 @@ void put(const std::filesystem::path& file, const std::string& text, const Strea
 
 constexpr std::size_t largest_report = 300'000; ///< rows
 
+/// The report beside the table (results.csv -> results.html), and on paper, as asked for.
+void put_pages(const SweepArguments& arguments, const SweepReportInput& in, const Streams& streams)
+{
+    const std::string html = sweep_report(in);
+    if (!arguments.out.empty()) {
+        std::filesystem::path page = arguments.out;
+        page.replace_extension(".html");
+        write_file(page, html);
+        if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+    }
+    if (arguments.pdf.empty()) return;
+    print_pdf(html, arguments.pdf);
+    if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
+}
+
+bool reports(const SweepArguments& arguments)
+{
+    return !arguments.out.empty() || !arguments.pdf.empty();
+}
+
 /// The report of merged parts: of the rows alone, or with what the scene says when it is named.
 void put_merged_report(const SweepArguments& arguments, const MergedSweep& merged, const Streams& streams)
 {
-    if (arguments.out.empty() || merged.rows > largest_report) return;
+    if (!reports(arguments) || merged.rows > largest_report) return;
     std::optional<Scene> scene;
     Records records = std::make_shared<const std::vector<RecordPair>>();
     if (!arguments.inputs.scene.empty()) {
@@ -76,11 +101,8 @@ void put_merged_report(const SweepArguments& arguments, const MergedSweep& merge
                          "leave SCENE out");
         records = load_records(*scene, Method::rigid_block);
     }
-    std::filesystem::path page = arguments.out;
-    page.replace_extension(".html");
-    write_file(page,
-               sweep_report({scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, *records, arguments.out, {}}));
-    if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+    put_pages(arguments, {scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, *records, arguments.out, {}},
+              streams);
 }
 
 int merge(const SweepArguments& arguments, const Streams& streams)
@@ -158,18 +180,15 @@ struct Job {
     std::filesystem::path out; ///< of the sweep or of the part
 };
 
-/// The report beside the table: results.csv -> results.html. A part has none, nor has a table too large to be looked at.
+/// A part has no report, nor has a table too large to be looked at.
 /// @param compared  FE against the rigid block
 void put_report(const Job& job, const std::vector<RecordPair>& records, const Table& compared, const Table& table,
                 const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
-    if (job.out.empty() || job.shard || table.rows.size() > largest_report) return;
+    if (!reports(job.arguments) || job.shard || table.rows.size() > largest_report) return;
     std::vector<Table> tables;
     if (outcome.fe) tables = {compared, count_table(*outcome.fe)};
-    std::filesystem::path page = job.out;
-    page.replace_extension(".html");
-    write_file(page, sweep_report({&job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}));
-    if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+    put_pages(job.arguments, {&job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}, streams);
 }
 
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
@@ -190,6 +209,9 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     if (!streams.quiet) {
         if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
         if (const std::optional<Table> rules = opening_water_table(table)) streams.talk << text(*rules) << "\n";
+        if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
+            !job.shard && !needed.rows.empty())
+            streams.talk << text(needed) << "\n";
         streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
                                     job.out.empty() ? "" : " in " + job.out.string());
     }
@@ -258,7 +280,7 @@ int stopped(std::size_t finished, std::size_t wanted, const Streams& streams)
 int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity, const std::vector<std::size_t>& wanted,
              Journal* journal, const Streams& streams)
 {
-    const bool reported = !job.out.empty() && !job.shard && wanted.size() <= largest_report;
+    const bool reported = reports(job.arguments) && !job.shard && wanted.size() <= largest_report;
     RowsOut rows(job, identity, streams);
     Table listed;
     SweepViewMaker all, unanswered;
@@ -286,11 +308,8 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     if (totals.bad) streams.talk << unanswered_words(unanswered.view()) << "\n";
     if (reported) {
         const SweepView view = all.view();
-        std::filesystem::path page = job.out;
-        page.replace_extension(".html");
-        write_file(page, sweep_report({&job.scene, listed, {}, *inputs.records, job.out, {}, &view}));
-        if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
-    } else if (!job.out.empty() && !job.shard && !streams.quiet) {
+        put_pages(job.arguments, {&job.scene, listed, {}, *inputs.records, job.out, {}, &view}, streams);
+    } else if (reports(job.arguments) && !job.shard && !streams.quiet) {
         streams.talk << fmt::format("no report: {} rows are more than the {} it draws\n", totals.rows, largest_report);
     }
     if (journal) journal->mark_done();

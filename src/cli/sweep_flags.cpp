@@ -44,10 +44,13 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
          "mouth_speed_m_s), reynolds");
     list("--reservoir", a.reservoir, fmt::format("{}", fmt::join(reservoir_axis_words(), ", ")));
     list("--size", a.size, "factors on all lengths of the scene: dam, rock, water, elements");
+    list("--period", a.period, "periods of the flexible block [s], for decoupled and coupled");
+    list("--damping", a.damping, "damping ratios of the flexible block, for decoupled and coupled");
     list("--scale", a.scale, "factors on the records");
     list("--polarity", a.polarity, "1, -1 or both: 1,-1");
     list("--method", a.method,
          "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "
+         "decoupled and coupled (the block that vibrates on its base: [flexible_block] or --period), "
          "fe (finite elements with the scene's contact law), "
          "fe-exact, fe-penalty, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, fe-radiating, fe-massless, "
          "fe-reduced, and regressions by "
@@ -61,6 +64,7 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
            "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
            "output")
         ->check(output_to(OutputPath::regular_file, "--out"));
+    add_pdf(sub, a.pdf);
     sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
     add_sweep_parts(sub, a);
 }

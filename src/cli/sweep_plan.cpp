@@ -23,6 +23,7 @@ std::string sweep_command_line(const SweepArguments& a)
     const auto add = [&line](const char* flag, const std::string& value) {
         if (!value.empty()) line += fmt::format(" {} {}", flag, shell_quoted(value));
     };
+    add("--records", a.inputs.record_list);
     for (const auto& record : a.inputs.records) add("--record", record.string());
     for (const auto& vertical : a.inputs.verticals) add("--vertical", vertical.string());
     add("--units", a.inputs.unit);
@@ -36,6 +37,8 @@ std::string sweep_command_line(const SweepArguments& a)
     add("--opening-water", a.opening_water);
     add("--reservoir", a.reservoir);
     add("--size", a.size);
+    add("--period", a.period);
+    add("--damping", a.damping);
     add("--scale", a.scale);
     add("--polarity", a.polarity);
     add("--method", a.method);

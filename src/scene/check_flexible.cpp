@@ -11,7 +11,19 @@ void check_flexible_block(const Scene& s, Findings& f)
     const auto wrong = [&f](const char* key, std::string problem, std::string expected, std::string fix) {
         f.wrong(key, std::move(problem), std::move(expected), std::move(fix));
     };
-    if (!m.period && !m.of_modes && !(s.regressions.period > 0.0))
+    if (m.height.has_value() != m.shear_velocity.has_value())
+        wrong(m.height ? "flexible_block.height" : "flexible_block.shear_velocity",
+              "flexible_block.height_m and shear_velocity_m_s are not both given.", "both or neither", "add the other");
+    if (m.height && m.shear_velocity && (m.period || m.of_modes))
+        wrong("flexible_block.period",
+              "flexible_block.period_s is given together with height_m and shear_velocity_m_s.",
+              "one of them: T_s = 4 H/V_s of the column", "delete period_s");
+    for (const auto& [key, given] : {std::pair{"flexible_block.base_velocity", m.base_velocity},
+                                     {"flexible_block.reference_strain", m.reference_strain}})
+        if (given && !m.height)
+            wrong(key, fmt::format("{} is given without a column.", key),
+                  "height_m and shear_velocity_m_s of the column", "add them, or delete this key");
+    if (!m.period && !m.of_modes && !m.height && !(s.regressions.period > 0.0))
         wrong("flexible_block", "flexible_block.period_s is missing.",
               "a period, or regressions.period_s, or \"modes\"", "add  period_s = 0.3  to [flexible_block]");
     if (m.modal_load.has_value() != m.modal_mass.has_value())

@@ -52,9 +52,8 @@ std::vector<std::string> Key::spellings() const
 bool belongs_to_wedge(const std::string& group)
 {
     static const std::set<std::string> tables{
-        "",        "site",          "wedge",   "wedge.plane", "wedge.force",
-        "motion",  "motion.record", "sliding", "regressions", "regressions.weight",
-        "criteria"};
+        "",       "project",       "site",    "wedge",       "wedge.plane",        "wedge.force",
+        "motion", "motion.record", "sliding", "regressions", "regressions.weight", "criteria"};
     return tables.contains(group);
 }
 

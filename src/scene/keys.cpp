@@ -15,6 +15,7 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
                       {word("title", "file name", "what the scene is", "\"Reference dam\"", at(&Scene::title))},
                       [](Scene& s) -> void* { return &s; },
                       [](const Scene& s) { return std::vector<const void*>{&s}; }});
+    groups.push_back(project_group());
     groups.push_back(
         {"site",
          Presence::always,

@@ -5,6 +5,9 @@
 /// The keys of the scene file by topic, each with its unit, range, default and meaning. keys.cpp puts them in order.
 namespace damslip::keys {
 
+/// Title block of the reports.
+KeyGroup project_group();
+
 /// @param input  filled instead of a member of the scene: the polygon is made of it afterwards (make_section)
 KeyGroup section_group(SectionInput& input);
 std::vector<KeyGroup> base_groups();

@@ -35,6 +35,20 @@ KeyGroup flexible_block_group()
                 at(&M::modal_load)),
          number("modal_mass", line_mass, Range::above(0), "none", "M_1 = Σ m ψ², water included", "1e6",
                 at(&M::modal_mass)),
+         number("height", length, Range::half_open(0, 1000), "none",
+                "H of a uniform shear column: with shear_velocity_m_s in place of the period, T_s = 4 H/V_s", "30",
+                at(&M::height)),
+         number("shear_velocity", {{"m_s", 1.0}}, Range::half_open(0, 10000), "none",
+                "V_s of the column at small strain", "450", at(&M::shear_velocity)),
+         number("base_velocity", {{"m_s", 1.0}}, Range::half_open(0, 10000), "none",
+                "V_s of the rock below the column: what it radiates is added to the damping, at most 20 %; without it "
+                "nothing",
+                "1500", at(&M::base_velocity)),
+         number("reference_strain", {{"percent", 0.01}}, Range::half_open(0, 100), "none",
+                "shear strain at which the column's shear modulus is halved: period and damping follow the strain of "
+                "each record "
+                "(equivalent linear); without it they stay",
+                "0.05", at(&M::reference_strain)),
          word("mode", "both", "vibration first and slip after it (decoupled), both at once (coupled), or both analyses",
               "\"coupled\"",
               choice(&M::method,

@@ -5,6 +5,7 @@
 #include "core/units.hpp"
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
+#include "scene/fragility_input.hpp"
 #include "scene/key_table.hpp"
 #include "scene/plausible.hpp"
 #include "scene/preset.hpp"
@@ -428,7 +429,7 @@ void keep_wedge_tables(std::vector<KeyGroup>& groups, toml::table& root, Finding
         if (const toml::node* node = root.get(table); node && !belongs_to_wedge(table)) {
             findings.wrong_at(
                 place_of(node->source()), fmt::format("[{}] has no place in a scene of a [wedge].", table),
-                "[site], [wedge], [[wedge.plane]], [[wedge.force]], [motion], [[motion.record]], [sliding], "
+                "[project], [site], [wedge], [[wedge.plane]], [[wedge.force]], [motion], [[motion.record]], [sliding], "
                 "[regressions], [criteria]",
                 fmt::format("delete [{}], or [wedge]", table));
             root.erase(table);
@@ -477,6 +478,7 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     std::vector<KeyGroup> groups = key_groups(section);
     const bool wedge = root.contains("wedge");
     if (wedge) keep_wedge_tables(groups, root, findings);
+    for (const char* table : fragility_tables) root.erase(table); // read by read_fragility_input() alone
     unknown_tables(groups, root, findings);
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
     read_expectations(root, scene, findings);

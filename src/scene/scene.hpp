@@ -245,6 +245,12 @@ struct FlexibleMass {
     std::optional<double> shape_exponent;         ///< n of psi = (y/H)^n over the section, water included [-]
     std::optional<double> modal_load, modal_mass; ///< L, M_1, water included [kg/m]
     FlexibleMethod method = FlexibleMethod::both;
+
+    // A uniform shear column in place of the period.
+    std::optional<double> height;         ///< H [m]
+    std::optional<double> shear_velocity; ///< V_s at small strain [m/s]; T_s = 4 H/V_s
+    std::optional<double> base_velocity;  ///< V_s of the rock below, which takes waves away [m/s]; none: it takes none
+    std::optional<double> reference_strain; ///< at which the shear modulus is halved [-]; none: linear
 };
 
 /// Options of the rigid-block integration.
@@ -362,9 +368,18 @@ struct Expectation {
     std::string source; ///< where the value comes from
 };
 
+/// What the title block of a report says of the work it belongs to; empty: not said. No number depends on it.
+struct Project {
+    std::string name, client;    ///< of the work, and for whom it is done
+    std::string author, checker; ///< who made the assessment, and who has checked it
+    std::string date, revision;  ///< of the report, as written
+    std::string notes;
+};
+
 struct Scene {
     std::filesystem::path file; ///< as the user named it
     std::string title;
+    Project project;
     double gravity = 9.81;          ///< in loads [m/s^2]
     std::optional<RockWedge> wedge; ///< instead of section, dam, contact and all that belongs to them
     Section section;

@@ -189,6 +189,20 @@ Scene SceneText::with(std::span<const KeyChange> changes) const
     return scene_of_table(std::move(root), tables_->file, FileCheck::must_exist);
 }
 
+double SceneText::written(const std::string& key) const
+{
+    const std::optional<Target> target = find(tables_->groups, key);
+    if (!target) refuse_key(tables_->file, key, keys());
+    toml::table root = tables_->root;
+    const toml::table* table = table_of(root, *target);
+    const std::optional<double> value = table ? (*table)[path_of(key).key].value<double>() : std::nullopt;
+    if (!value)
+        throw InputError(Diagnostic{tables_->file.string(), 0, 0, fmt::format("{} is not in the file.", key),
+                                    "a number for a factor to multiply, in the same spelling",
+                                    fmt::format("write  {} = ...", key)});
+    return *value;
+}
+
 std::vector<std::string> SceneText::keys() const
 {
     std::vector<std::string> names;

@@ -42,6 +42,9 @@ public:
     /// same. @throws InputError for a key that cannot be set
     std::string canonical(const std::string& key) const;
 
+    /// The number that the file has for a key, in the unit of the key's spelling given here. @throws InputError where it says none
+    double written(const std::string& key) const;
+
     const std::filesystem::path& file() const;
 
 private:

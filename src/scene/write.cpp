@@ -163,7 +163,9 @@ std::string resolved_toml(const Scene& given, RecordPaths paths)
 
 std::string scene_hash(const Scene& scene)
 {
-    return sha256(resolved_toml(scene, RecordPaths::file_names));
+    Scene computed = scene;
+    computed.project = {}; // a new revision of the report is still a report of the same numbers
+    return sha256(resolved_toml(computed, RecordPaths::file_names));
 }
 
 } // namespace damslip

@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# The user guide: runs every command of it, in order, and looks for every line of output that it shows.
-#   check_guide.sh DAMSLIP SOURCE
+# A page with a session: runs every command of it, in order, and looks for every line of output that it shows. Other blocks than those of output
+# name their language after the ```. Without a Chromium --pdf is left out.
+#   check_guide.sh DAMSLIP SOURCE PAGE FILE ...     FILE: that the commands leave in their folder
 set -euo pipefail
-program=$1 source=$2
+program=$1 source=$2 page=$3
+shift 3
+printing=no
+for browser in chromium chromium-browser google-chrome google-chrome-stable; do command -v "$browser" >/dev/null && printing=yes; done
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 fail() { echo "FAIL: $*" >&2; exit 1; }
 ln -s "$source/examples" "$source/records" "$work"
@@ -14,17 +18,22 @@ shown=no commands=0
 while IFS= read -r line; do
     case $shown$line in
     'no    damslip '*)
+        [ "$printing" = yes ] || line=$(sed 's/ --pdf [^ ]*//' <<<"$line")
         eval "$line" >answer 2>talk || fail "$line exits with $?: $(tail -n 3 talk)"
         squeezed answer >squeezed
         commands=$((commands + 1)) ;;
     'no```') shown=yes ;;
+    'no```'*) shown=other ;;
+    'other```') shown=no ;;
+    other*) ;;
     'yes```') shown=no ;;
     yes*)
         printf '%s\n' "$line" >wanted
         grep -qF -- "$(squeezed wanted)" squeezed || fail "command $commands no longer says: $line" ;;
     esac
-done <"$source/docs/user-guide.md"
+done <"$source/docs/$page"
 [ "$commands" -ge 6 ] || fail "only $commands commands were found"
-for file in fe/report.html fe/summary.json sweep.csv sweep.html accuracy/report.html; do
-    [ -s "results/$file" ] || fail "results/$file was not written"
+for file in "$@"; do
+    case $file in *.pdf) [ "$printing" = yes ] || continue ;; esac
+    [ -s "$file" ] || fail "$file was not written"
 done

@@ -74,6 +74,35 @@ TEST(EmpiricalRegression, values_by_hand)
     }
 }
 
+// The other branches of the near-fault models: short periods, and PGV above 150 cm/s.
+TEST(EmpiricalRegression, near_fault_branches)
+{
+    const struct {
+        const char* id;
+        double pgv, period, log_d;
+    } rows[] = {
+        {"bray-macedo-2019-near-fault-d100", 60.0, 0.05, 4.7560239008},
+        {"bray-macedo-2019-near-fault-d100", 60.0, 0.3, 4.9421039008},
+        {"bray-macedo-2019-near-fault-d100", 180.0, 0.05, 6.6333560485},
+        {"bray-macedo-2019-near-fault-d100", 180.0, 0.3, 6.8194360485},
+        {"bray-macedo-2019-near-fault-d50", 60.0, 0.05, 3.5021113855},
+        {"bray-macedo-2019-near-fault-d50", 60.0, 0.3, 3.6837613855},
+        {"bray-macedo-2019-near-fault-d50", 180.0, 0.05, 5.0113809350},
+        {"bray-macedo-2019-near-fault-d50", 180.0, 0.3, 5.1930309350},
+    };
+    for (const auto& row : rows) {
+        RegressionInputs inputs = general_inputs();
+        inputs.pgv_cm_s = row.pgv;
+        inputs.period_s = row.period;
+        const RegressionResult result = run(row.id, inputs);
+        ASSERT_TRUE(result.nonzero_median_cm) << row.id;
+        EXPECT_NEAR(std::log(*result.nonzero_median_cm), row.log_d, 1e-9)
+            << row.id << " " << row.pgv << " " << row.period;
+        ASSERT_TRUE(result.zero_probability);
+        EXPECT_LT(*result.zero_probability, 1e-3); // it slides
+    }
+}
+
 // The formulas of the publications once more, by a separate program, at k_y = 0.1, a_max = 0.4, I_a = 2, PGV = 50, T_m = 0.5,
 // M = 6.5, T_s = 0.3, S_a(1.3 T_s) = 0.8, S_a(1.5 T_s) = 0.6, N_eq = 8; ln D, or log10 D where sigma is decimal, to 1e-10.
 TEST(EmpiricalRegression, values_at_a_general_point)
@@ -88,6 +117,8 @@ TEST(EmpiricalRegression, values_at_a_general_point)
         {"bray-travasarou-2007", 3.0109440166, 0.66, true},
         {"bray-macedo-2019-rigid", 1.8798199884, 0.72, true},
         {"bray-macedo-2019", 2.9211354425, 0.74, true},
+        {"bray-macedo-2019-near-fault-d100", 4.6600524524, 0.56, true},
+        {"bray-macedo-2019-near-fault-d50", 3.4179365557, 0.54, true},
         {"bray-macedo-travasarou-2018", 2.1948250839, 0.73, true},
         {"hynes-griffin-franklin-1984-mean", 0.9410659482, 0.0, false},
         {"hynes-griffin-franklin-1984-upper", 1.7808285606, 0.0, false},

@@ -1,11 +1,14 @@
 // VTU files: every byte offset of the header points at a block of the right length.
 #include "core/file.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
+#include "fe2d/output/mesh_part.hpp"
 #include "fe2d/output/vtu.hpp"
+#include "fe2d/run/frame_spool.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <regex>
 
@@ -51,6 +54,62 @@ TEST(FeOutput, pvd_lists_the_times)
     const std::string text = read_file(path);
     std::filesystem::remove(path);
     EXPECT_NE(text.find("<DataSet timestep=\"0.1\" part=\"0\" file=\"fields_1.vtu\"/>"), std::string::npos);
+}
+
+/// Every element of the mesh is in one part, with the same corners, and the values go with its nodes.
+TEST(FeOutput, PartsOfAMeshAreTheMesh)
+{
+    const Mesh mesh = build_mesh(test::reference_dam_on_rock());
+    const MeshPart dam = part_of(mesh, 0, mesh.dam_element_count),
+                   rock = part_of(mesh, mesh.dam_element_count, mesh.element_count());
+    EXPECT_EQ(dam.mesh.node_count(), mesh.dam_node_count); // the plane is split: no node is in both
+    EXPECT_EQ(dam.mesh.node_count() + rock.mesh.node_count(), mesh.node_count());
+    EXPECT_EQ(dam.mesh.element_count() + rock.mesh.element_count(), mesh.element_count());
+    Eigen::MatrixXd x(1, mesh.node_count());
+    for (int node = 0; node < mesh.node_count(); ++node) x(0, node) = mesh.nodes[static_cast<std::size_t>(node)].x;
+    for (const MeshPart* part : {&dam, &rock}) {
+        const Eigen::MatrixXd here = part->at_nodes(x);
+        for (std::size_t e = 0; e < part->elements.size(); ++e) {
+            const Element& element = part->mesh.elements[e];
+            const auto of_part = corners(part->mesh, element);
+            const auto of_mesh = corners(mesh, mesh.elements[static_cast<std::size_t>(part->elements[e])]);
+            EXPECT_EQ(of_part, of_mesh);
+            for (int i = 0; i < element.size(); ++i)
+                EXPECT_EQ(here(0, element.nodes[static_cast<std::size_t>(i)]), of_part[static_cast<std::size_t>(i)].x);
+        }
+    }
+}
+
+TEST(FeOutput, FramesComeBackAsTheyWent)
+{
+    FrameSpool spool(0.5);
+    std::vector<double> kept;
+    for (int row = 0; row <= 7; ++row) { // rows at 0.2 s: those at or after 0, 0.5, 1.0 s
+        const double time = 0.2 * row;
+        if (!spool.due(time)) continue;
+        RunFrame frame;
+        frame.time = time;
+        frame.mean_slip = -time;
+        frame.dam = Eigen::VectorXd::Constant(3 + row, 1.0 / (1 + row)); // lengths may differ
+        frame.water = Eigen::VectorXd::LinSpaced(4, 0.0, time);
+        frame.states = {0.0, 3.0};
+        spool.add(frame);
+        kept.push_back(time);
+    }
+    const std::vector<double> due{0.0, 0.2 * 3, 0.2 * 5};
+    EXPECT_EQ(kept, due);
+    ASSERT_EQ(spool.count(), due.size());
+    EXPECT_EQ(spool.last_time(), due.back());
+    for (const std::size_t i : {std::size_t{2}, std::size_t{0}, std::size_t{1}}) { // in any order
+        const RunFrame frame = spool.read(i);
+        const int row = static_cast<int>(std::lround(due[i] / 0.2));
+        EXPECT_EQ(frame.time, due[i]);
+        EXPECT_EQ(frame.mean_slip, -due[i]);
+        EXPECT_EQ(frame.dam, Eigen::VectorXd::Constant(3 + row, 1.0 / (1 + row)));
+        EXPECT_EQ(frame.water, Eigen::VectorXd::LinSpaced(4, 0.0, due[i]));
+        EXPECT_EQ(frame.states, (std::vector<double>{0.0, 3.0}));
+        EXPECT_EQ(frame.rock.size(), 0);
+    }
 }
 
 } // namespace

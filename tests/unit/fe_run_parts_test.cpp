@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Model small_model()
+Model parts_model()
 {
     Scene scene = fe2d::test::sliding_dam(0.77, 1.0, 9.0);
     scene.mesh.size = 12.0;
@@ -37,7 +37,7 @@ VectorXd uneven(Index n)
 // A x = b with A = a M + K in two passes, against a dense solution; round-off times the condition (about 1e5).
 TEST(FeRunParts, factor_with_the_interface_last_solves_the_body)
 {
-    const Model model = small_model();
+    const Model model = parts_model();
     const ContactStructure structure(model);
     ASSERT_TRUE(structure.regular());
     const SparseMatrix a = 4e4 * structure.mass() + structure.stiffness();
@@ -63,7 +63,7 @@ TEST(FeRunParts, factor_with_the_interface_last_solves_the_body)
 // The floating dam: its inner part is regular, the Schur complement has exactly the three rigid motions as null space.
 TEST(FeRunParts, the_floating_dam_keeps_its_rigid_motions)
 {
-    const Model model = small_model();
+    const Model model = parts_model();
     const ContactStructure structure(model);
     const MatrixXd& s = structure.static_factor().schur();
     const auto& nodes = model.mesh.contact.dam_nodes;
@@ -80,7 +80,7 @@ TEST(FeRunParts, the_floating_dam_keeps_its_rigid_motions)
 // Two ways to condense the rock: Schur complement in the factor here, column solutions in CondensedBody.
 TEST(FeRunParts, condensed_rock_agrees_with_the_condensed_body)
 {
-    const Model model = small_model();
+    const Model model = parts_model();
     const ContactStructure structure(model);
     const Index first = 2 * model.mesh.dam_node_count, n = model.dofs.count - first;
     const SparseMatrix rock = model.stiffness.bottomRightCorner(n, n);
@@ -102,9 +102,39 @@ TEST(FeRunParts, condensed_rock_agrees_with_the_condensed_body)
     EXPECT_LT((all.tail(n) - recovered).norm(), 1e-11 * recovered.norm());
 }
 
+// Sums run in the same order on every level of vector instructions: not a bit differs. On a processor without AVX2 there
+// is one level, and nothing to compare.
+TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
+{
+    if (vector_level() == VectorLevel::sse2) GTEST_SKIP() << "one level here";
+    const Model model = parts_model();
+    const ContactStructure structure(model);
+    const InterfaceFactor factor(4e4 * structure.mass() + structure.stiffness(), structure.order().inner);
+    ASSERT_TRUE(factor.regular());
+    const VectorXd a = uneven(structure.dam_unknowns()), b = a.reverse(), c = a.cwiseAbs2(), d = a - 0.3 * b;
+    VectorXd low = a, high = a;
+    factor.forward(low, VectorLevel::sse2);
+    factor.forward(high, VectorLevel::avx2);
+    EXPECT_TRUE(low == high);
+    factor.backward(low, VectorLevel::sse2);
+    factor.backward(high, VectorLevel::avx2);
+    EXPECT_TRUE(low == high);
+
+    const BlockProducts products(structure.stiffness(), structure.mass());
+    Products of_low, of_high;
+    products.multiply({a, b, c, d}, of_low, VectorLevel::sse2);
+    products.multiply({a, b, c, d}, of_high, VectorLevel::avx2);
+    EXPECT_TRUE(of_low.stiffness_1 == of_high.stiffness_1 && of_low.stiffness_2 == of_high.stiffness_2);
+    EXPECT_TRUE(of_low.mass_1 == of_high.mass_1 && of_low.mass_2 == of_high.mass_2);
+    VectorXd k_low, m_low, k_high, m_high;
+    products.multiply(a, k_low, m_low, VectorLevel::sse2);
+    products.multiply(a, k_high, m_high, VectorLevel::avx2);
+    EXPECT_TRUE(k_low == k_high && m_low == m_high);
+}
+
 TEST(FeRunParts, four_products_at_once)
 {
-    const Model model = small_model();
+    const Model model = parts_model();
     const ContactStructure structure(model);
     BlockProducts products(structure.stiffness(), structure.mass());
     const VectorXd a = uneven(structure.dam_unknowns()), b = a.reverse(), c = a.cwiseAbs2(), d = a - 0.3 * b;

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace {
@@ -208,6 +210,54 @@ TEST(JointStates, NumbersOfLawsAreChecked)
               std::string::npos);
     EXPECT_NE(message([](auto& laws) { laws["anchor_state"][0] = 7.0; }).find("is no state of an anchor"),
               std::string::npos);
+}
+
+/// Friction alone does not hold this dam; passive bars across the joint pull only once it has slid.
+Scene dam_that_jumps()
+{
+    Scene scene = hard::soft_dam(0.5);
+    scene.contact.cohesion = 300e3;
+    scene.contact.bond.shear_energy = 30.0;
+    Anchor bar;
+    bar.name = "bars";
+    bar.distance = 22.0;
+    bar.inclination = 0.0;
+    bar.free_length = 0.5;
+    bar.area = 0.008;
+    bar.yield_strength = 1640e6;
+    bar.rupture_strain = 0.2;
+    scene.anchors.push_back(bar);
+    scene.time.substeps = 0;
+    return scene;
+}
+
+// The bond unzips under the uplift, no state in equilibrium follows, and the dam, let go, comes to rest on its bars: where
+// |T - N sin| <= mu (N' + N cos) with the N of their length by hand. What damping took is less than what the loads did
+// beyond friction.
+TEST(StaticJump, ADamWhoseBondBreaksComesToRestOnItsBars)
+{
+    const Scene scene = dam_that_jumps();
+    const fe2d::RunResult run = run_of(scene, hard::silence(0.1));
+    ASSERT_FALSE(run.stages.empty());
+    const auto jumped = std::find_if(run.stages.begin(), run.stages.end(),
+                                     [](const fe2d::StageResult& s) { return s.bond && s.bond->jumps > 0; });
+    ASSERT_NE(jumped, run.stages.end()) << run.stages.back().text();
+    EXPECT_EQ(jumped->status, fe2d::StageStatus::ok);
+    EXPECT_LT(jumped->bond->largest, 0.999);
+    EXPECT_LE(jumped->bond->largest, jumped->bond->limit);
+    EXPECT_EQ(jumped->bond->carried, 1.0);
+    EXPECT_NE(jumped->text().find("It jumped there"), std::string::npos) << jumped->text();
+
+    const Anchor& bar = scene.anchors.front();
+    const double length = std::hypot(bar.free_length, jumped->slip);
+    const double force = std::min(bar.young_modulus * (length / bar.free_length - 1.0), bar.yield_strength) * bar.area;
+    const double across = force * bar.free_length / length, along = force * jumped->slip / length;
+    // The resultants count bars with the force of the stage before: none.
+    const double normal = jumped->resultant.normal_force, shear = jumped->resultant.shear_force;
+    EXPECT_GT(shear, scene.contact.friction * normal) << "friction alone would hold it";
+    EXPECT_LE(std::abs(shear - along), scene.contact.friction * (normal + across) * (1.0 + 1e-3));
+    EXPECT_GT(jumped->bond->lost, 0.0);
+    EXPECT_LT(jumped->bond->lost, (shear - scene.contact.friction * normal) * jumped->slip);
 }
 
 } // namespace

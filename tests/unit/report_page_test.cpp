@@ -32,6 +32,8 @@ Page hostile_page()
     Page page;
     page.title = page.subtitle = evil;
     page.headline = {evil, Outcome::pass, evil};
+    page.footer = page.title_block.notes = evil;
+    page.title_block.entries = page.title_block.signers = {{evil, evil}};
     page.key_figures = page.provenance = {{evil, evil}};
     page.warnings = {evil};
     Table table{evil, {{"a", evil, evil, 4}}, {{Cell(evil)}, {Cell(1.5)}, {Cell()}}, {evil}};
@@ -69,6 +71,37 @@ TEST(ReportPage, NoTextOfTheUserBecomesMarkup)
     EXPECT_EQ(occurrences(html, "</script>"), 5u);
     EXPECT_NE(html.find("&lt;/script&gt;&lt;img"), std::string::npos);
     EXPECT_NE(html.find("\\u003c/script>"), std::string::npos);
+}
+
+TEST(ReportPage, TheTitleBlockHasRoomForASignatureOfEach)
+{
+    Page page;
+    page.title = "Dam";
+    EXPECT_EQ(page_html(page).find("<section class=\"title-block\""), std::string::npos) << "nothing given, no block";
+    page.title_block.entries = {{"client", "Valley Power"}};
+    page.title_block.signers = {{"prepared by", "A. Meier"}, {"checked by", "B. Rossi"}};
+    page.title_block.notes = "level of 2024";
+    const std::string html = page_html(page);
+    EXPECT_NE(html.find("<dt>client</dt><dd>Valley Power</dd>"), std::string::npos);
+    EXPECT_EQ(occurrences(html, "<dd class=\"signature\">"), 2u);
+    EXPECT_NE(html.find("<p>level of 2024</p>"), std::string::npos);
+}
+
+TEST(ReportPage, TheFooterIsAStringOfTheStyleWhateverItHolds)
+{
+    Page page;
+    page.footer = "Dam \"A\" \\ </style>\nrevision B";
+    const std::string html = page_html(page);
+    EXPECT_NE(html.find("@bottom-left { content: \"Dam \\\"A\\\" \\\\ \\3c /style>revision B\"; }"), std::string::npos);
+    EXPECT_EQ(occurrences(html, "</style>"), 1u);
+}
+
+TEST(ReportPage, DefinitionsStandBelowTheirTable)
+{
+    Page page;
+    page.sections = {{"S", {rows_part({"T", {{"a", "a"}}, {{Cell(1.0)}}, {"a note"}}, {"a is <a>"})}}};
+    EXPECT_NE(page_html(page).find("<p class=\"note\">a note</p>\n<p class=\"note\">a is &lt;a&gt;</p>"),
+              std::string::npos);
 }
 
 TEST(ReportPage, TheEmbeddedScriptsEndWhereTheyShould)

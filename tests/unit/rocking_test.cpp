@@ -7,6 +7,8 @@
 #include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/rocking/corner.hpp"
 #include "sliding/rocking/rocking.hpp"
+#include "verification/exact/rocking_block.hpp"
+#include "verification/exact/sampled_ground.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -20,25 +22,14 @@
 namespace damslip::sliding {
 namespace {
 
+using exact::ground_of;
+using exact::stillness;
+
 constexpr double g = 9.81;
-
-template <class Function>
-GroundMotion motion(Function&& a_h, double duration, int n)
-{
-    GroundMotion m;
-    m.dt = duration / n;
-    for (int k = 0; k <= n; ++k) m.accel_h.push_back(a_h(k * m.dt));
-    return m;
-}
-
-GroundMotion stillness(double duration, int n)
-{
-    return motion([](double) { return 0.0; }, duration, n);
-}
 
 GroundMotion shaking(double peak)
 {
-    return motion(
+    return ground_of(
         [=](double t) {
             return peak * (0.5 * std::sin(6.0 * t) + 0.3 * std::sin(11.3 * t + 1.0) + 0.2 * std::sin(25.7 * t));
         },
@@ -129,7 +120,7 @@ TEST(Rocking, DoesNotDependOnTheSampling)
 TEST(Rocking, EndsAtRestOverturnedOrStillMoving)
 {
     EXPECT_EQ(rock_and_slide(shaking(3.0), tower(5.0)).slide.status, Status::at_rest); // 3.92 m/s2 starts it
-    const RockingResult fallen = rock_and_slide(motion([](double) { return 6.0; }, 10.0, 500), tower(5.0));
+    const RockingResult fallen = rock_and_slide(ground_of([](double) { return 6.0; }, 10.0, 500), tower(5.0));
     EXPECT_EQ(fallen.slide.status, Status::overturned);
     EXPECT_NEAR(fallen.max_toe_rotation, std::acos(0.0), 1e-9);
     EXPECT_FALSE(reported(fallen.slide.status, fallen.slide.slip));
@@ -183,7 +174,7 @@ TEST(Rocking, TheBondHoldsWhereTheJointIsClosed)
     const BaseState state = base_state(scene, static_case);
     const RockingBlock block = make_rocking_block(
         scene, state, {}, strength_stages(make_rigid_block(scene, state, std::nullopt), scene.contact));
-    const RockingResult r = rock_and_slide(motion([](double t) { return t; }, 6.0, 123), block);
+    const RockingResult r = rock_and_slide(ground_of([](double t) { return t; }, 6.0, 123), block);
     EXPECT_NEAR(r.bond_lost_time, by_hand, 1e-10);
     EXPECT_NEAR(r.slide.first_slip_time, by_hand, 1e-10);
     EXPECT_NEAR(base_limits(scene).yield_with_crack, by_hand, 1e-10);
@@ -202,6 +193,76 @@ TEST(Rocking, BothCornersSeeOneBody)
     EXPECT_NEAR(seen_from_heel.n, seen_from_toe.n, 1e-12 * std::abs(seen_from_toe.n));
     const double energy = 0.5 * (seen_from_heel.t * v + seen_from_heel.n * rate * 4.0 + seen_from_heel.r * rate);
     EXPECT_NEAR(energy, kinetic_energy(toe, 0.0, v, rate), 1e-12 * energy);
+}
+
+/// A tower on water whose uplift is a tenth of the weight in the middle of the base; while it rocks, `open`.
+RockingBlock wet_tower(std::optional<UpliftResultant> open, double friction = 50.0)
+{
+    RockingBlock block = tower(friction);
+    block.stages.front().slip.block.uplift = 0.1 * block.mass * g;
+    block.stages.front().uplift_distance = 2.0;
+    block.uplift_on_toe = block.uplift_on_heel = open;
+    return block;
+}
+
+double lifts_at(const RockingBlock& block, double slope)
+{
+    SlideOptions brief;
+    brief.sliding.run_out_max = 0.0;
+    const GroundMotion ramp = ground_of([=](double t) { return slope * t; }, 5.0, 97);
+    return std::abs(slope) * rock_and_slide(ramp, block, brief).first_rock_time;
+}
+
+// Moments about the toe: m a 5 = (m g - U) 2, with the uplift of the open joint, and all the same about the heel.
+TEST(Rocking, StartsWithTheUpliftOfTheJointThatIsOpenToTheCorner)
+{
+    const double weight = tower(1.0).mass * g, by_hand = g * 2.0 / 5.0;
+    for (const double slope : {1.0, -1.0}) {
+        EXPECT_NEAR(lifts_at(wet_tower({}), slope), 0.9 * by_hand, 1e-9);
+        EXPECT_NEAR(lifts_at(wet_tower(UpliftResultant{0.0, 0.0}), slope), by_hand, 1e-9);
+        EXPECT_NEAR(lifts_at(wet_tower(UpliftResultant{0.3 * weight, 0.6 * weight}), slope), 0.7 * by_hand, 1e-9);
+    }
+}
+
+// Released, a block above a dry joint falls back as one without water does; above a full one as one that is lighter, about
+// its toe, by the moment of the water.
+TEST(Rocking, FallsBackOnTheUpliftOfTheOpenJoint)
+{
+    SlideOptions brief;
+    brief.sliding.run_out_max = 0.0;
+    const exact::Rocker dry{4.0, 10.0, g};
+    const double released = 0.5 * dry.slenderness();
+    const auto lands = [&](const RockingBlock& block) {
+        return rock_and_slide(stillness(5.0, 400), block, brief, {released, 0.0}).first_landing_time;
+    };
+    EXPECT_NEAR(lands(wet_tower(UpliftResultant{0.0, 0.0})), dry.quarter_period(0.5), 1e-9);
+    EXPECT_GT(lands(wet_tower({})), 1.02 * dry.quarter_period(0.5));
+    const double weight = tower(1.0).mass * g;
+    const RockingResult full = rock_and_slide(
+        stillness(5.0, 400), wet_tower(UpliftResultant{0.3 * weight, 0.6 * weight}), brief, {released, 0.0});
+    EXPECT_GT(full.first_landing_time, lands(wet_tower({})));
+    EXPECT_LT(std::abs(full.energy.imbalance), 1e-9);
+}
+
+// Sliding and rocking at once: the energy closes, and below its start nothing rocks. Above a dry joint sliding friction tips the
+// block where mu > b/h = 0.4, whatever the uplift that it stood on before; below that it slides and stays flat.
+TEST(Rocking, SlidesAndRocksOnBothRules)
+{
+    const double weight = tower(1.0).mass * g;
+    const UpliftResultant dry{0.0, 0.0}, full{0.3 * weight, 0.6 * weight};
+    for (const UpliftResultant& open : {dry, full}) {
+        const RockingBlock block = wet_tower(open, 0.41);
+        const RockingResult r = rock_and_slide(shaking(9.0), block, {});
+        EXPECT_GT(r.rocks, 2) << open.force;
+        EXPECT_LT(std::abs(r.energy.imbalance), 1e-9) << open.force;
+        EXPECT_EQ(rock_and_slide(shaking(2.5), block, {}).rocks, 0) << open.force; // a_h below 0.7 g 2/5
+    }
+    EXPECT_GT(rock_and_slide(shaking(9.0), wet_tower(full, 0.41), {}).slide.phases, 2);
+    SlideOptions two_way;
+    two_way.sliding.two_way = true;
+    const RockingResult flat = rock_and_slide(shaking(9.0), wet_tower(dry, 0.38), two_way);
+    EXPECT_EQ(flat.rocks, 0);
+    EXPECT_GT(flat.slide.phases, 2);
 }
 
 TEST(Rocking, IsAMethodOfSweepsAndARungOfTheLadder)

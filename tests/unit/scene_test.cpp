@@ -100,6 +100,42 @@ TEST(Scene, HashChangesWithTheModelOnly)
     EXPECT_NE(scene_hash(scene), scene_hash(parse(other)));
 }
 
+const char* const of_project = R"([project]
+name = "Review"
+client = "Valley Power"
+author = "A. Meier"
+checker = "B. \"R\" Rossi"
+date = "2026-01-31"
+revision = "B"
+notes = "first line\nsecond"
+)";
+
+TEST(Scene, AProjectIsReadAndWrittenAndIsNoPartOfTheHash)
+{
+    const Scene with = parse(of_project + std::string(minimal));
+    EXPECT_EQ(with.project.client, "Valley Power");
+    EXPECT_EQ(with.project.checker, "B. \"R\" Rossi");
+    EXPECT_EQ(with.project.revision, "B");
+    const Scene again = parse(resolved_toml(with));
+    EXPECT_EQ(again.project.notes, with.project.notes);
+    EXPECT_EQ(again.project.date, "2026-01-31");
+    const Scene without = parse(minimal);
+    EXPECT_EQ(resolved_toml(without).find("[project]"), std::string::npos);
+    EXPECT_EQ(scene_hash(with), scene_hash(without)) << "another revision of the report has the same numbers";
+}
+
+TEST(Scene, ADateOfAProjectIsAText)
+{
+    try {
+        parse("[project]\ndate = 2026-01-31\n" + std::string(minimal));
+        FAIL() << "a date without quotes was taken";
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("project.date = a date"), std::string::npos) << what;
+        EXPECT_NE(what.find("a text in quotes"), std::string::npos) << what;
+    }
+}
+
 TEST(Scene, KeyDocumentationIsCurrent)
 {
     std::ifstream in(DAMSLIP_SOURCE_DIR "/docs/scene-keys.md");

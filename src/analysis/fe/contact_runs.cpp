@@ -53,6 +53,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
     const fe2d::RunOptions plain = options_;
     options_.start = options.start;
     if (options.pair_histories) options_.pair_series = fe2d::PairSeries::every_step;
+    options_.frames = options.frames;
     options_.progress = [this](const fe2d::RunProgress& p) {
         meter_.reached(share_of_run * share_of(p));
         return answer(watch_);

@@ -15,6 +15,7 @@ struct FeOptions {
     std::optional<int> polarity = {}; ///< -1 flips the horizontal component; none: the scene's, else both are run
     bool mesh_error = true;           ///< one more run on elements of twice the size tells what the mesh leaves open
     bool pair_histories = false;      ///< keep the values of the pairs at every step, for files and pages
+    int frames = 0;                   ///< kept over the record, for pictures; 0: none
     std::optional<int> modes = {};    ///< elastic modes of reduced runs; none: their own choice
     std::optional<fe2d::RunState> start = {}; ///< of the joints, from a run before; no mesh error then
 };

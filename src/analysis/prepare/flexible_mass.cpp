@@ -8,6 +8,8 @@
 #include "sliding/flexible/mode_shape.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace damslip {
@@ -19,6 +21,19 @@ double moving_mass(const Scene& scene)
 {
     const std::optional<double> level = scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt;
     return scene.dam.density * area(scene.section) + sliding::scene_added_mass(scene, level).xx;
+}
+
+/// Laws that the flexible block does not follow. Beside [flexible_block] they are refused.
+bool has_laws_of_rigid_blocks(const Scene& scene)
+{
+    return !scene.anchors.empty() || scene.contact.rate.active() || scene.contact.restitution > 0.0 ||
+           !scene.motion.sequence.empty();
+}
+
+sliding::StrainColumn column_of(const FlexibleMass& mass)
+{
+    return {*mass.height, *mass.shear_velocity, mass.damping_ratio, mass.base_velocity.value_or(0.0),
+            mass.reference_strain.value_or(0.0)};
 }
 
 double mass_ratio(const Scene& scene, double otherwise)
@@ -36,14 +51,26 @@ std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene)
 {
     sliding::FlexibleBlock block;
     if (!scene.flexible_block) {
-        if (scene.regressions.period <= 0.0 || scene.wedge) return std::nullopt;
+        if (scene.regressions.period <= 0.0 || scene.wedge || has_laws_of_rigid_blocks(scene)) return std::nullopt;
         block.period = scene.regressions.period;
         return block;
     }
     block.period = scene.flexible_block->period.value_or(scene.regressions.period);
     block.damping_ratio = scene.flexible_block->damping_ratio;
     block.mass_ratio = mass_ratio(scene, block.mass_ratio);
+    if (scene.flexible_block->height) {
+        sliding::StrainColumn column = column_of(*scene.flexible_block);
+        column.reference_strain = 0.0;
+        return strain_compatible(column, GroundMotion{}, block.mass_ratio).block;
+    }
     return block;
+}
+
+std::optional<sliding::StrainCompatible> column_under(const Scene& scene, const sliding::FlexibleBlock& flexible,
+                                                      const GroundMotion& motion)
+{
+    if (!scene.flexible_block || !scene.flexible_block->height) return std::nullopt;
+    return strain_compatible(column_of(*scene.flexible_block), motion, flexible.mass_ratio);
 }
 
 std::string mass_ratio_words(const Scene& scene)
@@ -54,6 +81,31 @@ std::string mass_ratio_words(const Scene& scene)
     if (m.shape_exponent) return fmt::format("of the shape (y/H)^{:.4g}, water included", *m.shape_exponent);
     if (m.modal_load) return "L²/(M M₁) of the scene's L and M₁";
     return "of a uniform shear column, the default";
+}
+
+sliding::FlexibleSlide slide_model(const Scene& scene, const sliding::FlexibleBlock& flexible, const RigidModel& model,
+                                   const GroundMotion& motion, int polarity, FlexibleMethod method,
+                                   sliding::HistoryOutput history)
+{
+    const sliding::SlideOptions options{scene.sliding, polarity, history};
+    const std::optional<sliding::StrainCompatible> column = column_under(scene, flexible, motion);
+    const sliding::FlexibleBlock& mode = column ? column->block : flexible;
+    sliding::FlexibleSlide found = method == FlexibleMethod::coupled
+                                       ? sliding::slide_coupled(motion, model.stages, mode, options)
+                                       : sliding::slide_decoupled(motion, model.stages, mode, options);
+    if (column && !column->settled) {
+        found.slide.status = Status::not_resolved;
+        found.slide.notes.push_back(
+            fmt::format("the strain of the column does not settle: V_s {:.4g} m/s, strain {:.3g} % after "
+                        "{} iterations",
+                        column->velocity, 100.0 * column->strain, column->iterations));
+        return found;
+    }
+    double strongest = found.peak_acceleration;
+    for (const double a : motion.accel_h) strongest = std::max(strongest, std::abs(a));
+    check_length(model, found.slide);
+    check_tipping(model, strongest, found.slide);
+    return found;
 }
 
 std::string resolve_flexible_modes(Scene& scene)

@@ -6,6 +6,7 @@
 #include "scene/section.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/equilibrium/opening_crack.hpp"
+#include "sliding/equilibrium/shaken_base.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,8 +93,11 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     if (later)
         model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
                                                 sliding::make_rigid_block(scene, *later, level, options));
-    model.rocking = std::make_shared<sliding::RockingBlock>(
-        sliding::make_rocking_block(scene, state, water, model.stages, later ? &*later : nullptr));
+    sliding::RockingBlock rocking =
+        sliding::make_rocking_block(scene, state, water, model.stages, later ? &*later : nullptr);
+    rocking.uplift_on_toe = uplift_of_open_joint(scene, static_case, state, sliding::Side::heel, seepage);
+    rocking.uplift_on_heel = uplift_of_open_joint(scene, static_case, state, sliding::Side::toe, seepage);
+    model.rocking = std::make_shared<sliding::RockingBlock>(std::move(rocking));
     model.tips = sliding::tipping_acceleration(scene, water, state, 0.0, sliding::Towards::downstream);
     if (model.block.opening)
         for (sliding::SlipStage& stage : model.stages) {

@@ -1,12 +1,12 @@
 #include "analysis/screen/screening.hpp"
 
 #include "analysis/prepare/seepage_source.hpp"
+#include "analysis/screen/regression_rows.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "scene/water.hpp"
-#include "sliding/empirical/ensemble.hpp"
 #include "sliding/equilibrium/lift_block.hpp"
 
 #include <algorithm>
@@ -100,98 +100,6 @@ std::vector<SlipRow> slip_rows(const RowsOf& of, const std::vector<RecordPair>& 
         row.broken_premises = broken_premises(base, strongest_shaking(row));
     }
     add_rocking(of, motions, rows);
-    return rows;
-}
-
-/// The scene's weights. @throws InputError for an id that no regression has.
-std::vector<sliding::RegressionWeight> regression_weights(const Scene& scene)
-{
-    std::vector<sliding::RegressionWeight> weights;
-    for (const RegressionWeightKey& key : scene.regressions.weights) {
-        if (!sliding::find_regression(key.model)) {
-            std::string ids;
-            for (const sliding::Regression& r : sliding::regressions())
-                ids += (ids.empty() ? "" : ", ") + std::string(r.id);
-            throw InputError(Diagnostic{scene.file.string(), 0, 0,
-                                        fmt::format("regressions.weight.model = \"{}\" is not known.", key.model), ids,
-                                        "write one of these"});
-        }
-        weights.push_back({key.model, key.weight});
-    }
-    return weights;
-}
-
-std::optional<double> metres(const std::optional<double>& value_cm)
-{
-    return value_cm ? std::optional<double>(*value_cm * units::cm) : std::nullopt;
-}
-
-RegressionRow regression_row(const std::string& record, const sliding::RegressionResult& r)
-{
-    RegressionRow row;
-    row.record = record;
-    row.id = r.regression->id;
-    row.model = r.regression->name;
-    row.median = metres(r.median_cm), row.low = metres(r.minus_sd_cm), row.high = metres(r.plus_sd_cm);
-    row.nonzero_median = metres(r.nonzero_median_cm);
-    row.zero_probability = r.zero_probability;
-    row.valid = sliding::valid(r);
-    row.status = sliding::reason(r);
-    if (r.status != sliding::RegressionStatus::missing_input) row.remark = r.remark; // which the status names
-    return row;
-}
-
-/// 16, 50 and 84 % of the weighted distribution; no numbers where no regression is valid.
-RegressionRow ensemble_row(const std::string& record, const sliding::Ensemble& e, bool weights_given)
-{
-    RegressionRow row;
-    row.record = record;
-    row.id = weighted_median_id;
-    row.model = "weighted median";
-    row.valid = e.median_cm.has_value();
-    row.status = row.valid ? "valid" : "no regression valid";
-    row.remark = "no regression valid here";
-    if (!row.valid) return row;
-    row.median = metres(e.median_cm), row.low = metres(e.low_cm), row.high = metres(e.high_cm);
-    row.remark = fmt::format("of {}, {}", e.members.size(), weights_given ? "weights of the scene" : "equal weights");
-    if (weights_given && e.weight_left_out > 0.0)
-        row.remark += fmt::format("; {:.3g} % of the weight on others", 100.0 * e.weight_left_out);
-    return row;
-}
-
-/// Every regression in table order, then all valid ones weighted.
-std::vector<RegressionRow> regression_rows_of(const std::string& record,
-                                              const std::vector<sliding::RegressionResult>& results,
-                                              const std::vector<sliding::RegressionWeight>& weights)
-{
-    const sliding::Ensemble ensemble = sliding::weighted_ensemble(results, weights);
-    std::vector<RegressionRow> rows;
-    for (const sliding::RegressionResult& r : results) {
-        rows.push_back(regression_row(record, r));
-        const auto member = std::find(ensemble.members.begin(), ensemble.members.end(), r.regression->id);
-        if (member != ensemble.members.end())
-            rows.back().weight = ensemble.weights[static_cast<std::size_t>(member - ensemble.members.begin())];
-        else if (rows.back().valid && rows.back().remark.empty())
-            rows.back().remark = "not weighted";
-    }
-    rows.push_back(ensemble_row(record, ensemble, !weights.empty()));
-    return rows;
-}
-
-std::vector<RegressionRow> regression_rows(const Scene& scene, const RigidModel& model,
-                                           const std::vector<RecordPair>& records)
-{
-    const std::vector<sliding::RegressionWeight> weights = regression_weights(scene);
-    std::vector<RegressionRow> rows;
-    for (const RecordPair& pair : records) {
-        auto inputs = regression_inputs(pair, ground_motion(scene, pair), model, scene.regressions.period);
-        const bool stands = model.state == sliding::StaticState::at_rest;
-        if (!stands) inputs.yield_coefficient = 0.0; // no regression is of a block that floats or slides upstream
-        for (RegressionRow& row : regression_rows_of(pair.files.name, sliding::evaluate_all(inputs), weights)) {
-            if (!stands && row.id != weighted_median_id) row.status = word(sliding::status_of(model.state));
-            rows.push_back(std::move(row));
-        }
-    }
     return rows;
 }
 
@@ -309,7 +217,8 @@ void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage,
 
 void add_flexible_warnings(const SlipRow& row, std::vector<std::string>& warnings)
 {
-    const auto& [decoupled, coupled] = *row.flexible;
+    const auto& decoupled = row.flexible->decoupled;
+    const auto& coupled = row.flexible->coupled;
     for (const auto& [name, result] : {std::pair("decoupled", &decoupled), std::pair("coupled", &coupled)}) {
         if (!*result || (*result)->slide.status == Status::at_rest || fails_statically((*result)->slide.status))
             continue;
@@ -404,7 +313,8 @@ GoverningSlip SlipRow::governing() const
 {
     if (answered_by_rocking(*this)) return {rocking->slide, "rocking", slip_error(rocking->slide)};
     if (!flexible) return {rigid(), "rigid", slip_error(rigid())};
-    const auto& [decoupled, coupled] = *flexible;
+    const auto& decoupled = flexible->decoupled;
+    const auto& coupled = flexible->coupled;
     const bool opens = rigid().lift_offs > 0 || (decoupled && decoupled->slide.lift_offs > 0);
     if (decoupled && (opens || !coupled)) return {decoupled->slide, "decoupled", slip_error(decoupled->slide)};
     return {coupled->slide, "coupled", opens ? std::nan("") : slip_error(coupled->slide)};
@@ -508,18 +418,12 @@ FlexibleSlips slide_flexible(const Scene& scene, const sliding::FlexibleBlock& f
                              const GroundMotion& motion, int polarity, sliding::HistoryOutput history)
 {
     const FlexibleMethod method = scene.flexible_block ? scene.flexible_block->method : FlexibleMethod::both;
-    const sliding::SlideOptions options{scene.sliding, polarity, history};
     FlexibleSlips slips;
+    slips.column = column_under(scene, flexible, motion);
     if (method != FlexibleMethod::coupled)
-        slips.decoupled = sliding::slide_decoupled(motion, model.stages, flexible, options);
+        slips.decoupled = slide_model(scene, flexible, model, motion, polarity, FlexibleMethod::decoupled, history);
     if (method != FlexibleMethod::decoupled)
-        slips.coupled = sliding::slide_coupled(motion, model.stages, flexible, options);
-    for (auto* flexibly : {&slips.decoupled, &slips.coupled})
-        if (*flexibly) {
-            const double strongest = std::max(peak(motion.accel_h), (*flexibly)->peak_acceleration);
-            check_length(model, (*flexibly)->slide);
-            check_tipping(model, strongest, (*flexibly)->slide);
-        }
+        slips.coupled = slide_model(scene, flexible, model, motion, polarity, FlexibleMethod::coupled, history);
     return slips;
 }
 
@@ -634,6 +538,7 @@ Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking)
     add_equilibrium(scene, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
+    if (s.bases.front().model.state == sliding::StaticState::at_rest) s.needed = needed_rows(ready, jobs);
     add_warnings(scene, s, s.warnings);
     return s;
 }

@@ -3,10 +3,13 @@
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
+#include "analysis/screen/needed.hpp"
+#include "analysis/screen/regression_rows.hpp"
 #include "core/status_count.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
+#include "sliding/flexible/strain_column.hpp"
 
 #include <string>
 #include <string_view>
@@ -25,6 +28,7 @@ struct BaseRow {
 /// Slip of a block that is flexible, by the analyses the scene asks for; with the vertical component where the record has one.
 struct FlexibleSlips {
     std::optional<sliding::FlexibleSlide> decoupled, coupled;
+    std::optional<sliding::StrainCompatible> column; ///< of a column: its period and damping in this motion
 };
 
 /// The slip that is judged, and by which analysis it was found.
@@ -58,23 +62,6 @@ struct SlipRow {
     GoverningSlip governing() const;
     /// The slip to judge by.
     const sliding::SlideResult& judged() const { return governing().slide; }
-};
-
-/// Id of the row of all valid regressions.
-inline constexpr std::string_view weighted_median_id = "weighted-median";
-
-/// One regression, or all valid ones weighted, for one record.
-struct RegressionRow {
-    std::string record;
-    std::string id; ///< "jibson-1998", "weighted-median"
-    std::string model;
-    std::optional<double> median, low, high; ///< 50, 16 and 84 % of the slip, P(D = 0) counted [m]; none: no value
-    std::optional<double> nonzero_median;    ///< of slips above zero [m]
-    std::optional<double> zero_probability;  ///< P(D = 0) [-], where the model has one
-    bool valid = false;                      ///< has a value from inputs within their ranges
-    std::string status;                      ///< in three words at most: "valid", "outside its range"
-    std::optional<double> weight;            ///< share in the weighted median [-]; none: does not count
-    std::string remark;                      ///< numbers of the status
 };
 
 /// Over the records, each with the worse polarity. Records whose worse polarity has no slip are counted by their status.
@@ -118,6 +105,7 @@ struct Screening {
         slips_without_bond; ///< the rows once more with c = 0, where bond_share is above judged_bond_share
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
+    std::vector<NeededRow> needed;     ///< against criteria.allowable_slip; see needed_rows()
     double largest_pga = 0.0;          ///< of all records [m/s^2]
     bool dry_base = false;             ///< there is water on the dam, but no uplift
     double largest_vertical_pga = 0.0; ///< of their vertical components; 0: they have none [m/s^2]

@@ -41,6 +41,9 @@ void check_method(const Scene& scene, const SweepMethod& method)
     if (scene.wedge && method.kind == SweepKind::finite_elements)
         refuse_usage(fmt::format("method {} cannot take a [wedge]: it has no section for finite elements.", method.id),
                      "rigid, rigid-v and the regressions", "write another method");
+    if (is_flexible(method.kind) && (scene.wedge || (!scene.flexible_block && scene.regressions.period <= 0.0)))
+        refuse_usage(fmt::format("method {}: the scene does not say how the block vibrates.", method.id),
+                     "[flexible_block] with period_s, or regressions.period_s", "add it to the scene");
     if (method.law == FeLaw::penalty && !scene.contact.tangential_stiffness)
         refuse_usage("method fe-penalty: the scene does not give the stiffness of sticking.",
                      "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\"", "write  fe  or  fe-exact");

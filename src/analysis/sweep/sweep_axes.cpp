@@ -47,6 +47,11 @@ bool Axes::finite_elements() const
                        [](const SweepMethod& m) { return m.kind == SweepKind::finite_elements; });
 }
 
+bool Axes::flexible() const
+{
+    return std::any_of(method.begin(), method.end(), [](const SweepMethod& m) { return is_flexible(m.kind); });
+}
+
 Axes axes_of(const Scene& scene)
 {
     Axes axes;
@@ -99,13 +104,28 @@ Scene with_opening_water(Scene scene, const std::string& opening)
     return scene;
 }
 
+Scene with_mode(Scene scene, std::optional<double> period, std::optional<double> damping)
+{
+    if (!period && !damping) return scene;
+    if (!scene.flexible_block) scene.flexible_block.emplace();
+    if (period) {
+        scene.flexible_block->period = period;
+        scene.flexible_block->of_modes = false;
+    }
+    if (damping) scene.flexible_block->damping_ratio = *damping;
+    return scene;
+}
+
 std::string text_of(const Axes& axes)
 {
     std::vector<std::string> methods;
     for (const SweepMethod& m : axes.method) methods.push_back(m.id);
     const std::string opening =
         has_opening_axis(axes) ? fmt::format("opening water {}; ", fmt::join(axes.opening, ",")) : "";
-    return opening +
+    std::string mode;
+    if (!axes.period.empty()) mode += fmt::format("period {}; ", joined(axes.period));
+    if (!axes.damping.empty()) mode += fmt::format("damping {}; ", joined(axes.damping));
+    return opening + mode +
            fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
                        joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),
                        fmt::join(axes.reservoir, ","), joined(axes.size), joined(axes.scale),

@@ -14,10 +14,12 @@ struct Axes {
     std::vector<int> polarity;                  ///< 1, -1
     std::vector<std::string> uplift, reservoir; ///< words as typed
     std::vector<std::string> opening{""};       ///< words of uplift.opening as typed; empty: the scene's
+    std::vector<double> period, damping;        ///< T_s [s] and zeta [-] of the flexible block; empty: the scene's
     std::vector<SweepMethod> method;
     std::vector<Diagnostic> notes; ///< of values that are allowed but unusual
 
     bool finite_elements() const; ///< is there an FE method?
+    bool flexible() const;        ///< is there a method of the flexible block?
 };
 
 /// The axes that leave the scene as it is: one value each, the rigid block.
@@ -36,6 +38,8 @@ inline bool has_opening_axis(const Axes& axes)
 Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size);
 /// The same with other water in the opening base. @param opening  empty: the scene's
 Scene with_opening_water(Scene scene, const std::string& opening);
+/// The same with another mode of the flexible block. @param period, damping  none: the scene's
+Scene with_mode(Scene scene, std::optional<double> period, std::optional<double> damping);
 
 /// The axes in words, all digits, in a fixed order: what has to be equal for two sweeps to have the same rows.
 std::string text_of(const Axes& axes);

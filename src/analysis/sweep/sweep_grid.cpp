@@ -16,13 +16,30 @@ std::string rock_of(const Scene& scene, const SweepMethod& method)
     return rock_words(called_for(make_effect_plan(here, Method::finite_elements), here));
 }
 
+/// The mode of the flexible block in each variant, as the scene of the rigid block has it.
+void find_modes(Grid& grid, const Scene& scene)
+{
+    const TaskList& tasks = grid.tasks;
+    const std::size_t rows_of_variant = tasks.motions() * tasks.method;
+    for (std::size_t i = 0; i < tasks.variants(); ++i) {
+        const Scene given = variant_of(scene, grid.axes, tasks.index(i * rows_of_variant));
+        Scene here = called_for(make_effect_plan(given, Method::rigid_block), given);
+        resolve_flexible_modes(here);
+        grid.flexible.push_back(flexible_block(here));
+    }
+}
+
 } // namespace
 
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
 {
-    return with_opening_water(
+    Scene here = with_opening_water(
         variant(scene, axes.level[at.level], axes.uplift[at.uplift], axes.reservoir[at.reservoir], axes.size[at.size]),
         axes.opening[at.opening]);
+    const auto value = [](const std::vector<double>& axis, std::size_t i) {
+        return axis.empty() ? std::nullopt : std::optional(axis[i]);
+    };
+    return with_mode(std::move(here), value(axes.period, at.period), value(axes.damping, at.damping));
 }
 
 Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, const Records& records)
@@ -34,6 +51,7 @@ Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, con
     for (std::size_t i = 0; i < tasks.variants(); ++i) grid.statics.push_back(std::make_shared<KeptStatics>());
     hold_models(grid, scene, records, 0, 0, 1);
     for (const SweepMethod& method : axes.method) grid.rocks.push_back(rock_of(scene, method));
+    if (axes.flexible()) find_modes(grid, scene);
     for (const RecordPair& pair : *records) {
         grid.records.push_back(pair.files.name);
         for (const double scale : axes.scale) {

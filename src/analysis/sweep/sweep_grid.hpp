@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/units.hpp"
@@ -15,6 +16,8 @@ struct Grid {
     std::size_t first_friction = 0; ///< that is held
     std::vector<std::shared_ptr<SeepageSource>> seepage; ///< of each size: one serves one geometry
     std::vector<std::shared_ptr<KeptStatics>> statics;   ///< of each variant
+    std::vector<std::optional<sliding::FlexibleBlock>>
+        flexible; ///< of each variant, with methods of the flexible block
     std::vector<sliding::SkippingMotion> motions,
         horizontal_motions;                          ///< of each record and scale, with and without the vertical
     std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's

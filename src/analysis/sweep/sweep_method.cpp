@@ -16,6 +16,8 @@ std::vector<SweepMethod> make_list()
     std::vector<SweepMethod> list{{"rigid", SweepKind::rigid, FeLaw::scene, false},
                                   {"rigid-v", SweepKind::rigid_vertical, FeLaw::scene, false},
                                   {"rocking", SweepKind::rocking, FeLaw::scene, false},
+                                  {"decoupled", SweepKind::decoupled, FeLaw::scene, false},
+                                  {"coupled", SweepKind::coupled, FeLaw::scene, false},
                                   fe("fe", FeLaw::scene),
                                   fe("fe-exact", FeLaw::exact),
                                   fe("fe-penalty", FeLaw::penalty),

@@ -9,7 +9,13 @@
 namespace damslip {
 
 /// How a row of a sweep is computed.
-enum class SweepKind { rigid, rigid_vertical, rocking, regression, finite_elements };
+enum class SweepKind { rigid, rigid_vertical, rocking, decoupled, coupled, regression, finite_elements };
+
+/// Of the flexible block.
+inline bool is_flexible(SweepKind kind)
+{
+    return kind == SweepKind::decoupled || kind == SweepKind::coupled;
+}
 
 /// Contact law, steps or rock of FE rows, in place of the scene's.
 enum class FeLaw {
@@ -24,13 +30,13 @@ enum class FeLaw {
 };
 
 struct SweepMethod {
-    std::string id; ///< as typed and printed: "rigid-v", "rocking", "fe-exact", "jibson-1998"
+    std::string id; ///< as typed and printed: "rigid-v", "rocking", "coupled", "fe-exact", "jibson-1998"
     SweepKind kind = SweepKind::rigid;
     FeLaw law = FeLaw::scene;
     bool reduced = false; ///< FE on few modes of the dam
 };
 
-/// rigid, rigid-v, rocking, the FE methods, and the regressions by their ids.
+/// rigid, rigid-v, rocking, decoupled, coupled, the FE methods, and the regressions by their ids.
 const std::vector<SweepMethod>& sweep_method_list();
 
 /// Ids of the list, for messages and completion.

@@ -34,6 +34,10 @@ sliding::SlideResult slide(const Scene& scene, const Grid& grid, const GridIndex
     const int polarity = grid.axes.polarity[at.polarity];
     if (grid.axes.method[at.method].kind == SweepKind::rocking)
         return rock_model(scene, grid.model(at), motion.motion(), polarity, output).slide;
+    if (const SweepKind kind = grid.axes.method[at.method].kind; is_flexible(kind))
+        return slide_model(scene, *grid.flexible[grid.tasks.variant(at)], grid.model(at), motion.motion(), polarity,
+                           kind == SweepKind::coupled ? FlexibleMethod::coupled : FlexibleMethod::decoupled, output)
+            .slide;
     return slide_model(scene, grid.model(at), motion, polarity, output);
 }
 
@@ -66,7 +70,7 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
         results = block_results(scene, grid, at, grid.horizontal(at), history);
     else if (method.kind == SweepKind::rocking && grid.model(at).wedge)
         results.status = "no block that rocks";
-    else if (method.kind == SweepKind::rocking || grid.motion(at).has_vertical())
+    else if (method.kind != SweepKind::rigid_vertical || grid.motion(at).has_vertical())
         results = block_results(scene, grid, at, grid.motion(at), history);
     else
         results.status = "no vertical component";

@@ -33,6 +33,8 @@ GridIndex running_order(const TaskList& tasks, std::size_t place)
     at.polarity = take(tasks.polarity);
     at.scale = take(tasks.scale);
     at.record = take(tasks.record);
+    at.damping = take(tasks.damping);
+    at.period = take(tasks.period);
     at.size = take(tasks.size);
     at.reservoir = take(tasks.reservoir);
     at.opening = take(tasks.opening);
@@ -55,6 +57,8 @@ GridIndex TaskList::index(std::size_t id) const
     at.record = take(record);
     at.polarity = take(polarity);
     at.scale = take(scale);
+    at.damping = take(damping);
+    at.period = take(period);
     at.size = take(size);
     at.reservoir = take(reservoir);
     at.opening = take(opening);
@@ -73,7 +77,9 @@ std::size_t TaskList::id(const GridIndex& at) const
 
 std::size_t TaskList::variant(const GridIndex& at) const
 {
-    return (((at.level * uplift + at.uplift) * opening + at.opening) * reservoir + at.reservoir) * size + at.size;
+    const std::size_t base =
+        (((at.level * uplift + at.uplift) * opening + at.opening) * reservoir + at.reservoir) * size + at.size;
+    return (base * period + at.period) * damping + at.damping;
 }
 
 std::size_t TaskList::motion(const GridIndex& at) const
@@ -90,6 +96,8 @@ TaskList make_tasks(const Axes& axes, std::size_t records)
     tasks.opening = axes.opening.size();
     tasks.reservoir = axes.reservoir.size();
     tasks.size = axes.size.size();
+    tasks.period = std::max<std::size_t>(1, axes.period.size());
+    tasks.damping = std::max<std::size_t>(1, axes.damping.size());
     tasks.scale = axes.scale.size();
     tasks.polarity = axes.polarity.size();
     tasks.record = records;

@@ -92,6 +92,7 @@ void look_at_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
     if (!a.friction_deg.empty())
         look_at(a.friction_deg, "--friction-deg", "contact.friction", number_list(a.friction_deg, "--friction-deg"),
                 axes.notes, {"deg", 1.0, true});
+    look_at(a.period, "--period", "flexible_block.period", axes.period, axes.notes);
     look_at(a.scale, "--scale", "motion.scale", axes.scale, axes.notes);
     look_at_levels(a.level, scene, axes.level, axes.notes);
     look_at_sizes(a.size, scene, axes.size, axes.notes);
@@ -186,6 +187,36 @@ void refuse_repeats(const char* flag, const std::vector<Value>& values)
                          "delete the second one");
 }
 
+/// Periods and damping ratios of the flexible block.
+void add_mode_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
+{
+    const bool has_mode = scene.flexible_block || scene.regressions.period > 0.0 || !a.period.empty();
+    for (const SweepMethod& m : axes.method)
+        if (is_flexible(m.kind) && (!has_mode || scene.wedge))
+            refuse_usage(
+                fmt::format("--method {}: {}.", m.id,
+                            scene.wedge ? "a [wedge] has no mode" : "the scene does not say how the block vibrates"),
+                "[flexible_block] with period_s, regressions.period_s, or --period",
+                scene.wedge ? "delete it" : "add  --period 0.2");
+    if (axes.flexible() && (!scene.anchors.empty() || scene.contact.rate.active() ||
+                            scene.contact.restitution > 0.0 || !scene.motion.sequence.empty()))
+        refuse_usage("decoupled and coupled with anchors, friction over the rate, rebounds or a sequence.",
+                     "a block that vibrates without them: it does not follow these laws",
+                     "take rigid or fe, or leave the law out");
+    if (!a.period.empty() && scene.flexible_block && scene.flexible_block->height)
+        refuse_usage("--period is given, but [flexible_block] is a column.", "one of them",
+                     "delete height_m and the others, or --period");
+    for (const auto& [flag, text] : {std::pair{"--period", a.period}, {"--damping", a.damping}})
+        if (!text.empty() && !axes.flexible())
+            refuse_usage(fmt::format("{} is given, but neither decoupled nor coupled is among the methods.", flag),
+                         "both or neither", fmt::format("add coupled to --method, or delete {}", flag));
+    if (!a.period.empty())
+        axes.period =
+            checked_numbers(a.period, "--period", 0, 1e-3, 100, "period of the flexible block [s], 0.001 ... 100");
+    if (!a.damping.empty())
+        axes.damping = checked_numbers(a.damping, "--damping", 0, 0, 0.5, "damping ratio, 0 ... 0.5");
+}
+
 void check_repeats(const Axes& axes)
 {
     refuse_repeats("--friction", axes.friction);
@@ -194,6 +225,8 @@ void check_repeats(const Axes& axes)
     refuse_repeats("--opening-water", axes.opening);
     refuse_repeats("--reservoir", axes.reservoir);
     refuse_repeats("--size", axes.size);
+    refuse_repeats("--period", axes.period);
+    refuse_repeats("--damping", axes.damping);
     refuse_repeats("--scale", axes.scale);
     refuse_repeats("--polarity", axes.polarity);
     std::vector<std::string> methods;
@@ -246,6 +279,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     if (!a.opening_water.empty() && !scene.wedge) axes.opening = opening_axis(a, scene);
     if (!a.reservoir.empty()) axes.reservoir = reservoir_axis(a, scene);
     axes.method = method_axis(a, scene);
+    add_mode_axes(a, scene, axes);
     if (scene.wedge) check_wedge_axes(a, axes.method);
     check_repeats(axes);
     look_at_axes(a, scene, axes);

@@ -1,6 +1,7 @@
 #include "cli/input/run_inputs.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/record_list.hpp"
 #include "core/number.hpp"
 #include "core/usage_error.hpp"
 #include "scene/plausible.hpp"
@@ -60,8 +61,24 @@ Scene scene_as_written(const RunInputs& inputs)
     return parse_scene(text, "standard input");
 }
 
+/// Those of --records, said one by one: what was paired with what is not to be guessed.
+void put_record_list(const RunInputs& inputs, Scene& scene, std::vector<Diagnostic>& notes)
+{
+    RecordList list = record_list(inputs.record_list);
+    if (list.records.empty())
+        refuse_usage(fmt::format("--records {}: there is no record.", inputs.record_list),
+                     "a folder, a pattern in quotes, or a CSV with the column horizontal",
+                     "for example  --records 'suite/*.AT2'");
+    for (const std::string& note : list.notes) notes.push_back({"", 0, 0, note, "", ""});
+    scene.motion.records = std::move(list.records);
+    scene.motion.sequence.clear();
+}
+
 void put_records(const RunInputs& inputs, Scene& scene)
 {
+    if (!inputs.record_list.empty() && !inputs.records.empty())
+        refuse_usage("--record and --records are both given.", "one of them", "delete one");
+    if (!inputs.record_list.empty()) put_record_list(inputs, scene, scene.notes);
     if (!inputs.verticals.empty() && inputs.records.empty())
         refuse_usage("--vertical is given without --record.", "a --record for each --vertical", "add  --record FILE");
     if (!inputs.records.empty()) {

@@ -12,8 +12,9 @@ namespace damslip::cli {
 
 /// What the commands that run a scene have in common on the command line.
 struct RunInputs {
-    std::filesystem::path scene;                  ///< "-": standard input
-    bool strict = false;                          ///< what would be noted is refused
+    std::filesystem::path scene; ///< "-": standard input
+    bool strict = false;         ///< what would be noted is refused
+    std::string record_list;     ///< folder, pattern or list of records in place of the scene's; empty: none
     std::vector<std::filesystem::path> records;   ///< horizontal components; given: they replace the scene's
     std::vector<std::filesystem::path> verticals; ///< none, or one for each record in the same order; "none": without
     std::string unit;                             ///< of record files that do not say

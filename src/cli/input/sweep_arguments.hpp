@@ -12,11 +12,12 @@ namespace damslip::cli {
 /// Lists as typed ("0.65:1.0:0.05"); empty: the scene's own value.
 struct SweepArguments {
     RunInputs inputs;
-    std::string friction, friction_deg, level, uplift, opening_water, reservoir, size, scale, polarity;
+    std::string friction, friction_deg, level, uplift, opening_water, reservoir, size, period, damping, scale, polarity;
     std::string method;                      ///< empty: rigid, and rigid-v where a record has a vertical component
     std::optional<int> modes;                ///< elastic modes of fe-reduced, 1 ... 1000; none: its own choice
     std::optional<double> penalty_stiffness; ///< of fe-penalty [N/m^3], > 0; none: the scene's
 
+    std::filesystem::path pdf;                ///< the report on paper; empty: none
     std::filesystem::path out;                ///< CSV file, its journal beside it; empty: standard output, no journal
     int jobs = 0;                             ///< threads; 0: all cores
     bool resume = false;                      ///< go on from the journal

@@ -4,6 +4,7 @@
 #include "pages/ablation/tornado.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/report_provenance.hpp"
 
 #include <algorithm>
@@ -167,9 +168,14 @@ Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& ef
     page.key_figures = key_figures(in);
     page.warnings = warnings(in);
     for (std::size_t r = 0; r < in.records.size(); ++r)
-        page.sections.push_back({"Slip, record " + in.records[r].files.name,
-                                 {slip_bars(in, r), rows_part(change_table(in, r))},
-                                 Fold::open});
+        page.sections.push_back(
+            {"Slip, record " + in.records[r].files.name,
+             {slip_bars(in, r),
+              rows_part(
+                  change_table(in, r),
+                  {"Slip: of the scene without the effect named, positive downstream; change: against the run with all "
+                   "effects, positive where the slip is larger without it; ± step: what the time step leaves open."})},
+             Fold::open});
     if (in.plan.method == Method::rigid_block)
         page.sections.push_back(
             {"Yield acceleration", {yield_bars(in), rows_part(yield_change_table(in))}, Fold::open});
@@ -177,7 +183,8 @@ Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& ef
     Section how{"How to read it", {rows_part(removal_table(in))}, Fold::open};
     for (std::string& note : ablation_notes(in)) how.parts.push_back(Paragraph{std::move(note)});
     page.sections.push_back(std::move(how));
-    page.sections.push_back({"Effects taken into account", {rows_part(effect_table(effects))}, Fold::folded});
+    page.sections.push_back({"Effects taken into account", {effect_part(effects)}, Fold::folded});
+    page.sections.push_back(limits_section(given, in.plan.method));
     page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
     page.provenance = scene_provenance(given);
     add_record_provenance(in.records, page.provenance);

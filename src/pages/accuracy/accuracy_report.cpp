@@ -4,6 +4,7 @@
 #include "core/units.hpp"
 #include "pages/accuracy/accuracy_tables.hpp"
 #include "pages/accuracy/cost_figure.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/report_provenance.hpp"
 
 #include <algorithm>
@@ -168,6 +169,7 @@ Page accuracy_page(const AccuracyReportInput& in)
     page.sections.push_back(cost_section(in));
     page.sections.push_back({"Rungs", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
     page.sections.push_back(convergence_section(in));
+    page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
     page.provenance = scene_provenance(in.scene);
     page.provenance.emplace_back("seconds", "processor time on the machine of this report, one thread");

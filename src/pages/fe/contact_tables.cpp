@@ -135,14 +135,16 @@ struct StageRow {
     fe2d::StageStatus end;
     bool solved;
     const fe2d::PlaneBalance& plane;
+    const fe2d::BondLoad* bond; ///< of the whole stage; null: its bond needed no path, or another plane's row
 };
 
 void add_stage(const std::string& record, const Cell& polarity, const fe2d::StageResult& s, std::vector<StageRow>& rows)
 {
     const bool solved = s.status == fe2d::StageStatus::ok;
-    rows.push_back({record, polarity, s.name, s.base_fails || s.lifts.empty() ? s.status : base_status(s), solved, s});
+    rows.push_back({record, polarity, s.name, s.base_fails || s.lifts.empty() ? s.status : base_status(s), solved, s,
+                    s.bond ? &*s.bond : nullptr});
     for (const fe2d::PlaneBalance& lift : s.lifts)
-        rows.push_back({record, polarity, s.name + ", " + lift.plane, lift_status(s, lift), solved, lift});
+        rows.push_back({record, polarity, s.name + ", " + lift.plane, lift_status(s, lift), solved, lift, nullptr});
 }
 
 } // namespace
@@ -167,21 +169,30 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
         return [=](const R& r) { return r.solved ? Cell(r.plane.*value) : Cell(); };
     };
     using B = fe2d::PlaneBalance;
+    std::vector<ColumnOf<R>> columns{
+        {{"record", "record"}, &R::record},
+        {{"polarity", "polarity"}, &R::polarity},
+        {{"stage", "stage"}, &R::stage},
+        {{"status", "status"}, [](const R& r) { return stage_word(r.end); }},
+        {{"normal_force_kN_m", "N'", "kN/m", 6}, [=](const R& r) { return normal(r) / 1e3; }},
+        {{"shear_force_kN_m", "T", "kN/m", 6}, [=](const R& r) { return shear(r) / 1e3; }},
+        {{"friction_needed", "critical μ", "–", 6}, if_pressed(&B::critical_friction)},
+        {{"sliding_factor", "FS sliding", "–", 4}, if_pressed(&B::sliding_factor)},
+        {{"slip_mm", "mean slip so far", "mm", 4},
+         [](const R& r) { return r.solved ? Cell(1e3 * r.plane.slip) : Cell(); }},
+        {{"open_length_m", "open", "m", 4}, if_solved(&B::open_length)},
+        {{"slipping_length_m", "slipping", "m", 4}, if_solved(&B::slipping_length)}};
+    const auto of_bond = [](auto fe2d::BondLoad::*value) {
+        return [=](const R& r) { return r.bond ? Cell(r.bond->*value) : Cell(); };
+    };
+    if (std::any_of(rows.begin(), rows.end(), [](const R& r) { return r.bond != nullptr; })) {
+        columns.push_back({{"t_max", "t_max", "–", 4}, of_bond(&fe2d::BondLoad::largest)});
+        columns.push_back({{"t_limit", "t_LP", "–", 4}, of_bond(&fe2d::BondLoad::limit)});
+        columns.push_back({{"jumps", "jumps"}, of_bond(&fe2d::BondLoad::jumps)});
+        columns.push_back({{"jump_loss_J_m", "lost in jumps", "J/m", 4}, of_bond(&fe2d::BondLoad::lost)});
+    }
     return table_of<R>(
-        "Static stages",
-        {{{"record", "record"}, &R::record},
-         {{"polarity", "polarity"}, &R::polarity},
-         {{"stage", "stage"}, &R::stage},
-         {{"status", "status"}, [](const R& r) { return stage_word(r.end); }},
-         {{"normal_force_kN_m", "N'", "kN/m", 6}, [=](const R& r) { return normal(r) / 1e3; }},
-         {{"shear_force_kN_m", "T", "kN/m", 6}, [=](const R& r) { return shear(r) / 1e3; }},
-         {{"friction_needed", "critical μ", "–", 6}, if_pressed(&B::critical_friction)},
-         {{"sliding_factor", "FS sliding", "–", 4}, if_pressed(&B::sliding_factor)},
-         {{"slip_mm", "mean slip so far", "mm", 4},
-          [](const R& r) { return r.solved ? Cell(1e3 * r.plane.slip) : Cell(); }},
-         {{"open_length_m", "open", "m", 4}, if_solved(&B::open_length)},
-         {{"slipping_length_m", "slipping", "m", 4}, if_solved(&B::slipping_length)}},
-        rows,
+        "Static stages", columns, rows,
         {"after the earthquake: residual friction, ruptured curtain, ineffective drains; slip since the start of the "
          "stages."});
 }

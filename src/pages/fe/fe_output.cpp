@@ -17,10 +17,7 @@
 
 namespace damslip::pages {
 
-namespace {
-
-/// Major and minor principal stress of each column (xx, yy, xy) [Pa].
-Eigen::MatrixXd principal(const Eigen::Matrix3Xd& stress)
+Eigen::MatrixXd principal_stresses(const Eigen::Matrix3Xd& stress)
 {
     Eigen::MatrixXd out(2, stress.cols());
     for (Eigen::Index i = 0; i < stress.cols(); ++i) {
@@ -30,8 +27,6 @@ Eigen::MatrixXd principal(const Eigen::Matrix3Xd& stress)
     }
     return out;
 }
-
-} // namespace
 
 Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water)
 {
@@ -124,7 +119,7 @@ void FieldSeries::add(const std::string& name, double time, const Eigen::VectorX
     const std::string file = fmt::format("fields_{:04d}_{}.vtu", entries_.size(), file_word(name));
     std::vector<fe2d::VtuArray> nodal{{"displacement_m", node_vectors(model_.dofs, displacement)},
                                       {"stress_xx_yy_xy_Pa", stress.nodal},
-                                      {"principal_major_minor_Pa", principal(stress.nodal)}};
+                                      {"principal_major_minor_Pa", principal_stresses(stress.nodal)}};
     std::move(more.begin(), more.end(), std::back_inserter(nodal));
     fe2d::write_vtu(folder_ / file, model_.mesh, nodal, {{"centre_stress_xx_yy_xy_Pa", stress.centre}});
     entries_.push_back({time, file});

@@ -17,6 +17,9 @@ Table count_table(fe2d::ModelCounts counts, const fe2d::FluidModel* water = null
 /// Displacement of the upstream end of the crest [m].
 Eigen::Vector2d crest_displacement(const fe2d::Model& model, const Eigen::VectorXd& displacement);
 
+/// Major and minor principal stress of each column (xx, yy, xy), tension positive [Pa].
+Eigen::MatrixXd principal_stresses(const Eigen::Matrix3Xd& stress);
+
 /// Displacements of the unknowns as one column (x, y) per node; fixed nodes stay at zero.
 Eigen::MatrixXd node_vectors(const fe2d::DofMap& dofs, const Eigen::VectorXd& unknowns);
 

@@ -3,7 +3,7 @@
 #include "analysis/prepare/contact_law.hpp"
 #include "pages/fe/fe_output.hpp"
 #include "pages/fe/mesh_drawing.hpp"
-#include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
@@ -26,12 +26,16 @@ void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions
                  Page& page)
 {
     if (!motions.empty())
-        page.sections.push_back({"Records", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
+        page.sections.push_back({"Records", {record_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
     Section model{"Model and solution",
-                  {rows_part(effect_table(in.plan)), rows_part(count_table(in.model.counts, in.water))},
+                  {effect_part(in.plan),
+                   rows_part(count_table(in.model.counts, in.water),
+                             {"Elements and unknowns by what they are for; non-zeros: stored entries of stiffness and "
+                              "mass that would not be there without it; bytes: of what is stored for it."})},
                   Fold::open};
     for (const Table& table : tables) model.parts.push_back(rows_part(table));
     page.sections.push_back(std::move(model));
+    page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
     page.provenance = scene_provenance(in.scene);
     page.provenance.emplace_back("method", in.method);

@@ -231,7 +231,8 @@ function damslip_mesh_view(figure, view, page) {
     function draw() {
         const width = Math.floor(place.clientWidth), r = window.devicePixelRatio;
         if (!width) return false;
-        const height = Math.round(Math.min(620, Math.max(360, 1.05 * width)));
+        const on_paper = document.documentElement.classList.contains("paper");
+        const height = Math.round(Math.min(on_paper ? 460 : 620, Math.max(360, 1.05 * width)));
         canvas.width = width * r; canvas.height = height * r;
         canvas.style.width = width + "px"; canvas.style.height = height + "px";
         if (!canvas.parentNode) place.append(canvas);

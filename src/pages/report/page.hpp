@@ -29,11 +29,13 @@ struct TablePart {
     Layout layout = Layout::rows;
     std::size_t labels = 1; ///< Layout::columns: the first `labels` lines are headings
     Fold fold = Fold::open;
+    std::vector<std::string> definitions = {}; ///< sentences below it that files and terminals do without: what its
+                                               ///< words and signs mean
 };
 
-inline TablePart rows_part(Table table)
+inline TablePart rows_part(Table table, std::vector<std::string> definitions = {})
 {
-    return {std::move(table)};
+    return {std::move(table), Layout::rows, 1, Fold::open, std::move(definitions)};
 }
 
 /// A drawing as an <svg> element made by Sketch.
@@ -66,9 +68,18 @@ struct Headline {
     std::string verdict; ///< "PASS", or why there is none
 };
 
+/// Whose report it is; nothing given: no block.
+struct TitleBlock {
+    std::vector<std::pair<std::string, std::string>> entries; ///< name, value: "client", "Valley Power"
+    std::vector<std::pair<std::string, std::string>> signers; ///< role, name; with room for a signature
+    std::string notes;
+};
+
 struct Page {
     std::string title;
     std::string subtitle;
+    TitleBlock title_block = {};
+    std::string footer = {}; ///< at the foot of each printed page, beside its number
     Headline headline;
     std::vector<std::pair<std::string, std::string>> key_figures; ///< name, value with its unit; at most about six
     std::vector<std::string> warnings;

@@ -164,17 +164,72 @@
         });
     }
 
+    // Symbols on the curves, so that they can be told apart without their colours: [path, filled].
+    const shapes = [["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z", true], ["M-3.5-3.5h7v7h-7Z", false], ["M0-4.6L4.3 3.4h-8.6Z", true],
+                    ["M0-4.8L4.8 0L0 4.8L-4.8 0Z", false], ["M0 4.6L4.3-3.4h-8.6Z", true], ["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z", false],
+                    ["M-3.5-3.5h7v7h-7Z", true], ["M0-4.6L4.3 3.4h-8.6Z", false]];
+    const shape_of = k => shapes[k % shapes.length];
+    const is_line = c => c.mark !== "points";
+    const has_symbols = chart => chart.curves.filter(c => c.weight !== "faint").length > 1;
+
+    function stamp(ctx, r, k, stroke, x, y) {
+        const [path, filled] = shape_of(k), shape = new Path2D(path);
+        ctx.save();
+        ctx.translate(x, y); ctx.scale(r, r);
+        ctx.lineWidth = 1.5; ctx.strokeStyle = stroke; ctx.fillStyle = filled ? stroke : css("--paper");
+        ctx.fill(shape); ctx.stroke(shape);
+        ctx.restore();
+    }
+
+    // On a line every 80 pixels or so, those of different lines side by side; on points each.
+    function draw_symbols(chart, columns) {
+        return u => has_symbols(chart) && in_box(u, (ctx, r, box) => {
+            const x = u.data[0], step = Math.max(80, box.width / r / 8), n = chart.curves.length;
+            const shown = x.map((v, i) => i).filter(i => x[i] >= u.scales.x.min && x[i] <= u.scales.x.max);
+            chart.curves.forEach((c, k) => {
+                const y = u.data[columns[k]];
+                if (c.weight === "faint" || !u.series[columns[k]].show) return;
+                const valued = shown.filter(i => y[i] != null);
+                let next = is_line(c) && valued.length > 12 ? ((k + 0.5) / n) * step : -1;
+                for (const i of valued) {
+                    const at = u.valToPos(x[i], "x", true);
+                    if (next >= 0 && at < box.left + next * r) continue;
+                    if (next >= 0) while (at >= box.left + next * r) next += step;
+                    stamp(ctx, r, k, colour(c.colour), at, u.valToPos(y[i], "y", true));
+                }
+            });
+        });
+    }
+
+    // In the legend a piece of the curve with its symbol.
+    function draw_markers(chart, columns, u) {
+        const rows = u.root.querySelectorAll(".u-series");
+        chart.curves.forEach((c, k) => {
+            const marker = rows[columns[k]]?.querySelector(".u-marker");
+            if (!marker) return;
+            const [path, filled] = shape_of(k), stroke = colour(c.colour), points = !is_line(c);
+            const symbol = has_symbols(chart) && c.weight !== "faint" ? `<path d="${path}" stroke="${stroke}" stroke-width="1.5" fill="${filled ? stroke : css("--paper")}" ` +
+                                                  'transform="translate(13 6)"/>'
+                           : points ? `<circle cx="13" cy="6" r="3.5" fill="${stroke}"/>` : "";
+            const line = points ? "" : `<path d="M0 6h26" stroke="${stroke}" stroke-width="${c.weight === "strong" ? 2.5 : 1.5}"` +
+                                       (c.mark === "dashed" ? ' stroke-dasharray="7 4"' : "") + "/>";
+            marker.classList.add("drawn");
+            marker.innerHTML = `<svg width="26" height="12" aria-hidden="true">${line}${symbol}</svg>`;
+        });
+    }
+
     function options(chart, data, width) {
-        const names = chart.xaxis.categories;
+        const names = chart.xaxis.categories, columns = [];
         const ink = css("--axis"), grid = {stroke: css("--grid"), width: 1};
         const font = "12px system-ui, sans-serif";
         const series = [{label: names.length ? chart.xaxis.label || "case" : with_unit(chart.xaxis),
                          value: (u, v) => v == null ? "" : names.length ? names[Math.round(v)] ?? "" : number(v)}];
         const bands = [], helpers = [];
-        for (const c of chart.curves) {
+        for (const [k, c] of chart.curves.entries()) {
             const stroke = colour(c.colour);
             const points = c.mark === "points" || c.mark === "line_and_points";
             const main = series.length;
+            columns.push(main);
             series.push({
                 label: c.name + (chart.yaxis.unit && chart.yaxis.unit !== "–" ? " (" + chart.yaxis.unit + ")" : ""),
                 stroke: c.mark === "points" ? (points ? stroke : undefined) : stroke,
@@ -182,9 +237,10 @@
                 alpha: c.weight === "faint" ? 0.7 : 1,
                 dash: c.mark === "dashed" ? [7, 4] : undefined,
                 paths: c.mark === "points" ? () => null : undefined,
-                points: points ? {show: true, size: 7, fill: stroke, stroke} : {show: false},
+                points: points && !(has_symbols(chart) && c.weight !== "faint") ? {show: true, size: 7, fill: stroke, stroke} : {show: false},
                 spanGaps: chart.joined,
                 pxAlign: 0,
+                class: k !== chart.moving?.curve && c.y.every(v => v == null) ? "helper" : undefined, // nothing to draw, nothing to name
                 value: (u, v) => v == null ? "" : number(v),
             });
             data.push(c.y);
@@ -227,14 +283,16 @@
             x_axis.rotate = 40;
             x_axis.size = Math.min(190, 18 + longest * 7 * 0.66);
         }
+        const height = printing ? Math.min(chart.height, 215) : chart.height; // three on a page
+        const along = Math.max(8, Math.min(12, Math.floor(12 * (height - 20) / (6.2 * with_unit(chart.yaxis).length)))); // px, whole: the label has room
         const y_axis = {
-            stroke: ink, font, labelFont: font, grid, ticks: grid, filter: (u, splits) => splits,
+            stroke: ink, font, labelFont: along + "px system-ui, sans-serif", grid, ticks: grid, filter: (u, splits) => splits,
             label: with_unit(chart.yaxis), labelSize: 22,
             splits: ticks(chart.yaxis, "y"), values: labels(chart.yaxis),
             size: (u, values) => 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length)),
         };
         return {
-            width, height: chart.height + (tilted ? x_axis.size - 32 : 0),
+            width, height: height + (tilted ? x_axis.size - 32 : 0),
             scales: {
                 x: {time: false, distr: x_distr, asinh: chart.xaxis.linear_below,
                     range: (u, low, high) => names.length ? [Math.max(-0.5, low - 0.5), Math.min(names.length - 0.5, high + 0.5)]
@@ -247,9 +305,16 @@
             cursor: {sync: chart.together ? {key: chart.together, scales: ["x", null]} : undefined,
                      points: {size: 7, show: (u, i) => u.series[i].class !== "helper" && document.createElement("div")}, drag: {x: true, y: false}},
             legend: {live: true},
-            hooks: {drawAxes: [draw_lines(chart)], draw: [draw_bars(helpers)],
-                    setLegend: [u => { if (u.legend.idx == null) u.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; }); }]},
+            hooks: {drawAxes: [draw_lines(chart)], draw: [draw_bars(helpers), draw_symbols(chart, columns)],
+                    setLegend: [u => empty_legend(u)]},
         };
+    }
+
+    // Without a cursor the legend names the curves and has no values.
+    function empty_legend(u) {
+        const idle = u.legend.idx == null;
+        u.root.querySelector(".u-legend")?.classList.toggle("idle", idle);
+        if (idle) u.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; });
     }
 
     const charts = []; // {figure, chart, plot}
@@ -271,7 +336,8 @@
         entry.columns = entry.chart.curves.map(c => data.indexOf(c.y));
         entry.plot = new uPlot(opts, data, place);
         entry.width = width;
-        entry.plot.root.querySelectorAll(".u-value").forEach(e => { e.firstChild.nodeValue = ""; });
+        draw_markers(entry.chart, entry.columns, entry.plot);
+        empty_legend(entry.plot);
     }
 
     // uPlot draws after the current task, so the marks are set after the next one.
@@ -472,12 +538,56 @@
         }, 150);
     }).observe(document.querySelector("main"));
 
-    // Paper is white and 180 mm wide: charts are drawn anew for it and back again.
+    // Paper is white, 180 mm wide and has everything open: charts are drawn anew for it and back again.
+    const paper_width = 680; // 180 mm [px]
+    let folded = [];
+    const smallest_letters = 8; // 6 pt [px]
+    function fit_table(table) {
+        table.style.fontSize = "";
+        let wanted = parseFloat(getComputedStyle(table).fontSize);
+        // Words do not shrink exactly with their letters, so once more where the first size is still too large.
+        for (let k = 1; k <= 3 && table.offsetWidth > paper_width; ++k) {
+            wanted = Math.max(smallest_letters, wanted * paper_width / table.offsetWidth * 0.99);
+            table.style.fontSize = wanted + "px";
+        }
+        if (table.offsetWidth > paper_width) split_table(table);
+    }
+
+    // Too wide even so: the columns go below each other, each part with the first ones again. Taken away after printing.
+    function split_table(table) {
+        const first = table.rows[0], n = first.cells.length;
+        if ([...table.rows].some(row => row.cells.length !== n)) return;
+        const widths = [...first.cells].map(cell => cell.offsetWidth), again = widths[0] + widths[1] < paper_width / 3 ? 2 : 1;
+        const repeated = widths.slice(0, again).reduce((a, b) => a + b, 0), parts = [];
+        let room = 0;
+        for (let k = again; k < n; ++k) {
+            if (widths[k] > room) { parts.push([]); room = paper_width - repeated; }
+            parts[parts.length - 1].push(k);
+            room -= widths[k];
+        }
+        for (const part of parts) {
+            const copy = table.cloneNode(true);
+            copy.classList.add("piece");
+            for (const row of copy.rows)
+                for (let k = n - 1; k >= again; --k) if (!part.includes(k)) row.deleteCell(k);
+            table.parentNode.append(copy);
+        }
+        table.classList.add("in-pieces");
+    }
+    function undo_fit(table) {
+        table.style.fontSize = "";
+        table.classList.remove("in-pieces");
+    }
     function paper(on) {
         if (printing === on) return;
         printing = on;
+        if (on) folded = [...document.querySelectorAll("details:not([open])")];
+        folded.forEach(d => { d.open = on; });
+        root.classList.toggle("paper", on);
         set_theme();
-        document.querySelectorAll(".plot, .canvas").forEach(p => { p.style.width = on ? "660px" : ""; });
+        document.querySelectorAll(".plot, .canvas").forEach(p => { p.style.width = on ? paper_width - 8 + "px" : ""; });
+        document.querySelectorAll(".scroll > .piece").forEach(t => t.remove());
+        document.querySelectorAll(".scroll > table").forEach(on ? fit_table : undo_fit);
         draw_all();
     }
     window.addEventListener("beforeprint", () => paper(true));

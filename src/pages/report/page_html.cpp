@@ -65,7 +65,7 @@ struct PartHtml {
     }
     std::string operator()(const Listing& p) const
     {
-        return "<details class=\"part\"><summary>" + html_text(p.title) + "</summary>\n<pre tabindex=\"0\">" +
+        return "<details class=\"part listing\"><summary>" + html_text(p.title) + "</summary>\n<pre tabindex=\"0\">" +
                html_text(p.text) + "</pre></details>\n";
     }
 };
@@ -126,6 +126,35 @@ std::string warnings_html(const std::vector<std::string>& warnings)
     return out + (warnings.size() > shown ? "</ul>\n</details>\n" : "</ul>\n") + "</section>\n";
 }
 
+std::string title_block_html(const TitleBlock& block)
+{
+    if (block.entries.empty() && block.signers.empty() && block.notes.empty()) return "";
+    std::string out = "<section class=\"title-block\" aria-label=\"Project\">\n";
+    if (!block.entries.empty()) out += pairs_html(block.entries, "entries");
+    if (!block.signers.empty()) {
+        out += "<dl class=\"signers\">\n";
+        for (const auto& [role, name] : block.signers)
+            out += "<div><dt>" + html_text(role) + "</dt><dd>" + html_text(name) +
+                   "</dd><dd class=\"signature\">date, signature</dd></div>\n";
+        out += "</dl>\n";
+    }
+    if (!block.notes.empty()) out += "<p>" + html_text(block.notes) + "</p>\n";
+    return out + "</section>\n";
+}
+
+/// As a string of CSS, in quotes.
+std::string css_string(const std::string& text)
+{
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\' || c == '<') // the last: no tag ends the style element
+            out += c == '<' ? "\\3c " : std::string("\\") + c;
+        else if (static_cast<unsigned char>(c) >= ' ')
+            out += c;
+    }
+    return out + "\"";
+}
+
 std::string contents_html(const Page& page)
 {
     std::string out = "<nav aria-label=\"Contents\"><ol>\n";
@@ -147,6 +176,8 @@ std::string head_html(const Page& page)
     out += uplot_style();
     out += "\n";
     out += page_style();
+    if (!page.footer.empty())
+        out += "@media print { @page { @bottom-left { content: " + css_string(page.footer) + "; } } }\n";
     return out + "</style>\n</head>\n";
 }
 
@@ -159,7 +190,8 @@ std::string page_html(const Page& page)
            "<button type=\"button\" id=\"theme\">Dark or light</button></div>\n<h1>" +
            html_text(page.title) + "</h1>\n";
     if (!page.subtitle.empty()) out += "<p class=\"subtitle\">" + html_text(page.subtitle) + "</p>\n";
-    out += "</header>\n" + contents_html(page) + "<main>\n" + headline_html(page.headline);
+    out += "</header>\n" + contents_html(page) + "<main>\n" + title_block_html(page.title_block) +
+           headline_html(page.headline);
     if (!page.key_figures.empty()) out += pairs_html(page.key_figures, "figures");
     out += warnings_html(page.warnings);
     out += "<noscript><p class=\"note\">The charts need JavaScript; tables and drawings do not.</p></noscript>\n";

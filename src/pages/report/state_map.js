@@ -8,6 +8,8 @@ function damslip_state_map(figure, map, page) {
     const rows = map.states.map(expand), n = rows.length, m = map.distance.length;
     const kind = Object.fromEntries(map.kinds.map((k, i) => [k.letter, i])); // the later of two shows in a common pixel
     const kind_colour = k => k.colour < 0 ? page.css("--calm") : page.css("--c" + k.colour);
+    // Beside its colour each kind has a pattern: plain, stripes, dots.
+    const pattern_of = k => k.colour < 0 ? 0 : map.kinds.filter(o => o.colour >= 0).indexOf(k) % 3;
     // A place reaches half-way to its neighbours.
     const edge = i => i <= 0 ? map.distance[0] : i >= m ? map.distance[m - 1] : (map.distance[i - 1] + map.distance[i]) / 2;
     const low = edge(0), high = edge(m), start = map.time[0], end = map.time[n - 1];
@@ -19,9 +21,11 @@ function damslip_state_map(figure, map, page) {
 
     function draw_legend() {
         legend.textContent = "";
-        for (const k of map.kinds) {
+        for (const k of map.kinds.filter(k => map.states.some(runs => runs.includes(k.letter)))) {
             const item = document.createElement("li"), swatch = document.createElement("span");
-            swatch.style.background = kind_colour(k);
+            const pattern = pattern_of(k), colour = kind_colour(k), paper = page.css("--paper");
+            swatch.style.background = pattern === 1 ? `repeating-linear-gradient(135deg, ${paper} 0 1.5px, ${colour} 1.5px 5px)`
+                                    : pattern === 2 ? `radial-gradient(circle, ${paper} 1.2px, ${colour} 1.4px) 0 0 / 5px 5px` : colour;
             item.append(swatch, k.name);
             legend.append(item);
         }
@@ -31,18 +35,29 @@ function damslip_state_map(figure, map, page) {
     const to_y = d => box.top + (high - d) / (high - low || 1) * box.height;
 
     // One pixel column for each column of the screen; of the instants in it the most notable state.
-    function cells(width) {
+    function cells(width, height, r) {
         const image = document.createElement("canvas");
-        image.width = width; image.height = m;
-        const ctx = image.getContext("2d"), data = ctx.createImageData(width, m);
-        const rgb = map.kinds.map(k => { const c = kind_colour(k); return [1, 3, 5].map(i => parseInt(c.slice(i, i + 2), 16)); });
-        for (let column = 0; column < width; ++column) {
-            const from = Math.floor(column * n / width), to = Math.max(from + 1, Math.floor((column + 1) * n / width));
+        image.width = width; image.height = height;
+        const ctx = image.getContext("2d"), data = ctx.createImageData(width, height);
+        const rgb = c => [1, 3, 5].map(i => parseInt(c.slice(i, i + 2), 16));
+        const of_kind = map.kinds.map(k => rgb(kind_colour(k))), of_paper = rgb(page.css("--paper")), patterns = map.kinds.map(pattern_of);
+        const in_pattern = [() => false, (x, y) => (x + y) % 6 < 1.5, (x, y) => x % 5 < 1.6 && y % 5 < 1.6]; // in pixels of the page
+        const place_of = Array.from({length: height}, (_, y) => {
+            const d = high - (y + 0.5) / height * (high - low);
+            let i = 0;
+            while (i < m - 1 && edge(i + 1) < d) ++i;
+            return i;
+        });
+        const tops = new Array(m);
+        for (let x = 0; x < width; ++x) {
+            const from = Math.floor(x * n / width), to = Math.max(from + 1, Math.floor((x + 1) * n / width));
             for (let i = 0; i < m; ++i) {
-                let top = 0;
-                for (let r = from; r < to && r < n; ++r) top = Math.max(top, kind[rows[r][i]] ?? 0);
-                const at = ((m - 1 - i) * width + column) * 4;
-                data.data.set([...rgb[top], 255], at);
+                tops[i] = 0;
+                for (let k = from; k < to && k < n; ++k) tops[i] = Math.max(tops[i], kind[rows[k][i]] ?? 0);
+            }
+            for (let y = 0; y < height; ++y) {
+                const top = tops[place_of[y]];
+                data.data.set([...(in_pattern[patterns[top]](x / r, y / r) ? of_paper : of_kind[top]), 255], (y * width + x) * 4);
             }
         }
         ctx.putImageData(data, 0, 0);
@@ -76,10 +91,7 @@ function damslip_state_map(figure, map, page) {
         ctx.fillStyle = page.css("--paper");
         ctx.fillRect(0, 0, canvas.width / r, canvas.height / r);
         ctx.imageSmoothingEnabled = false;
-        for (let i = 0; i < m; ++i) {
-            const y = to_y(edge(i + 1));
-            ctx.drawImage(picture, 0, m - 1 - i, picture.width, 1, box.left, y, box.width, to_y(edge(i)) - y + 0.5);
-        }
+        ctx.drawImage(picture, box.left, box.top, box.width, box.height);
         axes(ctx, canvas.width / r, canvas.height / r);
         if (!cursor) return;
         ctx.fillStyle = page.css("--ink");
@@ -88,13 +100,13 @@ function damslip_state_map(figure, map, page) {
     }
 
     function draw() {
-        const width = Math.floor(place.clientWidth), height = 260, r = window.devicePixelRatio;
+        const width = Math.floor(place.clientWidth), height = document.documentElement.classList.contains("paper") ? 215 : 260, r = window.devicePixelRatio;
         if (!width) return false;
         box = {left: 58, top: 8, width: width - 72, height: height - 52};
         canvas.width = width * r; canvas.height = height * r;
         canvas.style.width = width + "px"; canvas.style.height = height + "px";
         if (!canvas.parentNode) place.append(canvas);
-        picture = cells(Math.max(1, Math.round(box.width * r)));
+        picture = cells(Math.max(1, Math.round(box.width * r)), Math.round(box.height * r), r);
         draw_legend();
         paint();
         return true;

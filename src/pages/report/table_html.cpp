@@ -79,6 +79,8 @@ std::string table_html(const TablePart& part, const std::string& section)
                        (part.layout == Layout::rows ? by_rows(table) : by_columns(table, part.labels)) +
                        "\n</table></div>\n";
     for (const std::string& note : table.notes) body += "<p class=\"note\">" + html_text(note) + "</p>\n";
+    for (const std::string& definition : part.definitions)
+        body += "<p class=\"note\">" + html_text(definition) + "</p>\n";
     if (part.fold == Fold::folded)
         return "<details class=\"part\"><summary>" + title + "</summary>\n" + body + "</details>\n";
     return "<div class=\"part\">" + (title.empty() || table.title == section ? "" : "<h3>" + title + "</h3>\n") + body +

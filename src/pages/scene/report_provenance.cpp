@@ -16,6 +16,22 @@ std::string component_text(const Record& r)
                        r.source.unit.empty() ? "" : ", " + r.source.unit, r.acceleration.size(), r.dt, r.source.sha256);
 }
 
+TitleBlock title_block(const Project& project)
+{
+    TitleBlock block;
+    const auto entry = [&block](const char* name, const std::string& value) {
+        if (!value.empty()) block.entries.emplace_back(name, value);
+    };
+    entry("project", project.name);
+    entry("client", project.client);
+    entry("date", project.date);
+    entry("revision", project.revision);
+    if (!project.author.empty()) block.signers.emplace_back("prepared by", project.author);
+    if (!project.checker.empty()) block.signers.emplace_back("checked by", project.checker);
+    block.notes = project.notes;
+    return block;
+}
+
 } // namespace
 
 nlohmann::ordered_json json_header(const std::string& what, const Scene& given)
@@ -30,6 +46,9 @@ Page begin_page(const Scene& scene, const std::string& about)
     const std::string file = scene.file.filename().string();
     Page page;
     page.title = scene.title.empty() ? file : scene.title;
+    page.title_block = title_block(scene.project);
+    page.footer = page.title + (scene.project.revision.empty() ? "" : ", revision " + scene.project.revision) +
+                  ", scene " + scene_hash(scene).substr(0, 12) + ", damslip " + program_version();
     page.subtitle = about + file + ", scene " + scene_hash(scene).substr(0, 12) + ", damslip " + program_version();
     return page;
 }

@@ -69,7 +69,16 @@ std::string scene_text(const SceneTemplate& dam)
         "# run:  damslip screen THIS      limit equilibrium, regressions and the rigid block, in a second\n"
         "#       damslip fe THIS          finite elements with contact, both polarities\n"
         "#       damslip draw THIS        the section as SVG\n";
-    out += "title = " + quoted(dam.title) + "\n\n[section]\n";
+    out += "title = " + quoted(dam.title) +
+           "\n\n# Title block of the reports; take the # away and fill in.\n"
+           "# [project]\n"
+           "# name = \"Safety review\"\n"
+           "# client = \"Valley Power\"\n"
+           "# author = \"A. Meier\"\n"
+           "# checker = \"B. Rossi\"\n"
+           "# date = \"2026-01-31\"\n"
+           "# revision = \"A\"\n"
+           "\n[section]\n";
     out += line("height_m", dam.height, true, "from the base to the crest");
     out += line("base_m", dam.base, base, "length of the base, heel to toe");
     out += line("crest_m", dam.crest, crest, "width of the crest; polygon_m takes any other section");

@@ -93,7 +93,8 @@ Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistori
     chart.title = motion.name + fmt::format(": slip of the flexible block, polarity {:+d}", found.polarity);
     chart.x = time_axis();
     chart.y = {"slip, downstream", "mm"};
-    const auto& [decoupled, coupled] = found.slips;
+    const auto& decoupled = found.slips.decoupled;
+    const auto& coupled = found.slips.coupled;
     if (decoupled) chart.curves.push_back(slip_curve(decoupled->slide.history, "decoupled", 2));
     if (coupled) chart.curves.push_back(slip_curve(coupled->slide.history, "coupled", 3));
     const double judged = worse_judged(s, number).judged().max_slip;

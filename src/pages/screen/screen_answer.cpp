@@ -9,8 +9,12 @@
 #include "pages/scene/report_provenance.hpp"
 #include "pages/screen/screen_tables.hpp"
 #include "pages/screen/wedge_tables.hpp"
+#include "pages/spectrum/spectrum_tables.hpp"
+#include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -59,6 +63,17 @@ Table judged(Table verdicts)
 
 } // namespace
 
+std::vector<std::string> screen_notes(const Ready& ready)
+{
+    std::vector<std::string> notes = note_texts(ready.given.notes);
+    if (!ready.flexible_modes.empty()) notes.push_back(ready.flexible_modes);
+    if (!ready.given.lift_joints.empty())
+        notes.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
+                                    "[[lift_joint]] is left to `damslip fe`.",
+                                    ready.given.lift_joints.size()));
+    return notes;
+}
+
 nlohmann::ordered_json screen_json(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
@@ -86,8 +101,10 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     const Table events = event_table(s);
     if (!events.rows.empty()) j["events"] = json_of(events);
     if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, allowable));
+    if (!s.needed.empty()) j["needed"] = json_of(needed_table(s.needed, in.scene));
     j["statistics"] = json_of(statistics_table(s));
-    j["regressions"] = json_of(regression_table(s));
+    j["regressions"] = json_of(regression_table(s.regressions));
+    if (in.spectrum) j["response_spectrum"] = spectrum_json(*in.spectrum);
     j["warnings"] = s.warnings;
     return j;
 }
@@ -118,13 +135,15 @@ std::string screen_text(const ScreenReportInput& in)
         show(anchor_list_table(in.given));
         show(sliding::uplift_comparison_table(s.uplifts));
     }
-    show(regression_summary(s));
+    if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
+    show(regression_summary(s.regressions));
     show(slip_table(s, allowable));
     if (has_rocking(s)) show(rocking_table(s, allowable));
     if (!s.slips_without_bond.empty()) show(bond_table(s, allowable));
     show(screened_anchor_table(s));
     if (const Table events = event_table(s); !events.rows.empty()) show(events);
     if (s.flexible) show(flexible_table(s, allowable));
+    show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
     for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
     return out;
@@ -142,6 +161,8 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
         write_file(folder / "events.csv", csv(events, comments));
     if (in.screening.flexible)
         write_file(folder / "flexible_block.csv", csv(flexible_table(in.screening, allowable), comments));
+    if (!in.screening.needed.empty())
+        write_file(folder / "needed.csv", csv(needed_table(in.screening.needed, in.scene), comments));
     write_file(folder / "scene.resolved.toml", resolved_toml(in.given));
     write_file(folder / "report.html", screen_report(in));
 }

@@ -6,7 +6,7 @@
 #include "core/units.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/scene/anchor_tables.hpp"
-#include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
@@ -14,6 +14,7 @@
 #include "pages/screen/screen_tables.hpp"
 #include "pages/screen/wedge_drawing.hpp"
 #include "pages/screen/wedge_tables.hpp"
+#include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/section.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
@@ -152,7 +153,16 @@ Section section_part(const Scene& scene, const Screening& s)
 Section equilibrium_section(const Screening& s)
 {
     Section section{"Limit equilibrium", {}, Fold::open};
-    section.parts.push_back(TablePart{sliding::equilibrium_table(s.combinations), Layout::columns, 3, Fold::open});
+    section.parts.push_back(TablePart{
+        sliding::equilibrium_table(s.combinations),
+        Layout::columns,
+        3,
+        Fold::open,
+        {"N': normal force less uplift, compression positive; T: shear, positive downstream; U: uplift, positive up; "
+         "k_h: horizontal seismic coefficient, positive where it drives downstream; k_v: vertical, positive where it "
+         "makes the dam heavier. FS sliding: strength over shear; FS overturning: moments about the toe; eccentricity: "
+         "of the resultant from the middle of the base, positive downstream; stresses: effective, compression "
+         "positive. a_y: ground acceleration at which it starts to slide; tipping: at which it turns about its toe."}});
     Table verdicts = sliding::verdict_table(s.combinations);
     const CheckCount checks = count_checks(s);
     if (checks.judged == 0)
@@ -182,7 +192,11 @@ Section yield_section(const Scene& scene, const Screening& s)
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
     if (!scene.anchors.empty()) section.parts.push_back(rows_part(anchor_list_table(scene)));
-    if (!s.uplifts.empty()) section.parts.push_back(rows_part(sliding::uplift_comparison_table(s.uplifts)));
+    if (!s.uplifts.empty())
+        section.parts.push_back(
+            rows_part(sliding::uplift_comparison_table(s.uplifts),
+                      {"U: uplift on the uncracked base, positive up; critical μ: friction that just holds the dam "
+                       "without an earthquake."}));
     return section;
 }
 
@@ -199,13 +213,14 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     if (Table events = event_table(s); !events.rows.empty()) section.parts.push_back(rows_part(std::move(events)));
     const bool slides = !largest(s); // nothing to draw
     if (s.flexible) section.parts.push_back(rows_part(flexible_table(s, in.scene.criteria.allowable_slip)));
+    if (!s.needed.empty()) section.parts.push_back(rows_part(needed_table(s.needed, in.scene)));
     if (motions.size() > 1) section.parts.push_back(rows_part(statistics_table(s)));
     if (motions.size() > 1 && !slides) section.parts.push_back(slip_by_record(s, in.scene.criteria.allowable_slip));
     if (auto chart = slip_over_friction(in.scene, s, motions, in.jobs)) section.parts.push_back(std::move(*chart));
     if (motions.size() > 2 && !slides) section.parts.push_back(slip_over_ratio(s));
     if (!s.regressions.empty())
-        section.parts.push_back(
-            TablePart{regression_summary(s), Layout::rows, 1, motions.size() > 1 ? Fold::folded : Fold::open});
+        section.parts.push_back(TablePart{regression_summary(s.regressions), Layout::rows, 1,
+                                          motions.size() > 1 ? Fold::folded : Fold::open});
     return section;
 }
 
@@ -213,7 +228,7 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
 {
     std::vector<Section> sections(1);
     sections[0] = {"Records", {}, Fold::open};
-    sections[0].parts.push_back(rows_part(record_table(motions)));
+    sections[0].parts.push_back(record_part(record_table(motions)));
     sections[0].parts.push_back(spectra(motions, in.jobs));
     std::vector<std::vector<Part>> parts(motions.size());
     parallel_for(motions.size(), in.jobs, [&](std::size_t i) {
@@ -346,10 +361,11 @@ Page screen_page(const ScreenReportInput& in)
     if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
     page.sections.push_back(yield_section(in.scene, in.screening));
     if (!in.scene.wedge) page.sections.push_back(equilibrium_section(in.screening));
+    if (in.spectrum) page.sections.push_back(spectrum_section(*in.spectrum));
     if (!motions.empty())
         for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));
-    Table effects = effect_table(in.screening.plan);
-    page.sections.push_back({"Effects taken into account", {rows_part(std::move(effects))}, Fold::open});
+    page.sections.push_back({"Effects taken into account", {effect_part(in.screening.plan)}, Fold::open});
+    page.sections.push_back(limits_section(in.scene, Method::rigid_block));
     page.sections.push_back({"Scene", {scene_listing(in.given)}, Fold::open});
     page.provenance = provenance(in);
     return page;

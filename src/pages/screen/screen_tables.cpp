@@ -93,12 +93,12 @@ constexpr const char* regressions_title = "Empirical regressions (horizontal com
 
 /// What gives no answer of its own for a record, by reason: "El Centro: outside its range, not weighted: jibson-1993
 /// 707.7 mm, ...; no slip expected: 8; needs magnitude: 7." Empty: nothing.
-std::string folded_line(const Screening& s, const std::string& record)
+std::string folded_line(const std::vector<RegressionRow>& rows, const std::string& record)
 {
     std::vector<std::string> reasons;
     std::map<std::string, std::size_t> count;
     std::string outside;
-    for (const RegressionRow& row : s.regressions) {
+    for (const RegressionRow& row : rows) {
         if (row.record != record || row.status == "valid" || row.id == weighted_median_id) continue;
         if (count[row.status]++ == 0) reasons.push_back(row.status);
         if (!row.valid && row.median)
@@ -264,21 +264,39 @@ Table flexible_table(const Screening& s, const std::optional<double>& allowable)
         const auto& coupled = r.flexible->coupled;
         return coupled ? slip_cell(coupled->slide, coupled->slide.slip / mm) : Cell();
     };
-    Table t = table_of<R>(
-        "Displacement of the flexible block",
-        {{{"record", "record"}, &R::record},
-         {{"polarity", "polarity"}, &R::polarity},
-         {{"rigid_max_slip_mm", "rigid", "mm", 5},
-          [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip / mm); }},
-         {{"decoupled_max_slip_mm", "decoupled", "mm", 5}, largest(&FlexibleSlips::decoupled)},
-         {{"coupled_max_slip_mm", "coupled", "mm", 5}, largest(&FlexibleSlips::coupled)},
-         {{"amplification_decoupled", "peak average/PGA decoupled", "–", 4}, over_pga(&FlexibleSlips::decoupled)},
-         {{"amplification_coupled", "peak average/PGA coupled", "–", 4}, over_pga(&FlexibleSlips::coupled)},
-         {{"coupled_slip_mm", "coupled, at the end", "mm", 5}, at_end},
-         {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
-         {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
-         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}},
-        s.slips | std::views::filter([](const R& r) { return r.flexible.has_value(); }));
+    std::vector<ColumnOf<R>> columns{
+        {{"record", "record"}, &R::record},
+        {{"polarity", "polarity"}, &R::polarity},
+        {{"rigid_max_slip_mm", "rigid", "mm", 5},
+         [](const R& r) { return slip_cell(r.rigid(), r.rigid().max_slip / mm); }},
+        {{"decoupled_max_slip_mm", "decoupled", "mm", 5}, largest(&FlexibleSlips::decoupled)},
+        {{"coupled_max_slip_mm", "coupled", "mm", 5}, largest(&FlexibleSlips::coupled)},
+        {{"amplification_decoupled", "peak average/PGA decoupled", "–", 4}, over_pga(&FlexibleSlips::decoupled)},
+        {{"amplification_coupled", "peak average/PGA coupled", "–", 4}, over_pga(&FlexibleSlips::coupled)},
+        {{"coupled_slip_mm", "coupled, at the end", "mm", 5}, at_end},
+        {{"judged_by", "judged by"}, [](const R& r) { return std::string(r.governing().method); }},
+        {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
+        {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}};
+    const auto of_column = [](auto value) {
+        return [=](const R& r) { return r.flexible->column ? Cell(value(*r.flexible->column)) : Cell(); };
+    };
+    using C = sliding::StrainCompatible;
+    const bool is_column = std::ranges::any_of(s.slips, [](const R& r) { return r.flexible && r.flexible->column; });
+    if (is_column) {
+        const std::vector<ColumnOf<R>> more{
+            {{"column_velocity_m_s", "V_s", "m/s", 4}, of_column([](const C& c) { return c.velocity; })},
+            {{"column_strain", "strain", "%", 3}, of_column([](const C& c) { return 100.0 * c.strain; })},
+            {{"column_period_s", "T_s", "s", 4}, of_column([](const C& c) { return c.block.period; })},
+            {{"column_damping", "damping", "%", 3},
+             of_column([](const C& c) { return 100.0 * c.block.damping_ratio; })}};
+        columns.insert(columns.begin() + 2, more.begin(), more.end());
+    }
+    Table t = table_of<R>("Displacement of the flexible block", columns,
+                          s.slips | std::views::filter([](const R& r) { return r.flexible.has_value(); }));
+    if (is_column)
+        t.notes.push_back(
+            "V_s, T_s, damping: of the column under this record, radiation into the rock included; strain: effective, "
+            "0.65 of the largest. The mode below is that at small strain.");
     t.notes.push_back(fmt::format(
         "one mode: period {:.4g} s, damping {:.3g} %, mass ratio {:.3g} ({}); largest slips. Average: the horizontal "
         "acceleration over the mass. Decoupled can be more or less than coupled.",
@@ -371,7 +389,38 @@ const RegressionColumn record_column{{"record", "record"}, &RegressionRow::recor
 
 } // namespace
 
-Table regression_table(const Screening& s)
+Table needed_table(const std::vector<NeededRow>& rows, const Scene& scene)
+{
+    using R = NeededRow;
+    const auto in_g = [](double a) { return a / units::standard_gravity; };
+    const double allowable = scene.criteria.allowable_slip.value_or(0.0);
+    Table t = table_of<R>(
+        fmt::format("Needed for a slip of {:.4g} mm at most", allowable / mm),
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"k_max", "k_max", "g", 4}, [=](const R& r) { return in_g(r.peak); }},
+         {{"k_max_time_s", "at", "s", 4}, &R::peak_time},
+         {{"k_allowable", "k(d*)", "g", 4}, [=](const R& r) { return r.yield ? Cell(in_g(*r.yield)) : Cell(); }},
+         {{"k_allowable_over_k_max", "k(d*)/k_max", "–", 3},
+          [](const R& r) { return r.yield && r.peak > 0.0 ? Cell(*r.yield / r.peak) : Cell(); }},
+         {{"friction", "friction", "–", 4}, [](const R& r) { return optional_cell(r.friction); }},
+         {{"friction_over_given", "over the scene's", "–", 3},
+          [&](const R& r) {
+              const double given = scene.contact.friction;
+              return r.friction && given > 0.0 ? Cell(*r.friction / given) : Cell();
+          }}},
+        rows);
+    t.notes.push_back(
+        "k_max: largest acceleration that drives it downstream. k(d*): seismic coefficient for this slip, the yield of "
+        "a "
+        "block that slides one way under the horizontal record; – : even a block without resistance slips less.");
+    t.notes.push_back(fmt::format("friction: least μ from which on the rigid block's largest slip is no more, with the "
+                                  "vertical component where there is one; – : above {:.2g}.",
+                                  highest_friction));
+    return t;
+}
+
+Table regression_table(const std::vector<RegressionRow>& rows)
 {
     using R = RegressionRow;
     return table_of<R>(regressions_title,
@@ -387,22 +436,21 @@ Table regression_table(const Screening& s)
                         {{"status", "status"}, &R::status},
                         {{"weight", "weight", "–", 3}, [](const R& r) { return optional_cell(r.weight); }},
                         remark_column},
-                       s.regressions);
+                       rows);
 }
 
-Table regression_summary(const Screening& s)
+Table regression_summary(const std::vector<RegressionRow>& all)
 {
     std::vector<RegressionRow> rows;
     std::vector<std::string> notes;
-    for (const RegressionRow& row : s.regressions) {
+    for (const RegressionRow& row : all) {
         const bool weighted = row.id == weighted_median_id;
         if (weighted || row.status == "valid") rows.push_back(row);
-        if (std::string line = weighted ? folded_line(s, row.record) : ""; !line.empty())
+        if (std::string line = weighted ? folded_line(all, row.record) : ""; !line.empty())
             notes.push_back(std::move(line));
     }
     std::vector<RegressionColumn> columns{record_column, model_column, slip_column, low_column, high_column};
-    if (std::any_of(s.regressions.begin(), s.regressions.end(),
-                    [](const RegressionRow& row) { return row.valid && row.zero_probability; }))
+    if (std::any_of(all.begin(), all.end(), [](const RegressionRow& row) { return row.valid && row.zero_probability; }))
         columns.push_back(zero_column);
     columns.push_back(remark_column);
     return table_of(regressions_title, columns, rows, std::move(notes));

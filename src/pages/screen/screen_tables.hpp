@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/screen/needed.hpp"
 #include "analysis/screen/screening.hpp"
 #include "core/table.hpp"
 
@@ -20,11 +21,14 @@ Table event_table(const Screening& s);
 /// Slip of the flexible block beside the rigid one, with its verdict.
 Table flexible_table(const Screening& s, const std::optional<double>& allowable);
 
+/// Yield and friction that keep the slip within the allowable one; without rows where there is none.
+Table needed_table(const std::vector<NeededRow>& rows, const Scene& scene);
+
 /// Every regression for every record, for files.
-Table regression_table(const Screening& s);
+Table regression_table(const std::vector<RegressionRow>& rows);
 /// Those that give an answer of their own, with the weighted median of each record; in the notes a line per record with
 /// what is outside its range (slip, never weighted), what expects no slip and what is missing.
-Table regression_summary(const Screening& s);
+Table regression_summary(const std::vector<RegressionRow>& rows);
 Table statistics_table(const Screening& s);
 
 } // namespace damslip::pages

@@ -192,8 +192,8 @@ Table sweep_rows_of(const std::string& csv)
         at = end + 1;
         if (line.starts_with("#")) continue;
         const std::vector<std::string> fields = fields_of(line);
-        if (header && std::find(fields.begin(), fields.end(), "opening_water") != fields.end())
-            table.columns = sweep_columns(true);
+        const auto has = [&](const char* key) { return std::find(fields.begin(), fields.end(), key) != fields.end(); };
+        if (header) table.columns = sweep_columns({has("opening_water"), has("period_s"), has("damping")});
         bool fits = fields.size() == table.columns.size();
         for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
         if (!fits)

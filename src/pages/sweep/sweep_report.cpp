@@ -6,11 +6,12 @@
 #include "core/version.hpp"
 #include "pages/fe/mesh_drawing.hpp"
 #include "pages/report/page_html.hpp"
-#include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/record_charts.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/scene/section_drawing.hpp"
 #include "pages/screen/wedge_drawing.hpp"
+#include "pages/sweep/needed_friction_table.hpp"
 #include "pages/sweep/opening_water_table.hpp"
 #include "pages/sweep/sweep_charts.hpp"
 #include "scene/effect_plan.hpp"
@@ -106,6 +107,16 @@ Table variant_table(const SweepView& view)
         {{"scale", "motion ×", "–", 4}, &V::scale}, {{"critical_friction", "stands from μ", "–", 5}, stands_from}};
     if (!view.variants.empty() && !view.variants.front().opening.empty())
         columns.insert(columns.begin() + 2, {{"opening_water", "opening water"}, &V::opening});
+    const auto any = [&](auto V::*member) {
+        return std::any_of(view.variants.begin(), view.variants.end(),
+                           [=](const V& v) { return (v.*member).has_value(); });
+    };
+    if (any(&V::damping))
+        columns.insert(columns.end() - 2,
+                       {{"damping", "damping", "–", 4}, [](const V& v) { return optional_cell(v.damping); }});
+    if (any(&V::period))
+        columns.insert(columns.end() - 2,
+                       {{"period_s", "T_s", "s", 4}, [](const V& v) { return optional_cell(v.period); }});
     return table_of("Variants", columns, view.variants);
 }
 
@@ -215,7 +226,14 @@ std::optional<Section> history_section(const SweepView& view, const std::vector<
 
 Section variant_section(const SweepView& view, const std::optional<double>& allowable)
 {
-    Section section{"Variants", {rows_part(variant_table(view))}, Fold::open};
+    Section section{"Variants",
+                    {rows_part(variant_table(view),
+                               {"Level: water above the heel; size: factor on all lengths of the scene; motion ×: "
+                                "factor on the records; stands from μ: friction that just holds the dam without an "
+                                "earthquake."})},
+                    Fold::open};
+    if (Table needed = needed_friction_table(view, allowable); !needed.rows.empty())
+        section.parts.push_back(rows_part(std::move(needed)));
     if (view.variants.size() > 1)
         for (const std::string& method : view.methods) {
             if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
@@ -249,7 +267,15 @@ Section rows_section(const SweepReportInput& in, std::size_t all)
                                           in.csv.empty() ? "" : "; all are in " + in.csv.filename().string()));
         table.rows.resize(std::min(listed_rows, table.rows.size()));
     }
-    return {"Rows", {rows_part(std::move(table))}, Fold::folded};
+    return {"Rows",
+            {rows_part(std::move(table),
+                       {"Level: water above the heel; size: factor on all lengths of the scene; scale: factor on the "
+                        "record; polarity -1: its horizontal component is flipped. a_y: ground acceleration at which "
+                        "it starts to slide, negative where it slides without an earthquake; critical μ: friction that "
+                        "just holds it without one. Slip: at the end, positive downstream; largest: on the way; "
+                        "upstream: farthest to that side; −1σ, +1σ: of regressions; ±: what steps, or modes, leave "
+                        "open."})},
+            Fold::folded};
 }
 
 bool finite_elements(const SweepView& view)
@@ -285,7 +311,7 @@ Section record_section(const Scene& scene, const std::vector<RecordPair>& record
 {
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : records) motions.push_back(ground_motion(scene, pair));
-    return {"Records", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open};
+    return {"Records", {record_part(record_table(motions)), spectra(motions, 1)}, Fold::open};
 }
 
 std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInput& in, const SweepView& view)
@@ -346,7 +372,9 @@ Page sweep_page(const SweepReportInput& in)
         page.sections.push_back(section_of(*in.scene, view));
         if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));
         page.sections.push_back(
-            {"Scene", {rows_part(effect_table(effect_plan(*in.scene, view))), scene_listing(*in.scene)}, Fold::open});
+            limits_section(*in.scene, finite_elements(view) ? Method::finite_elements : Method::rigid_block));
+        page.sections.push_back(
+            {"Scene", {effect_part(effect_plan(*in.scene, view)), scene_listing(*in.scene)}, Fold::open});
     }
     page.provenance = provenance(in, view);
     return page;

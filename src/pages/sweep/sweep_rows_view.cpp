@@ -63,6 +63,8 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
         if (differs(&SweepVariant::uplift)) parts.push_back("uplift " + v.uplift);
         if (differs(&SweepVariant::opening)) parts.push_back("opening water " + v.opening);
         if (differs(&SweepVariant::reservoir)) parts.push_back("water " + v.reservoir);
+        if (differs(&SweepVariant::period)) parts.push_back(fmt::format("T_s {:g} s", v.period.value_or(0.0)));
+        if (differs(&SweepVariant::damping)) parts.push_back(fmt::format("damping {:g}", v.damping.value_or(0.0)));
         if (differs(&SweepVariant::scale)) parts.push_back(fmt::format("motion × {:g}", v.scale));
         std::string name;
         for (const std::string& part : parts) name += (name.empty() ? "" : ", ") + part;
@@ -82,7 +84,8 @@ void SweepViewMaker::add(const Table& table)
         r.variant = place_of(view.variants,
                              SweepVariant{cells.number(row, "level_m").value_or(0.0), cells.word(row, "uplift"),
                                           cells.word(row, "reservoir"), cells.number(row, "size").value_or(1.0),
-                                          cells.number(row, "scale").value_or(1.0), cells.word(row, "opening_water")});
+                                          cells.number(row, "scale").value_or(1.0), cells.word(row, "opening_water"),
+                                          cells.number(row, "period_s"), cells.number(row, "damping")});
         r.friction = cells.number(row, "friction").value_or(0.0);
         r.polarity = static_cast<int>(cells.number(row, "polarity").value_or(1.0));
         r.record = cells.word(row, "record");
@@ -92,6 +95,7 @@ void SweepViewMaker::add(const Table& table)
         r.critical_friction = cells.number(row, "critical_friction");
         r.slip = cells.number(row, "max_slip_m");
         if (!r.slip) r.slip = cells.number(row, "slip_m");
+        r.error = cells.number(row, "slip_error_m");
         r.low = cells.number(row, "slip_low_m");
         r.high = cells.number(row, "slip_high_m");
         r.status = cells.word(row, "status");

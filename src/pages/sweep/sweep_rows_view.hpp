@@ -17,8 +17,9 @@ namespace damslip::pages {
 struct SweepVariant {
     double level = 0.0; ///< [m]
     std::string uplift, reservoir;
-    double size = 1.0, scale = 1.0; ///< [-]
-    std::string opening = {};       ///< uplift.opening; empty: the scene's
+    double size = 1.0, scale = 1.0;                  ///< [-]
+    std::string opening = {};                        ///< uplift.opening; empty: the scene's
+    std::optional<double> period = {}, damping = {}; ///< of the flexible block [s], [-]; none: the scene's
 
     friend auto operator<=>(const SweepVariant&, const SweepVariant&) = default;
 };
@@ -32,6 +33,7 @@ struct SweepRow {
     double yield_acceleration = 0.0; ///< [m/s²]
     double pga = 0.0;                ///< [m/s²]
     std::optional<double> slip;      ///< of answers: largest on the way, else the final one [m]
+    std::optional<double> error;     ///< of an FE slip by its steps [m]
     std::optional<double> low, high; ///< band of a regression [m]
     std::optional<double> critical_friction;
     std::string status;          ///< as printed

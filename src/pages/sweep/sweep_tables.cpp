@@ -41,8 +41,8 @@ Cell rock(const Grid& grid, const GridIndex& at)
     return words.empty() ? Cell() : Cell(words);
 }
 
-/// @param opening  with the column of that axis
-std::vector<ColumnOf<SweepLine>> columns(bool opening)
+/// @param with  columns of axes that are there
+std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
 {
     using L = SweepLine;
     using units::standard_gravity;
@@ -86,9 +86,18 @@ std::vector<ColumnOf<SweepLine>> columns(bool opening)
         {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
         {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
     const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
-    if (opening)
+    if (with.opening)
         all.insert(after,
                    {{"opening_water", "opening water"}, [](const L& l) { return l.axes().opening[l.at.opening]; }});
+    const auto before_scale = [&all] {
+        return std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "scale"; });
+    };
+    if (with.period)
+        all.insert(before_scale(),
+                   {{"period_s", "T_s", "s", 4}, [](const L& l) { return l.axes().period[l.at.period]; }});
+    if (with.damping)
+        all.insert(before_scale(),
+                   {{"damping", "damping", "–", 4}, [](const L& l) { return l.axes().damping[l.at.damping]; }});
     return all;
 }
 
@@ -101,12 +110,13 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
         const FinishedRow* row = outcome.find(id);
         lines.push_back({grid, id, grid.tasks.index(id), row ? row->results : not_run()});
     }
-    return table_of("", columns(has_opening_axis(grid.axes)), lines);
+    const Axes& axes = grid.axes;
+    return table_of("", columns({has_opening_axis(axes), !axes.period.empty(), !axes.damping.empty()}), lines);
 }
 
-std::vector<Column> sweep_columns(bool opening)
+std::vector<Column> sweep_columns(const AxisColumns& with)
 {
-    return table_of("", columns(opening), std::vector<SweepLine>{}).columns;
+    return table_of("", columns(with), std::vector<SweepLine>{}).columns;
 }
 
 Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)

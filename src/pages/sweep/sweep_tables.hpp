@@ -12,8 +12,15 @@ namespace damslip::pages {
 /// what the method gave.
 Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome);
 
-/// Its columns. @param opening  of a grid over uplift.opening
-std::vector<Column> sweep_columns(bool opening = false);
+/// Axes whose columns are in the table only where the sweep has them.
+struct AxisColumns {
+    bool opening = false; ///< uplift.opening
+    bool period = false;  ///< flexible_block.period_s
+    bool damping = false; ///< flexible_block.damping
+};
+
+/// Its columns.
+std::vector<Column> sweep_columns(const AxisColumns& with = {});
 
 /// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.
 inline constexpr const char* no_error_estimate = "no error estimate: fixed sub-steps";

@@ -135,7 +135,8 @@ std::string evidence_markdown(const std::vector<SourceOutcome>& outcomes, const 
                       "each source is fixed "
                       "before anything is compared; what lies outside stands below with its reason. Made by `damslip "
                       "verify --external FOLDER "
-                      "--markdown`, FOLDER holding what may not be shipped.\n";
+                      "--markdown`, FOLDER holding what may not be shipped. The same models in another "
+                      "finite-element program: [a second solver](second-solver.md).\n";
     for (const SourceOutcome& o : outcomes) {
         out += fmt::format("\n## {}\n{}.\n\nCompared: {}.\n\nIts accuracy: {}.\n", o.subject->id, o.subject->citation,
                            o.subject->subject, o.subject->accuracy);

@@ -1,3 +1,4 @@
+#include "fe2d/modes/modal_combination.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "sliding/loads/added_mass.hpp"
 #include "verification/cases/modules.hpp"
@@ -5,6 +6,7 @@
 #include "verification/exact/timoshenko_beam.hpp"
 
 #include <cmath>
+#include <complex>
 
 namespace damslip::verification {
 
@@ -180,6 +182,53 @@ std::vector<Check> pine_flat()
     return {{"fundamental period", "s", period, 1.0 / f[0], 0.05}};
 }
 
+/// Cross moment of two oscillators under white noise, real part of the integral of H_i H_j* over all frequencies, by the
+/// trapezoid rule; its error falls faster than any power of the step, for the integrand is smooth and the axis infinite.
+double cross_moment(double w_i, double w_j, double ratio)
+{
+    constexpr double step = 1e-3, last = 400.0; // widths of the peaks are 0.1 and more; H falls with w^-4 beyond 10
+    double sum = 0.0;
+    for (double w = 0.0; w < last; w += step) {
+        const std::complex<double> h_i = 1.0 / std::complex<double>(w_i * w_i - w * w, 2.0 * ratio * w_i * w);
+        const std::complex<double> h_j = 1.0 / std::complex<double>(w_j * w_j - w * w, 2.0 * ratio * w_j * w);
+        sum += (w == 0.0 ? 0.5 : 1.0) * (h_i * std::conj(h_j)).real();
+    }
+    return sum * step;
+}
+
+std::vector<Check> white_noise()
+{
+    std::vector<Check> checks;
+    for (const double r : {0.7, 0.9, 0.97, 1.2}) {
+        constexpr double ratio = 0.05;
+        const double exact =
+            cross_moment(1.0, r, ratio) / std::sqrt(cross_moment(1.0, 1.0, ratio) * cross_moment(r, r, ratio));
+        checks.push_back({"correlation, frequencies 1 and " + std::to_string(r).substr(0, 4), "-", exact,
+                          fe2d::modal_correlation(1.0, r, ratio), 1e-6});
+    }
+    return checks;
+}
+
+/// Effective masses of a uniform Euler-Bernoulli cantilever: Gamma_n^2/m = 4 sigma_n^2/lambda_n^2.
+std::vector<Check> slender_wall()
+{
+    Scene scene;
+    scene.section.polygon = {{0, 0}, {1, 0}, {1, 40}, {0, 40}};
+    scene.dam = {2500.0, 30e9, 0.0};
+    scene.mesh.size = scene.mesh.contact_size = 0.25;
+    const fe2d::NaturalModes modes = fe2d::natural_modes(fe2d::build_model(scene), 4);
+    const double lambda[] = {1.875104, 4.694091}, sigma[] = {0.734096, 1.018467};
+    std::vector<Check> checks;
+    for (Eigen::Index i = 0; i < modes.frequency.size() && checks.size() < 2; ++i) {
+        if (modes.effective_mass(0, i) <= modes.effective_mass(1, i)) continue; // axial
+        const std::size_t n = checks.size();
+        const double exact = 4.0 * sigma[n] * sigma[n] / (lambda[n] * lambda[n]);
+        checks.push_back({"share of the mass, bending mode " + std::to_string(n + 1), "-", exact,
+                          modes.effective_share(0, i), 5e-3});
+    }
+    return checks;
+}
+
 } // namespace
 
 void add_fe_modes_cases(Registry& registry)
@@ -226,6 +275,16 @@ void add_fe_modes_cases(Registry& registry)
                         "Fenves & Chopra, UCB/EERC-85/10 (1986): T_1 = 1.4 H/sqrt(E) (ft, psi) = 0.311 s for H = 400 "
                         "ft, E = 3.25e6 psi; 155 lb/ft^3, nu = 0.2",
                         "The formula is that of a standard section with a rounded coefficient: 5 %.", pine_flat});
+    registry.push_back({"fe.spectrum.white-noise", "Correlation of two modes under white noise (CQC).",
+                        "Der Kiureghian, Earthq. Eng. Struct. Dyn. 9 (1981) 419-435, against the cross moment of two "
+                        "oscillators by quadrature",
+                        "The formula is exact for white noise; the quadrature is cut where 1e-8 is left.",
+                        white_noise});
+    registry.push_back({"fe.spectrum.slender-wall", "Effective masses of a slender wall on a rigid base.",
+                        "Uniform Euler-Bernoulli cantilever: share 4 sigma^2/lambda^2",
+                        "Shear, rotation and the mass of the fixed nodes, 0.3 % of the wall, are not in the beam: 0.5 "
+                        "%.",
+                        slender_wall});
 }
 
 } // namespace damslip::verification

@@ -5,6 +5,7 @@
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"
 #include "verification/exact/rocking_block.hpp"
+#include "verification/exact/sampled_ground.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,9 @@ namespace damslip::verification {
 namespace {
 
 using namespace damslip::sliding;
+using exact::ground_of;
 using exact::ReferenceUplift;
+using exact::stillness;
 using Check = damslip::verification::Check;
 
 constexpr double gravity = 9.81, rocking_density = 2500.0,
@@ -24,20 +27,6 @@ constexpr double gravity = 9.81, rocking_density = 2500.0,
 RockingBlock rectangle(const exact::Rocker& r, double friction = no_slip)
 {
     return rectangular_block(r.width, r.height, rocking_density, r.gravity, friction);
-}
-
-template <class Function>
-GroundMotion ground_of(Function&& a_h, double duration, int n)
-{
-    GroundMotion m;
-    m.dt = duration / n;
-    for (int k = 0; k <= n; ++k) m.accel_h.push_back(a_h(k * m.dt));
-    return m;
-}
-
-GroundMotion stillness(double duration, int n)
-{
-    return ground_of([](double) { return 0.0; }, duration, n);
 }
 
 RockingBlock dam_block(const Scene& scene)

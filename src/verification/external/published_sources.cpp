@@ -100,6 +100,8 @@ std::vector<std::string> not_to_be_had()
         "they were scaled are not at hand, and the slips are read from figures",
         "Mir & Taylor (1996), Tinawi et al. (2000), Korzec & Jankowski (2018): shake tables; the motions of the tables "
         "were not published",
+        "Fenves & Chopra (1984), EAGD: curves of the crest over frequency are figures without digits, and its table of "
+        "Pine Flat's periods is not at hand; the standard values of 1986 stand in their place",
         "Chopra (1967), curves of water pressure over frequency: no digits in print; the closed form is a case of "
         "`damslip verify`",
         "printed examples of the regressions' authors: of the three of Goldgruber (2015) values by hand are a case of "

@@ -1,0 +1,233 @@
+#include "analysis/assess/assess.hpp"
+
+#include "analysis/assess/budget_watch.hpp"
+#include "core/input_error.hpp"
+#include "scene/rock_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+namespace damslip {
+
+namespace {
+
+constexpr double stiffer = 1e3; ///< factor on the dam's modulus of a dam that is rigid in all but name [-]
+
+/// Runs a part; what it cannot do is left out with its reason.
+void try_part(const std::string& what, std::vector<LeftOut>& left_out, const std::function<void()>& part)
+{
+    try {
+        part();
+    } catch (const InputError& e) {
+        left_out.push_back({what, e.diagnostics().empty() ? e.what() : e.diagnostics().front().problem});
+    } catch (const NotConverged& e) {
+        left_out.push_back({what, e.diagnostic().problem});
+    } catch (const Interrupted&) {
+        left_out.push_back({what, "the time was over"});
+    }
+}
+
+/// The scene's rock, or rock that radiates where it is massless.
+Scene scene_of_finite_elements(const Scene& given, std::string& change)
+{
+    if (rock_kind(given) != RockKind::massless || given.time.scheme == TimeScheme::central_difference) return given;
+    change = "The scene says massless rock, which keeps every wave; the finite elements run on radiating rock, and on "
+             "massless rock beside it.";
+    return with_radiating_rock(given);
+}
+
+Scene with_flexible_block(Scene scene)
+{
+    if (scene.flexible_block) return scene;
+    scene.flexible_block.emplace();
+    scene.flexible_block->of_modes = true;
+    return scene;
+}
+
+/// The worst record alone.
+Records worst_record(const Ready& ready, const ContactRun& worst)
+{
+    std::vector<RecordPair> one;
+    for (const RecordPair& pair : ready.records())
+        if (pair.files.name == worst.record) one.push_back(pair);
+    return std::make_shared<const std::vector<RecordPair>>(std::move(one));
+}
+
+struct Assumption {
+    std::string what;
+    Scene scene;
+    std::optional<Effect> without = {};
+    bool rigid_dam = false;
+};
+
+AssumptionRun run_assumption(const Assumption& assumption, const Assessment& a, Watch& watch)
+{
+    const Scene& scene = assumption.scene;
+    const ContactRun& worst = worst_of(a.runs);
+    const Ready changed = prepare(scene, Method::finite_elements, worst_record(*a.fe, worst), {.stop = watch.stop()});
+    FeOptions options;
+    options.polarity = worst.polarity * scene.motion.polarity.value_or(1);
+    options.mesh_error = false;
+    ContactRuns runs(changed, options, watch);
+    const std::vector<ContactRun> done = runs.run();
+    if (done.empty() || done.front().fe.status == Status::interrupted) throw Interrupted("a variant");
+    return {assumption.what, done.front().fe.status,
+            reported(done.front().fe.status, std::abs(done.front().fe.max_slip)), assumption.without,
+            assumption.rigid_dam};
+}
+
+/// Effects without which the model spread has run already.
+bool in_spread(Effect effect, const Assessment& a)
+{
+    const auto ran = [&](const char* what) {
+        return std::any_of(a.spread.begin(), a.spread.end(),
+                           [&](const ModelChoice& c) { return c.run && c.what == what; });
+    };
+    return (effect == Effect::acoustic_water && ran("added mass")) ||
+           (effect == Effect::rock_inertia && ran("massless rock"));
+}
+
+/// What tells the levels apart first: 0, 1; what follows from it is left for the end of the time.
+int rank_of(Effect effect)
+{
+    switch (effect) {
+    case Effect::vertical_motion:
+    case Effect::uplift:
+        return 0;
+    case Effect::rock_flexibility:
+    case Effect::separation:
+    case Effect::structural_damping:
+        return 1;
+    default:
+        return 2;
+    }
+}
+
+std::vector<Assumption> assumptions_of(const Assessment& a)
+{
+    std::vector<Assumption> list;
+    Scene rigid = a.fe->given;
+    let_floor_absorb(rigid);
+    rigid.foundation.reset();
+    rigid.curtain.reset();
+    if (rigid.dam.young_modulus) rigid.dam.young_modulus = *rigid.dam.young_modulus * stiffer;
+    // The seepage's uplift needs the rock: the profile that it gave takes its place.
+    const std::vector<Point> seepage = seepage_points(a.fe->given);
+    if (rigid.uplift && !seepage.empty()) {
+        rigid.uplift->model = UpliftModel::points;
+        rigid.uplift->points = seepage;
+    }
+    list.push_back({"rigid dam on rigid rock", rigid, {}, true});
+    AblationPlan plan = make_ablations(a.fe->given, Method::finite_elements, seepage);
+    std::stable_sort(plan.removals.begin(), plan.removals.end(),
+                     [](const Ablation& x, const Ablation& y) { return rank_of(x.effect) < rank_of(y.effect); });
+    for (const Ablation& removal : plan.removals)
+        if (!in_spread(removal.effect, a))
+            list.push_back({"without " + removal.name, removal.scene, removal.effect, false});
+    return list;
+}
+
+void run_screenings(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+{
+    a.ready = prepare(given, Method::rigid_block, {.stop = watch.stop()});
+    a.screening = run_screening(a.ready, options.jobs);
+    try_part("flexible block", a.left_out, [&] {
+        const Ready flexible = prepare(with_flexible_block(given), Method::rigid_block, a.ready.pairs,
+                                       {.flexible_modes = true, .stop = watch.stop()});
+        a.flexible = run_screening(flexible, options.jobs);
+    });
+    try_part("response spectrum", a.left_out, [&] {
+        a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
+    });
+    try_part("effects in turn, rigid block", a.left_out, [&] {
+        a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
+        a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
+    });
+}
+
+/// Those first that move the block furthest, so that a time too short leaves out the harmless ones. As they are where the
+/// first record has a part in the damping of all.
+Records worst_first(const Records& records, const Assessment& a)
+{
+    if (a.ready.scene.damping.method == DampingMethod::modified_rayleigh) return records;
+    std::vector<std::pair<double, const RecordPair*>> order;
+    for (std::size_t i = 0; i < records->size(); ++i)
+        order.emplace_back(2 * i < a.screening.slips.size() ? worse_judged(a.screening, i).judged().max_slip : 0.0,
+                           &(*records)[i]);
+    std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
+    std::vector<RecordPair> sorted;
+    for (const auto& [slip, pair] : order) sorted.push_back(*pair);
+    return std::make_shared<const std::vector<RecordPair>>(std::move(sorted));
+}
+
+void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
+{
+    if (watch.stop_asked()) {
+        a.left_out.push_back({"finite elements", "the time was over"});
+        return;
+    }
+    try_part("finite elements", a.left_out, [&] {
+        const Records records = worst_first(load_records(given, Method::finite_elements), a);
+        a.fe = prepare(scene_of_finite_elements(given, a.rock_change), Method::finite_elements, records,
+                       {.stop = watch.stop()});
+        ContactRuns all(*a.fe, {}, watch);
+        std::vector<ContactRun> runs = all.run([](ContactRun& r, const GroundMotion&) { r.fe.history = {}; });
+        std::erase_if(runs, [](const ContactRun& r) { return r.fe.status == Status::interrupted; });
+        for (const RecordPair& pair : a.fe->records())
+            if (std::none_of(runs.begin(), runs.end(),
+                             [&](const ContactRun& r) { return r.record == pair.files.name; }))
+                a.left_out.push_back({"finite elements, record " + pair.files.name, "the time was over"});
+        a.runs = std::move(runs);
+    });
+}
+
+/// Variants on the worst record, each if its time, judged by those before it, is there.
+void run_variants(BudgetWatch& watch, Assessment& a)
+{
+    if (a.runs.empty() || !has_slip(worst_of(a.runs))) return;
+    // What a variant takes, at first that of the worst run, then the mean of those that ran; the watch ends one that
+    // takes longer.
+    double expected = worst_of(a.runs).fe.seconds.dynamics + worst_of(a.runs).fe.seconds.model, sum = 0.0;
+    int done = 0;
+    const auto fits = [&](const std::string& what, double share) {
+        if (watch.left() > share * expected) return true;
+        a.left_out.push_back({what, "the budget does not hold it"});
+        return false;
+    };
+    const bool spread_fits = fits("massless rock and other water, finite elements", 2.0);
+    try_part("model spread", a.left_out, [&] { a.spread = model_spread(*a.fe, a.runs, spread_fits, watch); });
+    for (const ModelChoice& choice : a.spread) {
+        if (choice.run && choice.status == Status::interrupted)
+            a.left_out.push_back({"finite elements, " + choice.what, "the time was over"});
+        else if (choice.run && choice.what != "other polarity")
+            a.assumptions.push_back({choice.what, choice.status, reported(choice.status, std::abs(choice.max_slip))});
+    }
+    std::vector<Assumption> list;
+    try_part("effects in turn, finite elements", a.left_out, [&] { list = assumptions_of(a); });
+    for (const Assumption& assumption : list) {
+        if (!fits("finite elements, " + assumption.what, 1.0)) continue;
+        const double before = watch.spent();
+        try_part("finite elements, " + assumption.what, a.left_out,
+                 [&] { a.assumptions.push_back(run_assumption(assumption, a, watch)); });
+        sum += watch.spent() - before;
+        expected = sum / ++done;
+    }
+}
+
+} // namespace
+
+Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch)
+{
+    BudgetWatch budget(watch, options.budget);
+    Assessment a;
+    run_screenings(given, options, budget, a);
+    run_finite_elements(given, budget, a);
+    run_variants(budget, a);
+    a.seconds = budget.spent();
+    judge_assessment(a);
+    return a;
+}
+
+} // namespace damslip

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "analysis/ablation/ablation_runs.hpp"
+#include "analysis/fe/contact_runs.hpp"
+#include "analysis/fe/model_spread.hpp"
+#include "analysis/screen/screening.hpp"
+#include "analysis/spectrum/spectrum_level.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Every level of effort on one dam, and what they say together.
+namespace damslip {
+
+/// Levels that give a slip, from the least effort on.
+enum class SlipLevel { regressions, rigid_block, flexible_block, finite_elements };
+std::string word(SlipLevel level); ///< "rigid block"
+
+/// Slip of one level under one record, of the worse polarity.
+struct LevelSlip {
+    SlipLevel level = SlipLevel::rigid_block;
+    std::string record;
+    int polarity = 0; ///< 0: of both
+    std::string how;  ///< "weighted median, 16 to 84 %", "rocking and sliding", "coupled"
+    Status status = Status::not_resolved;
+    std::optional<double> slip;      ///< largest on the way; none: the status has none [m]
+    std::optional<double> low, high; ///< numerical error, or the scatter of regressions [m]
+};
+
+/// Finite elements on the worst record and polarity with one assumption changed.
+struct AssumptionRun {
+    std::string what; ///< "without vertical motion", "rigid dam on rigid rock"
+    Status status = Status::not_resolved;
+    std::optional<double> slip;    ///< [m]
+    std::optional<Effect> without; ///< the effect that is left out; none: another kind of change
+    bool rigid_dam = false;        ///< dam and rock are rigid, as those of the rigid block
+};
+
+/// What did not fit or could not be run.
+struct LeftOut {
+    std::string what, why;
+};
+
+/// Two levels more than three times apart, and the assumption that lies between them.
+struct Disagreement {
+    LevelSlip lower, higher;
+    std::optional<AssumptionRun> closest; ///< the run of finite elements nearest to the other level; none: none was run
+    bool explains = false;                ///< that run is nearer to the other level than to the full finite elements
+};
+
+/// The value to use.
+struct Recommendation {
+    SlipLevel level = SlipLevel::finite_elements;
+    std::string record;
+    int polarity = 1;
+    double slip = 0.0;            ///< [m]
+    double low = 0.0, high = 0.0; ///< [m]
+    bool error_known = true;      ///< false: low and high hold the models alone
+    std::string from;             ///< what the range is made of, words
+};
+
+/// What the assessment asks for.
+struct AssessOptions {
+    double budget = 120.0; ///< wall time [s]; what does not fit is left out and named
+    int jobs = 0;          ///< threads of the quick levels, 0: all cores
+};
+
+struct Assessment {
+    Ready ready;                       ///< of the rigid block
+    Screening screening;               ///< limit equilibrium, regressions, rigid block
+    std::optional<Screening> flexible; ///< the same with the first mode as a flexible block; none: it could not be made
+    std::optional<SpectrumLevel> spectrum;
+    std::optional<AblationRuns> rigid_ablation; ///< of rigid_plan
+    std::optional<AblationPlan> rigid_plan;
+
+    std::optional<Ready> fe;                ///< what the finite elements ran; none: they cannot take the scene
+    std::string rock_change;                ///< of the scene, where it says massless rock; empty: as it says
+    std::vector<ContactRun> runs;           ///< finite elements, those that came to their end
+    std::vector<ModelChoice> spread;        ///< on the worst record
+    std::vector<AssumptionRun> assumptions; ///< the same
+    std::vector<LeftOut> left_out;
+    double seconds = 0.0; ///< wall time
+
+    std::vector<LevelSlip> levels;
+    std::vector<Disagreement> disagreements;
+    std::optional<Recommendation> recommended;
+    Verdict verdict = Verdict::none;
+    std::string verdict_reason; ///< one sentence
+};
+
+/// Runs the levels in their order: limit equilibrium, regressions and blocks, response spectrum, finite elements on radiating
+/// rock with the scene's water on all records and both polarities, then their variants on the worst record, while the
+/// budget lasts. Numbers do not depend on the budget, only which of them are there.
+/// @param given  with a [section] and a record @throws InputError
+Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch);
+
+/// Fills levels, disagreements, recommended and verdict from the runs.
+void judge_assessment(Assessment& a);
+
+inline constexpr double disagreement_factor = 3.0; ///< from which on the reason is asked for [-]
+
+/// The run of the recommended value. @pre a.runs is not empty
+const ContactRun& governing_run(const Assessment& a);
+
+} // namespace damslip

@@ -1,0 +1,288 @@
+#include "analysis/assess/assess.hpp"
+
+#include "core/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+LevelSlip level_of_row(SlipLevel level, const SlipRow& row, const std::string& how, const sliding::SlideResult& slide,
+                       double error)
+{
+    LevelSlip out{level, row.record, row.polarity, how, slide.status, reported(slide.status, slide.max_slip), {}, {}};
+    if (out.slip && std::isfinite(error)) {
+        out.low = std::max(0.0, *out.slip - error);
+        out.high = *out.slip + error;
+    }
+    return out;
+}
+
+void add_regressions(const Screening& s, const std::string& record, std::vector<LevelSlip>& levels)
+{
+    for (const RegressionRow& row : s.regressions)
+        if (row.record == record && row.id == weighted_median_id && row.median)
+            levels.push_back({SlipLevel::regressions, record, 0, "weighted median, 16 to 84 %", Status::at_rest,
+                              row.median, row.low, row.high});
+}
+
+/// The rigid block as it is judged: sliding, or rocking and sliding where that alone does not hold.
+void add_block(const Screening& s, std::size_t number, SlipLevel level, std::vector<LevelSlip>& levels)
+{
+    const SlipRow& row = worse_judged(s, number);
+    const GoverningSlip g = row.governing();
+    levels.push_back(level_of_row(level, row, std::string(g.method), g.slide, g.error));
+}
+
+void add_finite_elements(const Assessment& a, const std::string& record, std::vector<LevelSlip>& levels)
+{
+    std::vector<ContactRun> own;
+    for (const ContactRun& r : a.runs)
+        if (r.record == record) own.push_back(r);
+    if (own.empty()) return;
+    const ContactRun& worst = worst_of(own);
+    const SlipError error = slip_error(worst);
+    LevelSlip out{SlipLevel::finite_elements,
+                  record,
+                  worst.polarity,
+                  error.parts(),
+                  worst.fe.status,
+                  reported(worst.fe.status, std::abs(worst.fe.max_slip)),
+                  {},
+                  {}};
+    if (out.slip && std::isfinite(error.total)) {
+        out.low = std::max(0.0, *out.slip - error.total);
+        out.high = *out.slip + error.total;
+    }
+    levels.push_back(std::move(out));
+}
+
+std::vector<LevelSlip> levels_of(const Assessment& a)
+{
+    std::vector<LevelSlip> levels;
+    const std::size_t records = a.screening.slips.size() / 2;
+    for (std::size_t i = 0; i < records; ++i) {
+        const std::string record = a.screening.slips[2 * i].record;
+        add_regressions(a.screening, record, levels);
+        add_block(a.screening, i, SlipLevel::rigid_block, levels);
+        if (a.flexible) add_block(*a.flexible, i, SlipLevel::flexible_block, levels);
+        add_finite_elements(a, record, levels);
+    }
+    return levels;
+}
+
+/// How many times as far, either way; infinite where one does not slide.
+double times_apart(double a, double b)
+{
+    const double low = std::min(std::abs(a), std::abs(b)), high = std::max(std::abs(a), std::abs(b));
+    if (high < 1e-6) return 1.0; // neither slides by a micrometre
+    return low > 0.0 ? high / low : std::numeric_limits<double>::infinity();
+}
+
+/// Do the finite elements, with that changed, come closer to what the level assumes? Uplift and a vertical component are in
+/// the blocks, too; regressions have the uplift, by the yield acceleration. A flexible block is not rigid.
+bool parts_from(SlipLevel level, const AssumptionRun& run)
+{
+    if (run.without == Effect::uplift) return false;
+    if (run.without == Effect::vertical_motion) return level == SlipLevel::regressions;
+    return !(run.rigid_dam && level == SlipLevel::flexible_block);
+}
+
+/// Of the runs of finite elements that can tell them from a level the one nearest to its slip.
+std::optional<AssumptionRun> nearest(const std::vector<AssumptionRun>& runs, SlipLevel level, double slip)
+{
+    const AssumptionRun* best = nullptr;
+    for (const AssumptionRun& run : runs)
+        if (run.slip && parts_from(level, run) && (!best || std::abs(*run.slip - slip) < std::abs(*best->slip - slip)))
+            best = &run;
+    return best ? std::optional(*best) : std::nullopt;
+}
+
+/// Of the record of the recommended value: every other level against the finite elements.
+std::vector<Disagreement> disagreements_of(const Assessment& a)
+{
+    std::vector<Disagreement> list;
+    if (!a.recommended || a.recommended->level != SlipLevel::finite_elements) return list;
+    const double full = a.recommended->slip;
+    const auto of_fe = std::find_if(a.levels.begin(), a.levels.end(), [&](const LevelSlip& l) {
+        return l.level == SlipLevel::finite_elements && l.record == a.recommended->record;
+    });
+    for (const LevelSlip& other : a.levels) {
+        if (other.record != a.recommended->record || other.level == SlipLevel::finite_elements || !other.slip) continue;
+        if (times_apart(*other.slip, full) <= disagreement_factor) continue;
+        Disagreement d{*other.slip < full ? other : *of_fe, *other.slip < full ? *of_fe : other, {}, false};
+        d.closest = nearest(a.assumptions, other.level, *other.slip);
+        d.explains = d.closest && times_apart(*d.closest->slip, *other.slip) < times_apart(*d.closest->slip, full) &&
+                     std::abs(*d.closest->slip - *other.slip) < std::abs(full - *other.slip);
+        list.push_back(std::move(d));
+    }
+    return list;
+}
+
+/// The worst run with its numerical error, the other polarity and the other water.
+std::optional<Recommendation> by_finite_elements(const Assessment& a)
+{
+    if (a.runs.empty()) return std::nullopt;
+    const ContactRun& worst = worst_of(a.runs);
+    const std::optional<double> slip = reported(worst.fe.status, std::abs(worst.fe.max_slip));
+    if (!slip || status_row(worst.fe.status).slip != SlipMeaning::final) return std::nullopt;
+    const SlipError error = slip_error(worst);
+    Recommendation r{
+        SlipLevel::finite_elements, worst.record, worst.polarity, *slip, *slip, *slip, std::isfinite(error.total), ""};
+    if (r.error_known) {
+        r.low = std::max(0.0, *slip - error.total);
+        r.high = *slip + error.total;
+        r.from = "numerical error (" + error.parts() + ")";
+    } else {
+        r.from = "models alone, the numerical error is not known";
+    }
+    for (const ModelChoice& choice : a.spread) {
+        // Massless rock is no other opinion of the same rock: it keeps every wave. It is shown, not counted.
+        if (!choice.run || choice.what == "massless rock") continue;
+        const std::optional<double> other = reported(choice.status, std::abs(choice.max_slip));
+        if (!other) continue;
+        r.low = std::min(r.low, *other);
+        r.high = std::max(r.high, *other);
+        r.from += ", " + choice.what;
+    }
+    return r;
+}
+
+/// Without finite elements the flexible block, without that the rigid one.
+std::optional<Recommendation> by_blocks(const Assessment& a)
+{
+    for (const SlipLevel level : {SlipLevel::flexible_block, SlipLevel::rigid_block}) {
+        const LevelSlip* worst = nullptr;
+        bool all = true;
+        for (const LevelSlip& l : a.levels) {
+            if (l.level != level) continue;
+            all = all && l.slip && status_row(l.status).slip == SlipMeaning::final;
+            if (l.slip && (!worst || *l.slip > *worst->slip)) worst = &l;
+        }
+        if (!worst || !all) continue;
+        Recommendation r{level,        worst->record, worst->polarity, *worst->slip,
+                         *worst->slip, *worst->slip,  false,           "this level and the regressions' 16 to 84 %"};
+        for (const LevelSlip& l : a.levels) {
+            if (l.record != worst->record || l.level == SlipLevel::finite_elements) continue;
+            r.low = std::min({r.low, l.slip.value_or(r.low), l.low.value_or(r.low)});
+            r.high = std::max({r.high, l.slip.value_or(r.high), l.high.value_or(r.high)});
+        }
+        return r;
+    }
+    return std::nullopt;
+}
+
+bool all_records_ran(const Assessment& a)
+{
+    const std::size_t whole = a.fe ? a.fe->records().size() : 0;
+    std::vector<std::string> names;
+    for (const ContactRun& r : a.runs)
+        if (std::find(names.begin(), names.end(), r.record) == names.end()) names.push_back(r.record);
+    return whole > 0 && names.size() == whole;
+}
+
+/// The first limit-equilibrium check that is not met.
+std::string failed_check(const Screening& s)
+{
+    for (const sliding::Equilibrium& e : s.combinations)
+        for (const sliding::Check& check : e.checks)
+            if (check.verdict == sliding::Verdict::fail)
+                return fmt::format("the check \"{}\" of combination {} is not met: {:.3g}, required {:.3g}",
+                                   check.quantity, e.name, check.value, check.required.value_or(0.0));
+    return "";
+}
+
+void judge_slip(Assessment& a)
+{
+    using units::mm;
+    const std::optional<double>& allowable = a.ready.given.criteria.allowable_slip;
+    if (!a.recommended) {
+        a.verdict = a.runs.empty() ? Verdict::none : verdict_of(a.runs, allowable);
+        a.verdict_reason = a.runs.empty() ? "No level has a slip to judge."
+                                          : fmt::format("Finite elements: {}.", word(worst_of(a.runs).fe.status));
+        return;
+    }
+    const Recommendation& r = *a.recommended;
+    if (!allowable) {
+        a.verdict_reason = "No allowable slip is given (criteria.allowable_slip_mm).";
+        return;
+    }
+    const std::string range = fmt::format("{:.4g} to {:.4g} mm", r.low / mm, r.high / mm);
+    a.verdict = r.low > *allowable ? Verdict::fail : r.high > *allowable ? Verdict::undecided : Verdict::pass;
+    a.verdict_reason = fmt::format("The range {} lies {} the allowable {:.4g} mm.", range,
+                                   a.verdict == Verdict::fail   ? "above"
+                                   : a.verdict == Verdict::pass ? "below"
+                                                                : "across",
+                                   *allowable / mm);
+    if (r.level != SlipLevel::finite_elements && a.verdict == Verdict::pass) {
+        a.verdict = Verdict::undecided;
+        a.verdict_reason += " But no finite elements ran, and a block is no upper bound.";
+        return;
+    }
+    if (r.level == SlipLevel::finite_elements) {
+        const Verdict own = verdict_of(a.runs, allowable);
+        if (own == Verdict::fail && a.verdict != Verdict::fail) {
+            a.verdict = own;
+            const SlipError error = slip_error(worst_of(a.runs));
+            a.verdict_reason =
+                r.slip - error.total > *allowable
+                    ? fmt::format(
+                          "The worst run's {:.4g} mm, less its numerical error, lie above the allowable {:.4g} mm.",
+                          r.slip / mm, *allowable / mm)
+                    : "A lift joint, or the state after the earthquake, fails in the finite elements.";
+        } else if (own != Verdict::pass && a.verdict == Verdict::pass) {
+            a.verdict = Verdict::undecided;
+            a.verdict_reason += " But not every run of the finite elements can be judged.";
+        } else if (a.verdict == Verdict::pass && !all_records_ran(a)) {
+            a.verdict = Verdict::undecided;
+            a.verdict_reason += " But not every record was run by finite elements.";
+        }
+    }
+}
+
+} // namespace
+
+std::string word(SlipLevel level)
+{
+    switch (level) {
+    case SlipLevel::regressions:
+        return "regressions";
+    case SlipLevel::rigid_block:
+        return "rigid block";
+    case SlipLevel::flexible_block:
+        return "flexible block";
+    case SlipLevel::finite_elements:
+        return "finite elements";
+    }
+    return "";
+}
+
+const ContactRun& governing_run(const Assessment& a)
+{
+    return worst_of(a.runs);
+}
+
+void judge_assessment(Assessment& a)
+{
+    a.levels = levels_of(a);
+    a.recommended = a.runs.empty() ? by_blocks(a) : by_finite_elements(a);
+    a.disagreements = disagreements_of(a);
+    const RigidModel& model = a.screening.bases.front().model;
+    if (model.state != sliding::StaticState::at_rest) {
+        a.verdict = Verdict::fail;
+        a.verdict_reason = fmt::format("The dam does not stand without any earthquake: friction {:.4g} is below the "
+                                       "{:.4g} that holds it.",
+                                       model.block.friction, model.critical_friction);
+        return;
+    }
+    judge_slip(a);
+    if (const std::string failed = failed_check(a.screening); !failed.empty() && a.verdict != Verdict::fail) {
+        a.verdict = Verdict::fail;
+        a.verdict_reason = "Limit equilibrium: " + failed + ".";
+    }
+}
+
+} // namespace damslip

@@ -1,0 +1,358 @@
+#include "analysis/fragility/fragility_estimate.hpp"
+
+#include "analysis/sweep/sweep_rows.hpp"
+#include "core/statistics.hpp"
+#include "probability/estimate/two_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace damslip {
+
+namespace {
+
+/// Counts of one cell: weights of counted, failing and missing runs.
+struct RunCount {
+    double n = 0.0, z = 0.0, missing = 0.0;
+    void add(LimitAnswer answer, double weight, StaticFailure rule)
+    {
+        if (answer == LimitAnswer::static_failure && rule == StaticFailure::given_standing) return;
+        n += weight;
+        if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure) z += weight;
+        if (answer == LimitAnswer::missing) missing += weight;
+    }
+    void add(const RunCount& c, double times = 1.0)
+    {
+        n += times * c.n;
+        z += times * c.z;
+        missing += times * c.missing;
+    }
+    double low() const { return n > 0.0 ? z / n : 0.0; }
+    double high() const { return n > 0.0 ? (z + missing) / n : 0.0; }
+    double middle() const { return 0.5 * (low() + high()); }
+};
+
+/// Counts of one limit: by level and then by replicate, event and epistemic draw.
+struct LimitCounts {
+    std::vector<RunCount> all;
+    std::vector<std::vector<RunCount>> replicate, cluster, outer;
+    LimitCounts(std::size_t levels, std::size_t replicates, std::size_t clusters, std::size_t outers)
+        : all(levels), replicate(levels, std::vector<RunCount>(replicates)),
+          cluster(levels, std::vector<RunCount>(clusters)), outer(levels, std::vector<RunCount>(outers))
+    {
+    }
+};
+
+/// Which events there are, and of which one each record is.
+struct Events {
+    std::vector<std::size_t> of_record;
+    std::size_t count = 0;
+};
+
+Events events_of(const ShakingSuite& suite)
+{
+    std::vector<std::string> names;
+    Events events;
+    for (const std::string& event : suite.event) {
+        const auto at = std::find(names.begin(), names.end(), event);
+        events.of_record.push_back(static_cast<std::size_t>(at - names.begin()));
+        if (at == names.end()) names.push_back(event);
+    }
+    events.count = names.size();
+    return events;
+}
+
+const FinishedRow* row_of_sample(const FragilityRuns& runs, std::size_t id)
+{
+    return runs.rows[id] ? &*runs.rows[id] : nullptr;
+}
+
+LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
+                        const Events& events)
+{
+    LimitCounts counts(plan.levels, plan.replicates, events.count, plan.replicates * plan.outer);
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample& s = plan.samples[id];
+        const LimitAnswer answer = answer_to(limit, row_of_sample(runs, id));
+        const auto put = [&](RunCount& c) { c.add(answer, s.weight, plan.input.probability.static_failure); };
+        put(counts.all[s.level]);
+        put(counts.replicate[s.level][s.replicate]);
+        put(counts.cluster[s.level][events.of_record[s.record]]);
+        put(counts.outer[s.level][s.outer]);
+    }
+    return counts;
+}
+
+/// The one draw of a scene without variables, under the whole suite: P is that of the suite itself.
+bool nothing_drawn(const FragilityPlan& plan)
+{
+    return plan.whole_suite && !plan.epistemic;
+}
+
+/// 95 % of a share by independent runs, or by replicates whose points hang together.
+/// @param share  of a count: low() or high()
+template <class Share>
+probability::Interval sampling_interval(const FragilityPlan& plan, const RunCount& all,
+                                        const std::vector<RunCount>& replicates, Share share)
+{
+    const double p = share(all);
+    if (all.n <= 0.0) return {};
+    if (nothing_drawn(plan)) return {p, p};
+    const bool independent = plan.input.probability.sampling == SamplingInput::random && !plan.epistemic;
+    double sum = 0.0;
+    const auto r = static_cast<double>(replicates.size());
+    for (const RunCount& c : replicates) sum += (share(c) - p) * (share(c) - p);
+    if (independent || replicates.size() < 2 || p <= 0.0 || p >= 1.0 || sum == 0.0)
+        return probability::wilson(p * all.n, all.n);
+    return probability::wilson_of_estimate(p, std::sqrt(sum / (r * (r - 1.0))), all.n, r - 1.0);
+}
+
+LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& counts, std::size_t level, double x)
+{
+    const RunCount& all = counts.all[level];
+    LevelEstimate e;
+    e.x = x;
+    e.n = all.n;
+    e.z = all.z;
+    e.missing = all.missing;
+    e.p_low = all.low();
+    e.p_high = all.high();
+    e.p = all.middle();
+    e.sampling = {
+        sampling_interval(plan, all, counts.replicate[level], [](const RunCount& c) { return c.low(); }).lower,
+        sampling_interval(plan, all, counts.replicate[level], [](const RunCount& c) { return c.high(); }).upper};
+    const std::vector<RunCount>& clusters = counts.cluster[level];
+    const auto by_clusters = [&](auto share) {
+        return probability::cluster_bootstrap(
+            clusters.size(),
+            [&](std::span<const std::uint32_t> times) {
+                RunCount drawn;
+                for (std::size_t c = 0; c < clusters.size(); ++c) drawn.add(clusters[c], times[c]);
+                return share(drawn);
+            },
+            plan.input.probability.seed);
+    };
+    if (clusters.size() > 1) {
+        e.records = by_clusters([](const RunCount& c) { return c.low(); });
+        if (all.missing > 0.0) e.records.upper = by_clusters([](const RunCount& c) { return c.high(); }).upper;
+        e.records.lower = std::clamp(e.records.lower, 0.0, 1.0);
+        e.records.upper = std::clamp(e.records.upper, 0.0, 1.0);
+    } else {
+        e.records.clusters = 1;
+        e.records.few = true;
+    }
+    if (plan.epistemic) {
+        std::vector<double> p, inner;
+        for (const RunCount& c : counts.outer[level]) {
+            if (c.n <= 0.0) continue; // no draw of it stands
+            p.push_back(c.middle());
+            inner.push_back(plan.whole_suite ? 0.0 : c.n);
+        }
+        if (p.size() > 1 && (plan.whole_suite || *std::min_element(inner.begin(), inner.end()) > 1.0))
+            e.bands = probability::epistemic_bands(p, inner);
+    }
+    return e;
+}
+
+/// First level of each draw and record above which D > d: samples of one outer draw, inner draw and replicate.
+void find_capacities(const FragilityPlan& plan, const FragilityRuns& runs, LimitEstimate& limit)
+{
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<LimitAnswer>> curves;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample& s = plan.samples[id];
+        auto& curve = curves[{s.outer, s.inner}];
+        curve.resize(plan.levels, LimitAnswer::missing);
+        curve[s.level] = answer_to(limit.limit, row_of_sample(runs, id));
+    }
+    std::vector<double> reached, censored;
+    for (const auto& [key, curve] : curves) {
+        if (curve.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
+        std::size_t first = 0;
+        while (first < curve.size() && curve[first] != LimitAnswer::fails) ++first;
+        if (first == curve.size()) {
+            censored.push_back(plan.input.intensity.levels.back());
+            continue;
+        }
+        reached.push_back(plan.input.intensity.levels[first]);
+        limit.came_back += std::find(curve.begin() + static_cast<std::ptrdiff_t>(first), curve.end(),
+                                     LimitAnswer::survives) != curve.end();
+    }
+    limit.capacities = probability::fit_capacities(reached, censored);
+}
+
+void fit_cloud_of(const FragilityPlan& plan, const FragilityRuns& runs, LimitEstimate& limit)
+{
+    constexpr double least_slip = 1e-4; // [m]
+    std::vector<probability::CloudPoint> points;
+    double error = 0.0;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FinishedRow* row = row_of_sample(runs, id);
+        if (!row) continue;
+        const LimitAnswer answer = answer_to(limit.limit, row);
+        const bool failed =
+            answer == LimitAnswer::static_failure || (answer == LimitAnswer::fails && !row->results.slip);
+        if (answer == LimitAnswer::missing) continue;
+        if (answer == LimitAnswer::static_failure &&
+            plan.input.probability.static_failure == StaticFailure::given_standing)
+            continue;
+        const std::optional<double>& slip =
+            limit.limit.quantity == LimitQuantity::slip ? row->results.slip : row->results.max_slip;
+        points.push_back({plan.samples[id].x, std::abs(slip.value_or(0.0)), failed});
+        error = std::max(error, row->results.slip_error.value_or(0.0));
+    }
+    limit.cloud = probability::fit_cloud(points, std::max(least_slip, 2.0 * error));
+}
+
+/// Raw rates; P outside the stripes is bounded as annual_rate() does.
+double raw_rate(const probability::HazardCurve& hazard, const std::vector<double>& x, const std::vector<double>& p)
+{
+    return probability::annual_rate(hazard, x, p).lower;
+}
+
+LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const LimitCounts& counts,
+                  const probability::HazardCurve& hazard, std::optional<double> all_events)
+{
+    LimitRate rate;
+    std::vector<double> x, p, low, high;
+    for (const LevelEstimate& level : limit.levels) {
+        x.push_back(level.x);
+        p.push_back(level.p);
+        low.push_back(level.p_low);
+        high.push_back(level.p_high);
+    }
+    rate.raw = probability::annual_rate(hazard, x, p, all_events);
+    rate.raw_low = probability::annual_rate(hazard, x, low, all_events);
+    rate.raw_high = probability::annual_rate(hazard, x, high, all_events);
+    if (limit.fit.lognormal())
+        rate.fitted = probability::annual_rate(hazard, limit.fit.curve.median, limit.fit.curve.beta, x.front(),
+                                               x.back(), all_events);
+    const auto rate_with = [&](auto count) {
+        std::vector<double> q;
+        for (std::size_t level = 0; level < x.size(); ++level) q.push_back(count(level).middle());
+        return raw_rate(hazard, x, q);
+    };
+    const double whole = raw_rate(hazard, x, p);
+    rate.sampling = {whole, whole};
+    if (plan.replicates > 1) {
+        std::vector<double> parts;
+        for (std::size_t r = 0; r < plan.replicates; ++r)
+            parts.push_back(rate_with([&](std::size_t l) { return counts.replicate[l][r]; }));
+        double sum = 0.0;
+        for (const double part : parts) sum += (part - whole) * (part - whole);
+        const auto n = static_cast<double>(parts.size());
+        // As a share of the rate of the lowest level, which bounds it, Wilson's interval keeps it above zero.
+        const double most = hazard.rate_at(std::max(x.front(), hazard.x().front()));
+        if (sum > 0.0 && whole > 0.0 && whole < most) {
+            const probability::Interval share = probability::wilson_of_estimate(
+                whole / most, std::sqrt(sum / (n * (n - 1.0))) / most, counts.all.front().n, n - 1.0);
+            rate.sampling = {share.lower * most, share.upper * most};
+        }
+    }
+    const std::size_t clusters = counts.cluster.front().size();
+    if (clusters > 1)
+        rate.records = probability::cluster_bootstrap(
+            clusters,
+            [&](std::span<const std::uint32_t> times) {
+                return rate_with([&](std::size_t level) {
+                    RunCount drawn;
+                    for (std::size_t c = 0; c < clusters; ++c) drawn.add(counts.cluster[level][c], times[c]);
+                    return drawn;
+                });
+            },
+            plan.input.probability.seed);
+    rate.records.lower = std::max(0.0, rate.records.lower);
+    if (plan.epistemic) {
+        std::vector<double> rates;
+        for (std::size_t e = 0; e < counts.outer.front().size(); ++e)
+            rates.push_back(rate_with([&](std::size_t l) { return counts.outer[l][e]; }));
+        for (const double q : probability::band_levels) rate.bands.push_back(percentile(rates, q));
+    }
+    return rate;
+}
+
+} // namespace
+
+LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
+{
+    const std::optional<Status> status = row ? status_of(*row) : std::nullopt;
+    if (!status) return LimitAnswer::missing;
+    if (fails_statically(*status)) return LimitAnswer::static_failure;
+    const RowResults& r = row->results;
+    switch (*status) {
+    case Status::runs_away:
+    case Status::overturned:
+    case Status::left_plane:
+        return LimitAnswer::fails;
+    case Status::sliding_at_end: // the slip so far is a lower bound
+        return r.max_slip && *r.max_slip > limit.value ? LimitAnswer::fails : LimitAnswer::missing;
+    case Status::at_rest: {
+        const std::optional<double>& slip = limit.quantity == LimitQuantity::slip ? r.slip : r.max_slip;
+        if (!slip) return LimitAnswer::missing;
+        return std::abs(*slip) > limit.value ? LimitAnswer::fails : LimitAnswer::survives;
+    }
+    default:
+        return LimitAnswer::missing;
+    }
+}
+
+double LimitEstimate::missing_share() const
+{
+    double n = 0.0, missing = 0.0;
+    for (const LevelEstimate& level : levels) {
+        n += level.n;
+        missing += level.missing;
+    }
+    return n > 0.0 ? missing / n : 0.0;
+}
+
+FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,
+                                     const probability::HazardCurve* hazard, std::optional<double> all_events)
+{
+    FragilityEstimate estimate;
+    const Events events = events_of(plan.suite);
+    estimate.clusters = events.count;
+    std::vector<char> draw_counted(plan.draws.size());
+    std::size_t draws = 0, fallen = 0;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FinishedRow* row = row_of_sample(runs, id);
+        ++estimate.statuses[row ? row->results.status : word(Status::interrupted)];
+        const std::optional<Status> status = row ? status_of(*row) : std::nullopt;
+        if (!status || draw_counted[plan.samples[id].draw]++) continue;
+        ++draws;
+        fallen += fails_statically(*status);
+    }
+    estimate.p_static = draws ? static_cast<double>(fallen) / static_cast<double>(draws) : 0.0;
+    const FragilityDesign design = plan.input.intensity.design;
+    for (const LimitInput& wanted : plan.input.limits) {
+        LimitEstimate& limit = estimate.limits.emplace_back();
+        limit.limit = wanted;
+        const LimitCounts counts = count_limit(plan, runs, wanted, events);
+        if (design == FragilityDesign::cloud) {
+            fit_cloud_of(plan, runs, limit);
+            for (const double x : plan.input.intensity.levels) {
+                LevelEstimate& level = limit.levels.emplace_back();
+                level.x = x;
+                if (limit.cloud->found && wanted.value >= limit.cloud->smallest_slip)
+                    level.fitted = level.p = level.p_low = level.p_high = limit.cloud->probability(x, wanted.value);
+            }
+            continue;
+        }
+        std::vector<probability::StripeCount> stripes;
+        for (std::size_t level = 0; level < plan.levels; ++level) {
+            limit.levels.push_back(estimate_level(plan, counts, level, plan.input.intensity.levels[level]));
+            const LevelEstimate& e = limit.levels.back();
+            // All runs of one epistemic draw hang together: they count as one.
+            const double n = plan.epistemic ? std::min(e.n, static_cast<double>(plan.replicates * plan.outer)) : e.n;
+            stripes.push_back({e.x, n, e.p * n});
+        }
+        limit.fit = probability::fit_lognormal(stripes);
+        if (limit.fit.method != probability::FitMethod::none)
+            for (LevelEstimate& level : limit.levels) level.fitted = limit.fit.curve.probability(level.x);
+        if (design == FragilityDesign::ida) find_capacities(plan, runs, limit);
+        if (hazard) limit.rate = rate_of(plan, limit, counts, *hazard, all_events);
+    }
+    return estimate;
+}
+
+} // namespace damslip

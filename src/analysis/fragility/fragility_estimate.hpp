@@ -1,0 +1,71 @@
+#pragma once
+
+#include "analysis/fragility/fragility_runs.hpp"
+#include "probability/estimate/bands.hpp"
+#include "probability/fit/capacity_fit.hpp"
+#include "probability/fit/cloud_fit.hpp"
+#include "probability/fit/lognormal_fit.hpp"
+#include "probability/hazard/annual_rate.hpp"
+
+namespace damslip {
+
+/// What one run says of one limit.
+enum class LimitAnswer {
+    survives,
+    fails,
+    missing, ///< nothing is known: not converged, self-excited, still sliding below the limit, not run
+    static_failure
+};
+
+/// A run still sliding whose largest slip exceeds the limit is a failure; what slid off its base, too. @param row  nullptr: not run
+LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row);
+
+/// One limit at one level.
+struct LevelEstimate {
+    double x = 0.0; ///< intensity [SI]
+    /// Runs, of the suite's weights: counted ones (all that are asked for, but of "given-standing" those that do not stand), failures,
+    /// missing ones among the counted.
+    double n = 0.0, z = 0.0, missing = 0.0;
+    double p_low = 0.0, p_high = 0.0; ///< missing runs as survivals, as failures; equal where none is missing
+    double p = 0.0;                   ///< midway
+    /// 95 %: error of the draws, the suite taken as the population. Of random draws Wilson's; of others from the replicates (Student's t);
+    /// from the lower end of p_low to the upper end of p_high.
+    probability::Interval sampling;
+    probability::ClusterInterval records;             ///< 95 %, error of the records: clusters by event drawn anew
+    std::optional<probability::EpistemicBands> bands; ///< of lack of knowledge; none: no such variable
+    std::optional<double> fitted;                     ///< of the lognormal curve, or of the cloud
+};
+
+/// Rate of D > d per year.
+struct LimitRate {
+    std::optional<probability::AnnualRate> fitted; ///< of the lognormal curve; none: there is none, or it does not hold
+    probability::AnnualRate raw;                   ///< of the stripes, P linear in ln x
+    probability::AnnualRate raw_low, raw_high;     ///< the same with missing runs as survivals, as failures
+    probability::Interval sampling;       ///< 95 % of raw, from the replicates; of one replicate: both ends raw
+    probability::ClusterInterval records; ///< 95 % of raw, clusters by event
+    std::vector<double> bands;            ///< of raw over the epistemic draws, at band_levels; empty: none
+};
+
+struct LimitEstimate {
+    LimitInput limit;
+    std::vector<LevelEstimate> levels;
+    probability::LognormalFit fit;                      ///< by the counts of the stripes
+    std::optional<probability::CapacityFit> capacities; ///< of an incremental dynamic analysis
+    std::size_t came_back = 0;                          ///< capacities whose record survives a level above again
+    std::optional<probability::CloudFit> cloud;
+    std::optional<LimitRate> rate;
+    double missing_share() const; ///< of all counted runs
+};
+
+struct FragilityEstimate {
+    std::vector<LimitEstimate> limits;
+    double p_static = 0.0;                       ///< share of the draws that do not stand without an earthquake
+    std::map<std::string, std::size_t> statuses; ///< how often each came up
+    std::size_t clusters = 0;                    ///< events
+};
+
+/// @param hazard  nullptr: no rates. Its intensities in SI @param all_events  rate of all its earthquakes, if known
+FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,
+                                     const probability::HazardCurve* hazard, std::optional<double> all_events);
+
+} // namespace damslip

@@ -1,0 +1,335 @@
+#include "analysis/fragility/fragility_plan.hpp"
+
+#include "core/input_error.hpp"
+#include "core/number.hpp"
+#include "probability/laws/copula.hpp"
+#include "probability/laws/distribution.hpp"
+#include "probability/sampling/draws.hpp"
+#include "probability/sampling/unit_points.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+
+namespace damslip {
+
+namespace {
+
+using probability::Distribution;
+
+/// A law's numbers by name, for the functions that make distributions.
+class LawNumbers {
+public:
+    explicit LawNumbers(const LawInput& law) : law_(law) {}
+    bool has(const std::string& name) const { return law_.parameters.count(name) > 0; }
+    double operator()(const std::string& name) const
+    {
+        const auto found = law_.parameters.find(name);
+        return found != law_.parameters.end() ? found->second : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    const LawInput& law_;
+};
+
+Distribution law_as_written(const LawInput& law)
+{
+    const LawNumbers n(law);
+    if (law.name == "discrete") return Distribution::discrete(law.weights);
+    if (law.name == "uniform") return Distribution::uniform(n("min"), n("max"));
+    if (law.name == "triangular") return Distribution::triangular(n("min"), n("mode"), n("max"));
+    if (law.name == "beta") return Distribution::beta(n("a"), n("b"), n("min"), n("max"));
+    const Distribution whole = law.name == "normal" ? Distribution::normal(n("mean"), n("sd"))
+                               : n.has("median")    ? Distribution::lognormal(n("median"), n("beta"))
+                                                    : Distribution::lognormal_of_mean(n("mean"), n("cov"));
+    if (!n.has("min") && !n.has("max")) return whole;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return whole.truncated(n.has("min") ? n("min") : -infinite, n.has("max") ? n("max") : infinite);
+}
+
+/// @throws InputError with the law's line
+Distribution distribution_of(const LawInput& law, const std::filesystem::path& file)
+{
+    try {
+        return law_as_written(law);
+    } catch (const probability::ParameterError& e) {
+        throw InputError(Diagnostic{file.string(), static_cast<int>(law.where.line), 0,
+                                    fmt::format("{}: {} = {} is not allowed.", law.where.key, e.parameter(), e.value()),
+                                    e.expected(), fmt::format("write another {}", e.parameter())});
+    }
+}
+
+std::vector<std::size_t> variables_of_kind(const FragilityInput& input, VariableKind kind)
+{
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < input.probability.variables.size(); ++i)
+        if (input.probability.variables[i].kind == kind) places.push_back(i);
+    return places;
+}
+
+probability::Sampling sampling_of(SamplingInput sampling)
+{
+    switch (sampling) {
+    case SamplingInput::sobol:
+        return probability::Sampling::sobol;
+    case SamplingInput::latin_hypercube:
+        return probability::Sampling::lhs;
+    case SamplingInput::random:
+        break;
+    }
+    return probability::Sampling::random;
+}
+
+/// The variables of one kind: their points, made dependent.
+class KindOfVariables {
+public:
+    KindOfVariables(const FragilityInput& input, VariableKind kind, const std::filesystem::path& file)
+        : input_(input), places_(variables_of_kind(input, kind)), copula_(copula(file))
+    {
+    }
+    bool empty() const { return places_.empty(); }
+
+    /// Writes the uniform numbers of point i of a set into `u`, which has a place for every variable.
+    class Points {
+    public:
+        Points(const KindOfVariables& kind, probability::UnitPoints points) : kind_(kind), points_(std::move(points)) {}
+        void put(std::uint32_t i, std::vector<double>& u) const
+        {
+            if (kind_.empty()) return;
+            const std::vector<double> dependent = kind_.copula_.dependent(points_.point(i));
+            for (std::size_t k = 0; k < dependent.size(); ++k) u[kind_.places_[k]] = dependent[k];
+        }
+
+    private:
+        const KindOfVariables& kind_;
+        probability::UnitPoints points_;
+    };
+    Points points(std::uint32_t n, std::uint32_t replicate) const
+    {
+        std::vector<std::string> names;
+        for (const std::size_t place : places_) names.push_back(input_.probability.variables[place].name);
+        const auto sampling = empty() ? probability::Sampling::random : sampling_of(input_.probability.sampling);
+        return {*this, {sampling, input_.probability.seed, names, n, replicate}};
+    }
+
+private:
+    probability::GaussianCopula copula(const std::filesystem::path& file) const
+    {
+        std::vector<probability::RankCorrelation> pairs;
+        LineOfFile where;
+        for (const RankCorrelation& c : input_.probability.correlations) {
+            const auto place = [&](const std::string& name) {
+                for (std::size_t k = 0; k < places_.size(); ++k)
+                    if (input_.probability.variables[places_[k]].name == name) return k;
+                return places_.size();
+            };
+            if (place(c.first) == places_.size() || place(c.second) == places_.size()) continue; // of the other kind
+            pairs.push_back({place(c.first), place(c.second), c.spearman});
+            where = c.where;
+        }
+        const auto refused = [&](const std::string& problem, const std::string& expected) {
+            return InputError(Diagnostic{file.string(), static_cast<int>(where.line), 0, problem, expected,
+                                         "change or leave out one of the correlations"});
+        };
+        try {
+            return {places_.size(), pairs};
+        } catch (const probability::NotPositiveDefinite& e) {
+            throw refused(
+                fmt::format(
+                    "the correlations contradict one another: the smallest eigenvalue of their matrix is {:.3g}.",
+                    e.smallest_eigenvalue()),
+                "a positive definite matrix");
+        } catch (const probability::ParameterError& e) {
+            throw refused(fmt::format("probability.correlation: {} = {} is not allowed.", e.parameter(), e.value()),
+                          e.expected());
+        }
+    }
+
+    const FragilityInput& input_;
+    std::vector<std::size_t> places_;
+    probability::GaussianCopula copula_;
+};
+
+/// Values of the variables at uniform numbers.
+class ValuesOfDraw {
+public:
+    ValuesOfDraw(const FragilityInput& input, const std::filesystem::path& file, const NumberInFile& written)
+        : input_(input)
+    {
+        for (const RandomVariable& v : input.probability.variables) {
+            laws_.push_back(distribution_of(v.law, file));
+            std::vector<double>& base = bases_.emplace_back();
+            for (const std::string& key : v.keys) base.push_back(v.factor ? written(key) : 1.0);
+        }
+    }
+
+    FragilityDraw operator()(std::span<const double> u) const
+    {
+        FragilityDraw draw;
+        for (std::size_t i = 0; i < laws_.size(); ++i) {
+            const RandomVariable& v = input_.probability.variables[i];
+            const double q = laws_[i].quantile(u[i]);
+            draw.values.push_back(laws_[i].is_discrete() ? v.law.values[static_cast<std::size_t>(q)] : KeyValue(q));
+            for (std::size_t k = 0; k < v.keys.size(); ++k) {
+                const auto* number = std::get_if<double>(&draw.values.back());
+                draw.changes.push_back(
+                    {v.keys[k], v.factor && number ? KeyValue(*number * bases_[i][k]) : draw.values.back()});
+            }
+        }
+        return draw;
+    }
+
+private:
+    const FragilityInput& input_;
+    std::vector<Distribution> laws_;
+    std::vector<std::vector<double>> bases_;
+};
+
+/// Records with their polarities, as one list to draw from.
+struct ShakenWays {
+    std::vector<std::size_t> record;
+    std::vector<int> polarity;
+    std::vector<double> weight;
+};
+
+ShakenWays shaken_ways(const FragilityInput& input, const ShakingSuite& suite)
+{
+    const SuitePolarity wanted = input.suite ? input.suite->polarity : SuitePolarity::as_recorded;
+    ShakenWays ways;
+    for (std::size_t r = 0; r < suite.pairs->size(); ++r)
+        for (const int polarity : {1, -1}) {
+            if (polarity == (wanted == SuitePolarity::reversed ? 1 : -1) && wanted != SuitePolarity::both) continue;
+            ways.record.push_back(r);
+            ways.polarity.push_back(polarity);
+            ways.weight.push_back(suite.weight[r]);
+        }
+    return ways;
+}
+
+/// Sets replicates, outer and inner of the plan.
+void choose_sizes(FragilityPlan& plan, std::size_t ways, const FragilitySizes& sizes, bool replaced)
+{
+    const ProbabilityInput& p = plan.input.probability;
+    const auto whole = [&](std::size_t n) { // Sobol' points come in powers of two
+        n = std::max<std::size_t>(1, n);
+        return p.sampling == SamplingInput::sobol ? std::bit_ceil(n) : n;
+    };
+    const auto up = [](std::size_t a, std::size_t b) { return (a + b - 1) / b; };
+    plan.whole_suite = !plan.aleatory && !replaced;
+    plan.replicates = static_cast<std::size_t>(std::max(1, p.replicates));
+    const std::size_t given = p.samples ? static_cast<std::size_t>(*p.samples) : 0;
+    if (!plan.epistemic) {
+        if (plan.whole_suite) plan.replicates = 1;
+        plan.inner = plan.whole_suite ? ways
+                     : plan.aleatory  ? whole(given ? given : up(sizes.samples, plan.replicates))
+                                      : up(sizes.samples, plan.replicates);
+        return;
+    }
+    plan.inner = plan.whole_suite ? ways : whole(given ? given : std::max<std::size_t>(16, ways));
+    plan.outer = whole(up(sizes.samples, plan.replicates * plan.inner));
+}
+
+void check_scale(FragilityPlan& plan, const std::filesystem::path& file)
+{
+    const SuiteInput limits = plan.input.suite.value_or(SuiteInput{});
+    std::vector<std::pair<std::size_t, std::size_t>> told;
+    for (const FragilitySample& s : plan.samples) {
+        if (!(s.factor > limits.max_scale)) continue;
+        const std::pair at(s.record, s.level);
+        if (std::find(told.begin(), told.end(), at) != told.end()) continue;
+        told.push_back(at);
+        plan.scaled_far.push_back(fmt::format("{}: factor {:.3g} at level {}", (*plan.suite.pairs)[s.record].files.name,
+                                              s.factor, s.level + 1));
+    }
+    if (plan.scaled_far.empty() || limits.allow_scaling) return;
+    throw InputError(Diagnostic{
+        file.string(), 0, 0,
+        fmt::format("{} records have to be scaled by more than suite.max_scale = {} to reach their level: {}{}.",
+                    plan.scaled_far.size(), shortest(limits.max_scale), plan.scaled_far.front(),
+                    plan.scaled_far.size() > 1 ? ", ..." : ""),
+        "records that are about as strong as the level",
+        "take stronger records, lower levels, a larger suite.max_scale, or --allow-scaling"});
+}
+
+} // namespace
+
+FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, const std::filesystem::path& scene_file,
+                      const NumberInFile& written)
+{
+    return ValuesOfDraw(input, scene_file, written)(u);
+}
+
+FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, const FragilitySizes& sizes,
+                             const std::filesystem::path& scene_file, const NumberInFile& written)
+{
+    FragilityPlan plan;
+    plan.input = input;
+    plan.suite = std::move(suite);
+    const KindOfVariables epistemic(plan.input, VariableKind::epistemic, scene_file),
+        aleatory(plan.input, VariableKind::aleatory, scene_file);
+    const ValuesOfDraw values(plan.input, scene_file, written);
+    const ShakenWays ways = shaken_ways(plan.input, plan.suite);
+    const bool replaced = plan.input.suite && plan.input.suite->draw == SuiteDraw::with_replacement;
+    const FragilityDesign design = plan.input.intensity.design;
+    plan.epistemic = !epistemic.empty();
+    plan.aleatory = !aleatory.empty();
+    plan.levels = design == FragilityDesign::cloud ? 1 : plan.input.intensity.levels.size();
+    choose_sizes(plan, ways.record.size(), sizes, replaced);
+
+    const auto order = replaced ? probability::RecordOrder::with_replacement : probability::RecordOrder::balanced;
+    const double mean_weight =
+        std::accumulate(ways.weight.begin(), ways.weight.end(), 0.0) / static_cast<double>(ways.weight.size());
+    std::vector<double> u(plan.variables().size());
+    for (std::size_t r = 0; r < plan.replicates; ++r) {
+        const auto stream_of = [&](std::size_t level) { // independent from level to level where the levels are stripes
+            const std::size_t own = design == FragilityDesign::stripes ? r * plan.levels + level : r;
+            return static_cast<std::uint32_t>(own + std::size_t{sizes.stream} * (1u << 24));
+        };
+        const auto outer_points =
+            epistemic.points(static_cast<std::uint32_t>(plan.outer),
+                             static_cast<std::uint32_t>(r + std::size_t{sizes.stream} * (1u << 24)));
+        for (std::size_t e = 0; e < plan.outer; ++e) {
+            std::vector<std::size_t> draw_at; // of each inner draw, where levels share it
+            for (std::size_t level = 0; level < plan.levels; ++level) {
+                const auto inner_points = aleatory.points(static_cast<std::uint32_t>(plan.inner), stream_of(level));
+                const probability::RecordDraw records(order, plan.input.probability.seed, ways.weight,
+                                                      stream_of(level));
+                for (std::size_t i = 0; i < plan.inner; ++i) {
+                    const bool again =
+                        (level > 0 && design == FragilityDesign::ida) || (!plan.aleatory && (level > 0 || i > 0));
+                    if (!again) {
+                        outer_points.put(static_cast<std::uint32_t>(e), u);
+                        inner_points.put(static_cast<std::uint32_t>(i), u);
+                        plan.draws.push_back(values(u));
+                        draw_at.push_back(plan.draws.size() - 1);
+                    }
+                    FragilitySample s;
+                    s.draw = !again ? plan.draws.size() - 1 : plan.aleatory ? draw_at[i] : draw_at.front();
+                    s.replicate = r;
+                    s.outer = r * plan.outer + e;
+                    s.inner = i;
+                    s.level = level;
+                    const std::size_t way = plan.whole_suite ? i : records(static_cast<std::uint32_t>(i));
+                    s.record = ways.record[way];
+                    s.polarity = ways.polarity[way];
+                    if (plan.whole_suite) s.weight = ways.weight[way] / mean_weight;
+                    const double own = plan.suite.intensity[s.record];
+                    s.factor = design == FragilityDesign::cloud
+                                   ? 1.0
+                                   : std::pow(plan.input.intensity.levels[level] / own, 1.0 / plan.suite.power);
+                    s.x = design == FragilityDesign::cloud ? own : plan.input.intensity.levels[level];
+                    plan.samples.push_back(s);
+                }
+            }
+        }
+    }
+    std::stable_sort(plan.samples.begin(), plan.samples.end(),
+                     [](const FragilitySample& a, const FragilitySample& b) { return a.draw < b.draw; });
+    check_scale(plan, scene_file);
+    return plan;
+}
+
+} // namespace damslip

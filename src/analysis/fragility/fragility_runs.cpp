@@ -1,0 +1,431 @@
+#include "analysis/fragility/fragility_runs.hpp"
+
+#include "analysis/fe/fe_meter.hpp"
+#include "analysis/sweep/sweep_rows.hpp"
+#include "core/file.hpp"
+#include "core/input_error.hpp"
+#include "core/parallel.hpp"
+#include "core/processor_clock.hpp"
+#include "core/version.hpp"
+#include "scene/with_friction.hpp"
+#include "scene/write.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace damslip {
+
+namespace {
+
+constexpr const char* friction_key = "contact.friction";
+
+/// What a rigid block does not ask the seepage for.
+bool moves_no_water(const std::string& key)
+{
+    return key == friction_key || key.starts_with("contact.cohesion") || key.starts_with("contact.residual") ||
+           key.starts_with("dam.") || key.starts_with("motion.") || key.starts_with("damping.");
+}
+
+/// The changes of a draw as text, without some keys: draws with the same text may share what does not depend on those.
+template <class LeftOut>
+std::string words_of(const FragilityDraw& draw, LeftOut left_out)
+{
+    std::string words;
+    for (const KeyChange& change : draw.changes)
+        if (!left_out(change.key)) words += change.key + " = " + text_of(change.value) + "\n";
+    return words;
+}
+
+std::string words_without_friction(const FragilityDraw& draw)
+{
+    return words_of(draw, [](const std::string& key) { return key == friction_key; });
+}
+
+bool draws_motion(const FragilityPlan& plan)
+{
+    for (const RandomVariable& v : plan.variables())
+        for (const std::string& key : v.keys)
+            if (key.starts_with("motion.")) return true;
+    return false;
+}
+
+/// Rows of samples as they finish, from several threads.
+class SampleStore {
+public:
+    SampleStore(FragilityRuns& runs, Journal* journal, Watch& watch) : runs_(runs), journal_(journal), watch_(watch) {}
+
+    void take_finished(const std::vector<std::size_t>& wanted)
+    {
+        if (!journal_ || wanted.empty()) return;
+        for (FinishedRow& row : journal_->finished_rows(wanted.front(), wanted.back())) {
+            ++runs_.found;
+            const std::size_t id = row.id;
+            runs_.rows[id] = std::move(row);
+        }
+    }
+    void finish(std::vector<FinishedRow> rows)
+    {
+        if (journal_)
+            journal_->append(rows);
+        else
+            watch_.results_at_hand();
+        for (FinishedRow& row : rows) {
+            const std::size_t id = row.id;
+            runs_.rows[id] = std::move(row);
+        }
+    }
+    void begin(std::span<const std::size_t> ids)
+    {
+        if (journal_) journal_->begin(ids);
+    }
+
+private:
+    FragilityRuns& runs_;
+    Journal* journal_;
+    Watch& watch_;
+};
+
+/// Statics and seepage that rigid blocks of several draws share.
+class SharedStatics {
+public:
+    PrepareOptions options_of(const FragilityDraw& draw)
+    {
+        const std::lock_guard lock(mutex_);
+        PrepareOptions options;
+        auto& seepage = seepage_[words_of(draw, moves_no_water)];
+        if (!seepage) seepage = std::make_shared<SeepageSource>();
+        auto& statics = statics_[words_without_friction(draw)];
+        if (!statics) statics = std::make_shared<KeptStatics>();
+        options.seepage = seepage;
+        options.statics = statics;
+        return options;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<SeepageSource>> seepage_;
+    std::map<std::string, std::shared_ptr<KeptStatics>> statics_;
+};
+
+/// The rigid runs of a plan.
+class RigidSamples {
+public:
+    RigidSamples(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method)
+        : plan_(plan), text_(text), with_vertical_(method.kind == SweepKind::rigid_vertical),
+          base_(prepare(text.scene(), Method::rigid_block, plan.suite.pairs)), own_motion_(draws_motion(plan))
+    {
+    }
+
+    /// The scaled records of these samples, made once; none where the motion itself is drawn.
+    void make_motions(const std::vector<std::size_t>& wanted, int jobs)
+    {
+        if (own_motion_) return;
+        for (const std::size_t id : wanted) motions_[key(plan_.samples[id])];
+        std::vector<std::pair<const std::pair<std::size_t, std::size_t>, std::unique_ptr<sliding::SkippingMotion>>*>
+            places;
+        for (auto& entry : motions_) places.push_back(&entry);
+        parallel_for(places.size(), jobs, [&](std::size_t i) {
+            const auto& [record, level] = places[i]->first;
+            const bool cloud = plan_.input.intensity.design == FragilityDesign::cloud;
+            const double factor = cloud ? 1.0 : factor_of(record, level);
+            places[i]->second = std::make_unique<sliding::SkippingMotion>(motion(base_, record, factor));
+        });
+    }
+
+    /// All wanted samples of one draw. @param yield  of its block
+    std::vector<FinishedRow> run(std::span<const std::size_t> ids, double& yield)
+    {
+        const FragilityDraw& draw = plan_.draws[plan_.samples[ids.front()].draw];
+        const Ready ready =
+            prepare(text_.with(draw.changes), Method::rigid_block, plan_.suite.pairs, shared_.options_of(draw));
+        const RigidModel model = ready.rigid_model();
+        yield = model.downstream.law.constant;
+        std::vector<FinishedRow> rows;
+        for (const std::size_t id : ids) rows.push_back(run_one(ready, model, id));
+        return rows;
+    }
+
+private:
+    static std::pair<std::size_t, std::size_t> key(const FragilitySample& s) { return {s.record, s.level}; }
+    double factor_of(std::size_t record, std::size_t level) const
+    {
+        return std::pow(plan_.input.intensity.levels[level] / plan_.suite.intensity[record], 1.0 / plan_.suite.power);
+    }
+    GroundMotion motion(const Ready& ready, std::size_t record, double factor) const
+    {
+        GroundMotion motion = ready.motion((*plan_.suite.pairs)[record], factor);
+        return with_vertical_ ? motion : horizontal_only(std::move(motion));
+    }
+    FinishedRow run_one(const Ready& ready, const RigidModel& model, std::size_t id) const
+    {
+        const FragilitySample& s = plan_.samples[id];
+        const sliding::SlideResult r =
+            own_motion_ ? slide_model(ready.scene, model, motion(ready, s.record, s.factor), s.polarity)
+                        : slide_model(ready.scene, model, *motions_.at(key(s)), s.polarity);
+        FinishedRow row;
+        row.id = id;
+        row.results.slip = reported(r.status, r.slip);
+        row.results.max_slip = reported(r.status, r.max_slip);
+        row.results.upstream_slip = reported(r.status, r.upstream_slip);
+        row.results.status = word(r.status);
+        row.results.critical_friction = model.critical_friction;
+        row.good = is_answer(r.status);
+        return row;
+    }
+
+    const FragilityPlan& plan_;
+    const SceneText& text_;
+    bool with_vertical_;
+    Ready base_;
+    bool own_motion_;
+    SharedStatics shared_;
+    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<sliding::SkippingMotion>> motions_;
+};
+
+/// Wanted samples that are not finished, in runs of one draw each.
+std::vector<std::vector<std::size_t>> missing_by_draw(const FragilityPlan& plan, const std::vector<std::size_t>& wanted,
+                                                      const FragilityRuns& runs)
+{
+    std::vector<std::vector<std::size_t>> groups;
+    for (const std::size_t id : wanted) {
+        if (runs.rows[id]) continue;
+        if (groups.empty() || plan.samples[groups.back().front()].draw != plan.samples[id].draw) groups.emplace_back();
+        groups.back().push_back(id);
+    }
+    return groups;
+}
+
+void run_rigid(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
+               const std::vector<std::size_t>& wanted, SampleStore& store, int jobs, Watch& watch, FragilityRuns& runs)
+{
+    constexpr std::size_t draws_at_once = 16; // written to the journal together
+    const auto groups = missing_by_draw(plan, wanted, runs);
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    RigidSamples samples(plan, text, method);
+    watch.begin("fragility, rigid block", static_cast<double>(wanted.size()));
+    samples.make_motions(wanted, jobs);
+    std::atomic<std::size_t> done{runs.found};
+    parallel_for((groups.size() + draws_at_once - 1) / draws_at_once, jobs, [&](std::size_t block) {
+        if (watch.stop_asked()) return;
+        std::vector<FinishedRow> rows;
+        for (std::size_t g = block * draws_at_once; g < std::min(groups.size(), (block + 1) * draws_at_once); ++g)
+            for (FinishedRow& row : samples.run(groups[g], runs.yield[plan.samples[groups[g].front()].draw]))
+                rows.push_back(std::move(row));
+        const std::size_t n = rows.size();
+        store.finish(std::move(rows));
+        watch.at(static_cast<double>(done += n));
+    });
+    watch.end();
+    runs.set_ups = groups.size();
+    runs.seconds = clock.seconds();
+}
+
+/// Frictions of one model that meet one motion.
+struct MotionGroup {
+    std::string model; ///< changes but for the friction
+    std::vector<std::size_t> ids;
+};
+
+std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const std::vector<std::size_t>& wanted,
+                                       const FragilityRuns& runs)
+{
+    std::map<std::tuple<std::string, std::size_t, std::size_t, int>, std::vector<std::size_t>> found;
+    std::vector<std::string> words;
+    for (const FragilityDraw& draw : plan.draws) words.push_back(words_without_friction(draw));
+    for (const std::size_t id : wanted) {
+        const FragilitySample& s = plan.samples[id];
+        if (!runs.rows[id]) found[{words[s.draw], s.level, s.record, s.polarity}].push_back(id);
+    }
+    constexpr std::size_t most_together = 64; // what goes through an earthquake together, and into the journal at once
+    std::vector<MotionGroup> groups;
+    for (const auto& [key, ids] : found)
+        for (std::size_t first = 0; first < ids.size(); first += most_together)
+            groups.push_back(
+                {std::get<0>(key),
+                 {ids.begin() + static_cast<std::ptrdiff_t>(first),
+                  ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), first + most_together))}});
+    return groups;
+}
+
+/// Mesh and matrices of one model while a group needs them.
+struct DrawnModel {
+    std::mutex mutex;
+    std::size_t groups_left = 0;
+    std::optional<Ready> ready;
+    std::unique_ptr<const fe2d::EarthquakeRun> run;
+    std::string why_not; ///< it could not be made; empty: it could
+};
+
+class FiniteElementSamples {
+public:
+    FiniteElementSamples(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method, Watch& watch)
+        : plan_(plan), text_(text), method_(method), watch_(watch), meter_(watch)
+    {
+    }
+
+    void run(const std::vector<MotionGroup>& groups, SampleStore& store, int jobs, FragilityRuns& runs)
+    {
+        for (const MotionGroup& group : groups) ++models_[group.model].groups_left;
+        std::mutex mutex;
+        parallel_for(groups.size(), jobs, [&](std::size_t i) {
+            if (watch_.stop_asked()) return;
+            const ProcessorClock clock;
+            meter_.begin(groups[i].ids.size());
+            DrawnModel& model = models_.at(groups[i].model);
+            store.begin(groups[i].ids);
+            try {
+                std::vector<FinishedRow> rows = rows_of(model, groups[i]);
+                std::erase_if(rows,
+                              [](const FinishedRow& row) { return row.results.status == word(Status::interrupted); });
+                store.finish(std::move(rows));
+            } catch (const Interrupted&) { // in the set-up: these are not finished
+            }
+            meter_.end();
+            {
+                const std::lock_guard lock(model.mutex);
+                if (--model.groups_left == 0) model.run.reset();
+            }
+            const std::lock_guard lock(mutex);
+            runs.seconds += clock.seconds();
+        });
+        for (const auto& [words, model] : models_) {
+            runs.set_ups += model.ready.has_value();
+            if (!model.why_not.empty()) runs.failures.insert(model.why_not);
+        }
+    }
+
+private:
+    std::vector<FinishedRow> rows_of(DrawnModel& model, const MotionGroup& group)
+    {
+        std::vector<FinishedRow> rows;
+        if (!made(model, plan_.draws[plan_.samples[group.ids.front()].draw])) {
+            FeSlip none;
+            none.status = Status::not_resolved;
+            for (const std::size_t id : group.ids) rows.push_back(fe_row(id, none));
+            return rows;
+        }
+        const FragilitySample& s = plan_.samples[group.ids.front()];
+        const GroundMotion motion = model.ready->motion((*plan_.suite.pairs)[s.record], s.factor, s.polarity);
+        std::vector<Contact> contacts;
+        for (const std::size_t id : group.ids)
+            contacts.push_back(contact_of(*model.ready, plan_.draws[plan_.samples[id].draw]));
+        const std::vector<fe2d::RunResult> results = model.run->run_all(motion, contacts);
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            const fe2d::RunResult& r = results[i];
+            FeSlip slip;
+            slip.status = r.status;
+            slip.slip = reported(r.status, r.slip);
+            slip.max_slip = reported(r.status, r.max_slip);
+            slip.slip_error = reported(r.status, r.slip_error);
+            if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
+                slip.critical_friction = r.stages.back().critical_friction;
+            rows.push_back(fe_row(group.ids[i], slip));
+        }
+        return rows;
+    }
+
+    static Contact contact_of(const Ready& ready, const FragilityDraw& draw)
+    {
+        for (const KeyChange& change : draw.changes)
+            if (const auto* mu = std::get_if<double>(&change.value); mu && change.key == friction_key)
+                return *mu == ready.scene.contact.friction ? ready.scene.contact
+                                                           : with_friction(ready.scene, *mu).contact;
+        return ready.scene.contact;
+    }
+
+    bool made(DrawnModel& model, const FragilityDraw& draw)
+    {
+        const std::lock_guard lock(model.mutex); // others who need the same model wait for it
+        if (!model.why_not.empty()) return false;
+        if (model.run) return true;
+        try {
+            std::vector<KeyChange> changes = draw.changes; // the friction is each run's own
+            std::erase_if(changes, [](const KeyChange& change) { return change.key == friction_key; });
+            const Scene scene = with_law(text_.with(changes), method_.law, {});
+            model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs, {.stop = watch_.stop()}));
+            fe2d::RunOptions options = model.ready->run_options(watch_);
+            options.progress = [this](const fe2d::RunProgress& p) {
+                meter_.step(p);
+                return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
+            };
+            model.run = std::make_unique<fe2d::EarthquakeRun>(model.ready->scene, options);
+        } catch (const NotConverged& error) {
+            model.why_not = error.diagnostic().problem;
+        }
+        return model.why_not.empty();
+    }
+
+    const FragilityPlan& plan_;
+    const SceneText& text_;
+    const SweepMethod& method_;
+    Watch& watch_;
+    FeMeter meter_;
+    std::map<std::string, DrawnModel> models_;
+};
+
+} // namespace
+
+std::size_t FragilityRuns::finished() const
+{
+    return static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.has_value(); }));
+}
+
+SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& text, const std::string& method)
+{
+    SweepIdentity identity;
+    identity.version = program_version();
+    identity.scene = scene_hash(text.scene());
+    std::string contents;
+    for (const RecordPair& pair : *plan.suite.pairs)
+        contents +=
+            pair.horizontal.source.sha256 + "\n" + (pair.vertical ? pair.vertical->source.sha256 : "none") + "\n";
+    identity.records = sha256(contents);
+    std::string words;
+    for (const FragilityDraw& draw : plan.draws)
+        words += words_of(draw, [](const std::string&) { return false; }) + ";";
+    for (const FragilitySample& s : plan.samples)
+        words += fmt::format("{} {} {} {} {}\n", s.draw, s.level, s.record, s.polarity, s.factor);
+    identity.grid = fmt::format("fragility by {}, {} draws, {} levels, plan {}", method, plan.draws.size(), plan.levels,
+                                sha256(words));
+    identity.rows = plan.samples.size();
+    return identity;
+}
+
+std::vector<std::size_t> wanted_samples(const FragilityPlan& plan, const Shard& shard)
+{
+    const std::size_t n = plan.draws.size();
+    const std::size_t first = shard.index * n / shard.count, last = (shard.index + 1) * n / shard.count;
+    std::vector<std::size_t> ids;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id)
+        if (plan.samples[id].draw >= first && plan.samples[id].draw < last) ids.push_back(id);
+    return ids;
+}
+
+FragilityRuns run_fragility(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
+                            const std::vector<std::size_t>& wanted, Journal* journal, int jobs, Watch& watch)
+{
+    FragilityRuns runs;
+    runs.rows.resize(plan.samples.size());
+    runs.yield.assign(plan.draws.size(), std::numeric_limits<double>::quiet_NaN());
+    runs.wanted = wanted.size();
+    SampleStore store(runs, journal, watch);
+    store.take_finished(wanted);
+    if (method.kind != SweepKind::finite_elements) {
+        run_rigid(plan, text, method, wanted, store, jobs, watch, runs);
+        return runs;
+    }
+    const std::vector<MotionGroup> groups = motion_groups(plan, wanted, runs);
+    watch.begin("fragility, finite elements", static_cast<double>(wanted.size() - runs.found));
+    FiniteElementSamples(plan, text, method, watch).run(groups, store, jobs, runs);
+    watch.end();
+    return runs;
+}
+
+} // namespace damslip

@@ -1,0 +1,328 @@
+#include "analysis/spectrum/spectrum_level.hpp"
+
+#include "analysis/spectrum/modal_forces.hpp"
+#include "core/units.hpp"
+#include "fe2d/modes/modal_combination.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "scene/section.hpp"
+#include "scene/water.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace damslip {
+
+namespace {
+
+constexpr int spectrum_modes = 20;  ///< of a dam without acoustic water
+constexpr int spectrum_levels = 11; ///< of the forces over the height
+
+/// Forces above a plane: along it downstream, across it up, and their moment about its middle, counter-clockwise.
+struct Resultant {
+    double along = 0.0, across = 0.0, moment = 0.0; ///< [N/m], [N/m], [N m/m]
+};
+
+/// A plane that carries what stands above it.
+struct Plane {
+    Point middle, t, n;  ///< t downstream, n up
+    double length = 0.0; ///< [m]
+    double level = 0.0;  ///< of its middle [m]
+};
+
+/// Where the unknowns of the model act.
+struct Unknown {
+    Point at;
+    int component = -1; ///< 0: x, 1: y
+};
+
+std::vector<Unknown> unknowns_of(const fe2d::Model& model)
+{
+    std::vector<Unknown> list(static_cast<std::size_t>(model.dofs.count));
+    for (int node = 0; node < model.mesh.node_count(); ++node)
+        for (int c = 0; c < 2; ++c)
+            if (const int dof = model.dofs(node, c); dof != fe2d::no_dof)
+                list[static_cast<std::size_t>(dof)] = {model.mesh.nodes[static_cast<std::size_t>(node)], c};
+    return list;
+}
+
+Plane base_plane(const Section& section)
+{
+    const Point a = heel(section), b = toe(section);
+    const double length = base_length(section);
+    const Point t{(b.x - a.x) / length, (b.y - a.y) / length};
+    return {{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, t, {-t.y, t.x}, length, 0.5 * (a.y + b.y)};
+}
+
+/// The base, and horizontal sections above it to the crest.
+std::vector<Plane> planes_of(const Section& section)
+{
+    std::vector<Plane> planes{base_plane(section)};
+    const double from = std::max(heel(section).y, toe(section).y), to = crest_level(section);
+    const Polyline face = upstream_face(section);
+    for (int i = 1; i < spectrum_levels; ++i) {
+        const double y = from + (to - from) * i / spectrum_levels;
+        double x = face.front().x;
+        for (std::size_t k = 0; k + 1 < face.size(); ++k)
+            if (face[k].y <= y && y <= face[k + 1].y && face[k + 1].y > face[k].y)
+                x = face[k].x + (y - face[k].y) / (face[k + 1].y - face[k].y) * (face[k + 1].x - face[k].x);
+        const double width = width_at_level(section, y);
+        planes.push_back({{x + 0.5 * width, y}, {1.0, 0.0}, {0.0, 1.0}, width, y});
+    }
+    return planes;
+}
+
+/// Of nodal forces above a plane; all of them for the base, which is below all that has mass.
+Resultant above(const Plane& plane, bool base, const std::vector<Unknown>& unknowns, const Eigen::VectorXd& force)
+{
+    Resultant sum;
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        const Unknown& u = unknowns[i];
+        if (!base && u.at.y <= plane.level) continue;
+        const double f = force[static_cast<Eigen::Index>(i)];
+        const Point direction = u.component == 0 ? Point{1.0, 0.0} : Point{0.0, 1.0};
+        const Point arm{u.at.x - plane.middle.x, u.at.y - plane.middle.y};
+        sum.along += f * (direction.x * plane.t.x + direction.y * plane.t.y);
+        sum.across += f * (direction.x * plane.n.x + direction.y * plane.n.y);
+        sum.moment += f * (arm.x * direction.y - arm.y * direction.x);
+    }
+    return sum;
+}
+
+/// Resultants of every mode on every plane, and last those of what the modes leave, per m/s^2.
+struct UnitResponses {
+    std::vector<Plane> planes;
+    std::vector<std::vector<Resultant>> of_mode; ///< [mode][plane]; the last is the residual
+    Eigen::VectorXd crest;                       ///< [m per m/s^2]; none of the residual, which is stiff
+};
+
+UnitResponses unit_responses(const ModesResult& modes, const ModalForces& forces)
+{
+    UnitResponses u;
+    u.planes = planes_of(modes.scene.section);
+    const std::vector<Unknown> unknowns = unknowns_of(modes.model);
+    const auto add = [&](const Eigen::VectorXd& force) {
+        std::vector<Resultant>& list = u.of_mode.emplace_back();
+        for (std::size_t k = 0; k < u.planes.size(); ++k) list.push_back(above(u.planes[k], k == 0, unknowns, force));
+    };
+    for (Eigen::Index i = 0; i < forces.force.cols(); ++i) add(forces.force.col(i));
+    add(forces.residual);
+    // Mass at fixed nodes (a dam without rock) is in no unknown: it acts in the base itself.
+    u.of_mode.back().front().along +=
+        (forces.residual_mass - u.of_mode.back().front().along) * (modes.model.mesh.has_rock() ? 0.0 : 1.0);
+    const int dof = modes.model.dofs(modes.model.mesh.crest.back(), 0);
+    u.crest = Eigen::VectorXd::Zero(forces.force.cols() + 1);
+    if (dof != fe2d::no_dof) u.crest.head(forces.force.cols()) = forces.displacement.row(dof).transpose();
+    return u;
+}
+
+/// Peaks of modes, and how they combine: those of the modes by their correlation, the residual with none.
+struct Combining {
+    Eigen::VectorXd scale; ///< S_a of each mode, then PGA [m/s^2]
+    Eigen::MatrixXd srss, cqc;
+
+    Combining(const ModalForces& forces, const LevelSpectrum& spectrum)
+    {
+        const Eigen::Index n = forces.frequency.size();
+        scale.resize(n + 1);
+        for (Eigen::Index i = 0; i < n; ++i) scale[i] = spectrum.acceleration(1.0 / forces.frequency[i]);
+        scale[n] = spectrum.acceleration(0.0);
+        srss = Eigen::MatrixXd::Identity(n + 1, n + 1);
+        cqc = srss;
+        cqc.topLeftCorner(n, n) = fe2d::modal_correlations(forces.frequency, spectrum.ratio, fe2d::ModalRule::cqc);
+    }
+    double peak(const Eigen::VectorXd& v) const { return fe2d::combined_peak(v, cqc); }
+};
+
+template <class Value>
+Eigen::VectorXd modal_values(const UnitResponses& unit, const Combining& combining, std::size_t plane, Value value)
+{
+    Eigen::VectorXd v(combining.scale.size());
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+        v[i] = combining.scale[i] * value(unit.of_mode[static_cast<std::size_t>(i)][plane]);
+    return v;
+}
+
+/// Vertical stress of the beam at an end of a plane, compression positive. @param end  -1: heel, upstream; +1: toe
+double edge_stress(const Resultant& r, double length, double end)
+{
+    return -r.across / length - end * 6.0 * r.moment / (length * length);
+}
+
+LevelForce level_force(const UnitResponses& unit, const Combining& combining, std::size_t k)
+{
+    LevelForce out;
+    const double length = unit.planes[k].length;
+    out.level = unit.planes[k].level;
+    out.shear = combining.peak(modal_values(unit, combining, k, [](const Resultant& r) { return r.along; }));
+    out.moment = combining.peak(modal_values(unit, combining, k, [](const Resultant& r) { return r.moment; }));
+    if (length > 0.0)
+        for (const double end : {-1.0, 1.0})
+            out.stress = std::max(out.stress, combining.peak(modal_values(unit, combining, k, [&](const Resultant& r) {
+                return edge_stress(r, length, end);
+            })));
+    return out;
+}
+
+/// Stabilising and overturning moments of the static loads and the uplift about the toe, each part on its own [N m/m].
+struct ToeMoments {
+    double stabilising = 0.0, overturning = 0.0;
+};
+
+ToeMoments toe_moments(const sliding::Equilibrium& e, Point pivot)
+{
+    ToeMoments sum;
+    const auto add = [&](const sliding::Force& f) {
+        const double m = sliding::moment_about(f, pivot);
+        (m > 0.0 ? sum.stabilising : sum.overturning) += std::abs(m);
+    };
+    for (const sliding::Load& load : e.loads) {
+        add(load.force.horizontal);
+        add(load.force.vertical);
+    }
+    const double u = e.base.uplift.force;
+    add({u * e.frame.n.x, u * e.frame.n.y, e.base.uplift.moment_about_heel});
+    return sum;
+}
+
+double ratio_of(double resists, double drives)
+{
+    return drives > 0.0 ? resists / drives : std::numeric_limits<double>::infinity();
+}
+
+/// The scene's own levels, without earthquake and without a crack.
+sliding::Equilibrium static_equilibrium(const Ready& ready)
+{
+    Combination usual;
+    usual.name = "static";
+    usual.crack = CrackRule::none;
+    sliding::EquilibriumOptions options;
+    options.seepage = ready.seepage->profile_of(ready.scene);
+    return sliding::evaluate(ready.scene, usual, {}, options);
+}
+
+void add_modes(const UnitResponses& unit, const ModalForces& forces, const Combining& combining, SpectrumDemand& row)
+{
+    for (Eigen::Index i = 0; i < forces.frequency.size(); ++i)
+        row.modes.push_back({forces.frequency[i], forces.effective_mass[i], combining.scale[i],
+                             combining.scale[i] * unit.of_mode[static_cast<std::size_t>(i)].front().along});
+    row.residual_mass = forces.residual_mass;
+}
+
+void add_base(const UnitResponses& unit, const Combining& combining, double mass, double gravity, SpectrumDemand& row)
+{
+    const double length = unit.planes.front().length;
+    const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
+    const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
+    row.shear = combining.peak(along);
+    row.shear_srss = fe2d::combined_peak(along, combining.srss);
+    row.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
+    const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
+    if (row.shear > 0.0) row.normal_with_shear = fe2d::combined_product(down, along, combining.cqc) / row.shear;
+    row.heel_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, -1.0); }));
+    row.toe_stress = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, 1.0); }));
+    row.crest = combining.peak(unit.crest.cwiseProduct(combining.scale));
+    row.coefficient = row.shear / (mass * gravity);
+    for (std::size_t k = 0; k < unit.planes.size(); ++k) row.levels.push_back(level_force(unit, combining, k));
+    for (std::size_t k = 0; k < row.levels.size(); ++k)
+        row.levels[k].lateral = row.levels[k].shear - (k + 1 < row.levels.size() ? row.levels[k + 1].shear : 0.0);
+}
+
+void add_factors(const UnitResponses& unit, const Combining& combining, const sliding::Equilibrium& e,
+                 const ToeMoments& still, const SpectrumLevel& level, SpectrumDemand& row)
+{
+    const double half = 0.5 * unit.planes.front().length;
+    const double about_toe = combining.peak(
+        modal_values(unit, combining, 0, [&](const Resultant& r) { return r.moment - half * r.across; }));
+    const double normal = std::max(0.0, e.base.effective_normal + row.normal_with_shear);
+    row.heel_least = level.static_heel - row.heel_stress;
+    row.heel_most = level.static_heel + row.heel_stress;
+    row.toe_least = level.static_toe - row.toe_stress;
+    row.toe_most = level.static_toe + row.toe_stress;
+    row.sliding_factor = ratio_of(e.cohesion * e.cohesive_length + e.friction * normal + e.dowel_force,
+                                  std::max(0.0, e.shear + row.shear));
+    row.overturning_factor = ratio_of(still.stabilising, still.overturning + about_toe);
+}
+
+SpectrumLevel static_part(const sliding::Equilibrium& e)
+{
+    SpectrumLevel s;
+    const double length = e.frame.length, normal = e.base.effective_normal;
+    const double x = e.base.resultant_distance / length;
+    s.static_shear = e.shear;
+    s.static_normal = normal;
+    s.static_heel = normal / length * (4.0 - 6.0 * x);
+    s.static_toe = normal / length * (6.0 * x - 2.0);
+    s.static_sliding = e.sliding_factor;
+    s.static_overturning = e.overturning_factor;
+    return s;
+}
+
+std::vector<std::string> notes_of(const SpectrumLevel& s)
+{
+    std::vector<std::string> notes;
+    for (const SpectrumDemand& row : s.rows)
+        if (row.heel_least < 0.0)
+            notes.push_back(fmt::format("{}: {:.3g} MPa of tension at the heel: the base opens there, and peaks of a "
+                                        "linear dam no longer hold.",
+                                        row.record, -row.heel_least / units::MPa));
+    if (!s.rows.empty() && s.rows.front().residual_mass > 0.1 * s.total_mass)
+        notes.push_back(fmt::format("The modes leave {:.0f} % of the mass; it moves rigidly with the ground.",
+                                    100.0 * s.rows.front().residual_mass / s.total_mass));
+    return notes;
+}
+
+} // namespace
+
+LevelSpectrum spectrum_of(const std::string& name, const GroundMotion& motion, double ratio)
+{
+    const auto acceleration = [accel = motion.accel_h, dt = motion.dt, ratio](double period) {
+        const std::vector<double> one{period};
+        return records::response_spectrum(accel, dt, one, ratio).points.front().pseudo_acceleration;
+    };
+    double pga = 0.0;
+    for (const double a : motion.accel_h) pga = std::max(pga, std::abs(a));
+    return {name, ratio, [acceleration, pga](double period) { return period > 0.0 ? acceleration(period) : pga; }};
+}
+
+std::vector<LevelSpectrum> record_spectra(const Ready& ready)
+{
+    const double ratio = ready.scene.damping.ratio > 0.0 ? ready.scene.damping.ratio : 0.05;
+    std::vector<LevelSpectrum> spectra;
+    for (const RecordPair& pair : ready.records())
+        spectra.push_back(spectrum_of(pair.files.name, ready.motion(pair), ratio));
+    return spectra;
+}
+
+SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum>& given)
+{
+    const std::vector<LevelSpectrum> spectra = given.empty() ? record_spectra(ready) : given;
+    const ModesResult modes = compute_modes(ready, {spectrum_modes, false});
+    const ModalForces forces = modal_forces(modes);
+    const UnitResponses unit = unit_responses(modes, forces);
+    const sliding::Equilibrium e = static_equilibrium(ready);
+    const ToeMoments still = toe_moments(e, toe(ready.scene.section));
+
+    SpectrumLevel s = static_part(e);
+    s.total_mass = forces.total_mass;
+    s.ratio = spectra.empty() ? ready.scene.damping.ratio : spectra.front().ratio;
+    s.water = is_acoustic(ready.scene)            ? "acoustic water"
+              : modes.model.added_mass.nonZeros() ? "added mass"
+                                                  : "no water that moves";
+    for (const LevelSpectrum& spectrum : spectra) {
+        const Combining combining(forces, spectrum);
+        SpectrumDemand row;
+        row.record = spectrum.name;
+        row.pga = spectrum.acceleration(0.0);
+        add_modes(unit, forces, combining, row);
+        add_base(unit, combining, s.total_mass, ready.scene.gravity, row);
+        add_factors(unit, combining, e, still, s, row);
+        s.rows.push_back(std::move(row));
+    }
+    s.notes = notes_of(s);
+    return s;
+}
+
+} // namespace damslip

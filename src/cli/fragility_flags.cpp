@@ -1,0 +1,57 @@
+#include "cli/flags.hpp"
+#include "cli/fragility_command.hpp"
+
+namespace damslip::cli {
+
+namespace {
+
+void fragility_flags(CLI::App& sub, FragilityArguments& a)
+{
+    add_scene(sub, a.inputs);
+    sub.add_option("--method", a.method,
+                   "rigid (horizontal), rigid-v (with the vertical component), fe, fe-exact, fe-penalty, "
+                   "fe-slip-tolerance, fe-whole-steps, "
+                   "fe-radiating, fe-massless; default: rigid-v where a record has a vertical component, else rigid");
+    sub.add_option("--samples", a.samples,
+                   "runs per level, rounded up to whole blocks; default: 1024, of finite elements 128")
+        ->check(CLI::Range(1, 10'000'000));
+    sub.add_option("--budget", a.budget,
+                   "processor seconds of finite elements in place of --samples; a pilot of a tenth fixes the number")
+        ->check(CLI::Range(1.0, 1e9));
+    sub.add_option("--cheap-samples", a.cheap_samples,
+                   "of finite elements: further runs of the rigid block per level; 0: none")
+        ->check(CLI::Range(0, 10'000'000))
+        ->capture_default_str();
+    sub.add_option("--share-rows", a.rows, "rows of each of two samples for what P comes from; 0: not asked for")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    sub.add_flag("--allow-scaling", a.allow_scaling, "records may be scaled beyond suite.max_scale; they are listed");
+    sub.add_option("-o,--out", a.out,
+                   "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
+                   "(OpenQuake) and a journal for --resume")
+        ->check(output_to(OutputPath::folder, "--out"));
+    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    const char* const group = "Long runs";
+    sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a journal in --out")
+        ->group(group);
+    sub.add_flag("--merge", a.merge, "put the parts in --out together")->group(group);
+    sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
+        ->check(output_to(OutputPath::file, "--slurm-array"))
+        ->group(group);
+    sub.add_option("--parts", a.parts, "of --slurm-array")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str()
+        ->group(group);
+}
+
+} // namespace
+
+Command fragility_command()
+{
+    return {"fragility", "how likely the dam slides too far: P by the strength of the earthquake, rates per year",
+            "damslip fragility examples/fragility.toml --out results/fragility",
+            with_flags<FragilityArguments>(fragility_flags, fragility)};
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,147 @@
+#include "cli/print_pdf.hpp"
+
+#include "core/file.hpp"
+#include "core/usage_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace damslip::cli {
+
+namespace {
+
+constexpr std::array browser_names{"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"};
+constexpr std::chrono::seconds longest_print{120};
+
+/// The first of the names that the PATH has; none: no browser.
+std::optional<std::filesystem::path> find_browser()
+{
+    const char* path = std::getenv("PATH");
+    std::string_view folders = path ? path : "";
+    while (!folders.empty()) {
+        const std::string_view folder = folders.substr(0, folders.find(':'));
+        for (const char* name : browser_names) {
+            const std::filesystem::path file = std::filesystem::path(folder) / name;
+            if (!folder.empty() && access(file.c_str(), X_OK) == 0) return file;
+        }
+        folders.remove_prefix(std::min(folders.size(), folder.size() + 1));
+    }
+    return std::nullopt;
+}
+
+/// A folder of its own for the page, the profile of the browser and what it prints; gone afterwards.
+class PrintFolder {
+public:
+    PrintFolder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "damslip-print-XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw InputError(Diagnostic{name, 0, 0, "no folder can be made there to print from.",
+                                        "a folder for temporary files that can be written", "set TMPDIR to one"});
+        path_ = name;
+    }
+    ~PrintFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    PrintFolder(const PrintFolder&) = delete;
+    PrintFolder& operator=(const PrintFolder&) = delete;
+    std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Runs it in a process group of its own, so that its helpers end with it. @returns false: not ended in time, or not well
+bool run_to_end(const std::filesystem::path& program, std::vector<std::string> arguments,
+                const std::filesystem::path& said)
+{
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, 1, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_adddup2(&files, 1, 2);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    pid_t child = 0;
+    const int failed = posix_spawn(&child, program.c_str(), &files, &attributes, words.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (failed) return false;
+    const auto end = std::chrono::steady_clock::now() + longest_print;
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > end) {
+            kill(-child, SIGKILL);
+            waitpid(child, &status, 0);
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// The last lines of what the browser said.
+std::string last_words(const std::filesystem::path& said)
+{
+    constexpr std::size_t most = 400;
+    std::error_code unreadable;
+    if (std::filesystem::file_size(said, unreadable) > (1u << 20) || unreadable) return "";
+    const std::string all = read_file(said);
+    return all.size() > most ? "... " + all.substr(all.size() - most) : all;
+}
+
+} // namespace
+
+void check_pdf(const std::filesystem::path& target)
+{
+    if (!find_browser())
+        refuse_usage("--pdf " + target.string() + ": there is no Chromium to print with.",
+                     fmt::format("one of {} on the PATH", fmt::join(browser_names, ", ")),
+                     "apt install chromium, or write the report (--out) and print it from a browser");
+    if (auto problem = output_path_problem(target, OutputPath::file, "--pdf")) throw UsageError(std::move(*problem));
+}
+
+void print_pdf(const std::string& html, const std::filesystem::path& target)
+{
+    const std::optional<std::filesystem::path> browser = find_browser();
+    const PrintFolder folder;
+    const std::filesystem::path page = folder / "report.html", printed = folder / "report.pdf", said = folder / "said";
+    write_file(page, html);
+    std::vector<std::string> arguments{browser ? browser->string() : browser_names.front(),
+                                       "--headless",
+                                       "--disable-gpu",
+                                       "--no-first-run",
+                                       "--no-pdf-header-footer",
+                                       "--user-data-dir=" + (folder / "profile").string(),
+                                       "--virtual-time-budget=20000", // the page draws its charts first
+                                       "--print-to-pdf=" + printed.string()};
+    if (geteuid() == 0) arguments.emplace_back("--no-sandbox"); // Chromium starts as root no other way
+    arguments.push_back("file://" + page.string());
+    const bool ended = browser && run_to_end(*browser, arguments, said);
+    std::error_code missing;
+    if (!ended || std::filesystem::file_size(printed, missing) == 0 || missing)
+        throw InputError(Diagnostic{target.string(), 0, 0, "Chromium did not print the report. " + last_words(said),
+                                    fmt::format("a page within {} s", longest_print.count()),
+                                    "write the report (--out) and print it from a browser"});
+    write_file(target, read_file(printed));
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,297 @@
+#include "pages/assess/assess_report.hpp"
+
+#include "core/units.hpp"
+#include "pages/ablation/tornado.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/effect_table.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/spectrum/spectrum_tables.hpp"
+#include "scene/plausible.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+
+constexpr std::array slip_levels{SlipLevel::regressions, SlipLevel::rigid_block, SlipLevel::flexible_block,
+                                 SlipLevel::finite_elements};
+
+double in_mm(const std::optional<double>& slip)
+{
+    return slip ? *slip / mm : std::nan("");
+}
+
+/// "no uplift": what the narrow margin of a chart has room for.
+std::string short_name(const AssumptionRun& run)
+{
+    constexpr std::string_view long_word = "without ";
+    return run.what.starts_with(long_word) ? "no " + run.what.substr(long_word.size()) : run.what;
+}
+
+/// All levels on one axis: a curve for each record, and the range that is recommended.
+Chart level_chart(const Assessment& a)
+{
+    Chart chart;
+    chart.title = "Slip by level";
+    chart.y = {"slip", "mm", Scale::asinh, 0.1};
+    chart.height = 380;
+    for (const SlipLevel level : slip_levels) chart.x.categories.push_back(word(level));
+    for (const AssumptionRun& run : a.assumptions) chart.x.categories.push_back(short_name(run));
+    std::vector<std::string> records;
+    for (const LevelSlip& l : a.levels)
+        if (std::find(records.begin(), records.end(), l.record) == records.end()) records.push_back(l.record);
+    for (const std::string& record : records) {
+        Curve curve{record, {}, {}, {}, {}, Mark::points, Weight::normal, -1};
+        for (std::size_t i = 0; i < slip_levels.size(); ++i)
+            for (const LevelSlip& l : a.levels)
+                if (l.record == record && l.level == slip_levels[i] && l.slip) {
+                    curve.x.push_back(static_cast<double>(i));
+                    curve.y.push_back(in_mm(l.slip));
+                    curve.low.push_back(in_mm(l.low ? l.low : l.slip));
+                    curve.high.push_back(in_mm(l.high ? l.high : l.slip));
+                }
+        chart.curves.push_back(std::move(curve));
+    }
+    if (a.recommended) {
+        const Recommendation& r = *a.recommended;
+        const double at =
+            static_cast<double>(std::find(slip_levels.begin(), slip_levels.end(), r.level) - slip_levels.begin());
+        chart.curves.push_back(
+            {"recommended range", {at}, {r.slip / mm}, {r.low / mm}, {r.high / mm}, Mark::points, Weight::strong, -1});
+    }
+    Curve changed{"finite elements, one assumption changed", {}, {}, {}, {}, Mark::points, Weight::normal, -1};
+    for (std::size_t i = 0; i < a.assumptions.size(); ++i)
+        if (a.assumptions[i].slip) {
+            changed.x.push_back(static_cast<double>(slip_levels.size() + i));
+            changed.y.push_back(in_mm(a.assumptions[i].slip));
+        }
+    if (!changed.x.empty()) chart.curves.push_back(std::move(changed));
+    if (const auto& allowable = a.ready.given.criteria.allowable_slip)
+        chart.horizontal.push_back({*allowable / mm, "allowable"});
+    chart.note =
+        "Bars: numerical error of finite elements, 16 to 84 % of regressions. To the right of the levels: finite "
+        "elements on the worst record with one assumption changed.";
+    return chart;
+}
+
+Drawing assumption_bars(const Assessment& a)
+{
+    const double full = a.recommended ? a.recommended->slip : 0.0;
+    std::vector<Bar> bars;
+    for (const AssumptionRun& run : a.assumptions) {
+        Bar bar{short_name(run), {}, 0.0, word(run.status), false};
+        if (run.slip) {
+            bar.value = (*run.slip - full) / mm;
+            bar.words = fmt::format("{:+.4g} mm", *bar.value);
+        }
+        bars.push_back(std::move(bar));
+    }
+    return tornado("Change of the slip with each assumption changed", std::move(bars), "change of the slip [mm]",
+                   fmt::format("Finite elements on the worst record; as they are {:.4g} mm. To the right: it slides "
+                               "further.",
+                               full / mm));
+}
+
+void add_paragraphs(const std::vector<std::string>& sentences, Section& section)
+{
+    for (const std::string& s : sentences) section.parts.push_back(Paragraph{s});
+}
+
+Section sentences_section(const std::string& title, const std::vector<std::string>& sentences)
+{
+    Section section{title, {}, Fold::open};
+    add_paragraphs(sentences, section);
+    return section;
+}
+
+Table off_table(const std::string& title, const std::vector<std::string>& effects)
+{
+    return table_of<std::string>(
+        title,
+        {{{"effect", "effect"}, [](const std::string& s) { return s.substr(0, s.find(": ")); }},
+         {{"why", "why"}, [](const std::string& s) { return s.substr(s.find(": ") + 2); }}},
+        effects);
+}
+
+/// One sentence for each reason: "Not run (the time was over): finite elements, record EC8; ..."
+std::vector<std::string> left_out_sentences(const Assessment& a)
+{
+    std::vector<std::string> reasons, list;
+    for (const LeftOut& l : a.left_out)
+        if (std::find(reasons.begin(), reasons.end(), l.why) == reasons.end()) reasons.push_back(l.why);
+    for (const std::string& reason : reasons) {
+        std::string parts, why = reason;
+        while (!why.empty() && why.back() == '.') why.pop_back();
+        for (const LeftOut& l : a.left_out)
+            if (l.why == reason) parts += (parts.empty() ? "" : "; ") + l.what;
+        list.push_back(fmt::format("Not run ({}): {}.", why, parts));
+    }
+    return list;
+}
+
+/// All that is said, by the questions it answers.
+std::vector<std::pair<std::string, std::vector<std::string>>> answers(const Assessment& a)
+{
+    return {{"Which level governs, and why", governing_sentences(a)},
+            {"Where the levels disagree", disagreement_sentences(a)},
+            {"What moves the answer most", mover_sentences(a)},
+            {"After the earthquake", after_sentences(a)}};
+}
+
+std::vector<std::string> assess_notes(const Assessment& a)
+{
+    std::vector<std::string> notes = note_texts(a.ready.given.notes);
+    for (const std::string& s : left_out_sentences(a)) notes.push_back(s);
+    return notes;
+}
+
+} // namespace
+
+Table level_table(const Assessment& a)
+{
+    using L = LevelSlip;
+    return table_of<L>(
+        "Slip by level, the worse polarity",
+        {{{"record", "record"}, &L::record},
+         {{"level", "level"}, [](const L& l) { return word(l.level); }},
+         {{"how", "how"}, &L::how},
+         {{"polarity", "polarity"}, [](const L& l) { return l.polarity ? Cell(std::int64_t{l.polarity}) : Cell(); }},
+         {{"status", "status"}, [](const L& l) { return word(l.status); }},
+         {{"slip_mm", "largest slip", "mm"}, [](const L& l) { return optional_cell(l.slip, mm); }},
+         {{"low_mm", "from", "mm"}, [](const L& l) { return optional_cell(l.low, mm); }},
+         {{"high_mm", "to", "mm"}, [](const L& l) { return optional_cell(l.high, mm); }}},
+        a.levels,
+        {"from, to: numerical error of finite elements; 16 and 84 % of the regressions, which are of both "
+         "polarities. The rigid block is exact for its record."});
+}
+
+Table assumption_table(const Assessment& a)
+{
+    using R = AssumptionRun;
+    const double full = a.recommended ? a.recommended->slip : std::nan("");
+    return table_of<R>("Finite elements with one assumption changed",
+                       {{{"assumption", "assumption"}, &R::what},
+                        {{"status", "status"}, [](const R& r) { return word(r.status); }},
+                        {{"slip_mm", "largest slip", "mm"}, [](const R& r) { return optional_cell(r.slip, mm); }},
+                        {{"change_mm", "change", "mm"},
+                         [&](const R& r) { return r.slip ? finite_cell(*r.slip - full, mm) : Cell(); }}},
+                       a.assumptions, {"on the worst record and its polarity, without a second mesh."});
+}
+
+Headline assess_headline(const Assessment& a)
+{
+    std::string sentence = "No slip can be recommended.";
+    if (a.recommended)
+        sentence = fmt::format("Use {:.4g} mm, range {:.4g} to {:.4g} mm ({}, record {}).", a.recommended->slip / mm,
+                               a.recommended->low / mm, a.recommended->high / mm, word(a.recommended->level),
+                               a.recommended->record);
+    std::vector<std::string> ran;
+    for (const ContactRun& r : a.runs)
+        if (std::find(ran.begin(), ran.end(), r.record) == ran.end()) ran.push_back(r.record);
+    if (a.fe && !ran.empty() && ran.size() < a.fe->records().size())
+        sentence += fmt::format(" Only {} of {} records fitted the budget.", ran.size(), a.fe->records().size());
+    sentence += " " + a.verdict_reason;
+    switch (a.verdict) {
+    case Verdict::pass:
+        return {sentence, Outcome::pass, "PASS"};
+    case Verdict::fail:
+        return {sentence, Outcome::fail, "FAIL"};
+    case Verdict::undecided:
+        return {sentence, Outcome::unresolved, "Undecided"};
+    default:
+        return {sentence, a.recommended ? Outcome::none : Outcome::unresolved,
+                a.recommended ? "No criterion." : "No answer."};
+    }
+}
+
+Page assess_page(const Assessment& a, const Scene& given)
+{
+    Page page = begin_page(given, "Every level of effort on one dam. ");
+    page.headline = assess_headline(a);
+    if (a.recommended) {
+        page.key_figures.emplace_back("Use", fmt::format("{:.4g} mm", a.recommended->slip / mm));
+        page.key_figures.emplace_back(
+            "Range", fmt::format("{:.4g} to {:.4g} mm", a.recommended->low / mm, a.recommended->high / mm));
+        page.key_figures.emplace_back("By", word(a.recommended->level));
+    }
+    if (const auto& allowable = given.criteria.allowable_slip)
+        page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
+    page.warnings = assess_notes(a);
+    for (std::string& w : record_warnings(a.ready.records())) page.warnings.push_back(std::move(w));
+    page.sections.push_back({"Slip by level", {level_chart(a), rows_part(level_table(a))}, Fold::open});
+    for (const auto& [title, sentences] : answers(a)) {
+        if (sentences.empty()) continue;
+        page.sections.push_back(sentences_section(title, sentences));
+        if (title == "What moves the answer most" && !a.assumptions.empty()) {
+            page.sections.back().parts.push_back(assumption_bars(a));
+            page.sections.back().parts.push_back(rows_part(assumption_table(a)));
+        }
+    }
+    page.sections.push_back(
+        {"Limit equilibrium",
+         {TablePart{sliding::equilibrium_table(a.screening.combinations), Layout::columns, 3, Fold::open}},
+         Fold::open});
+    if (a.spectrum) page.sections.push_back(spectrum_section(*a.spectrum));
+    page.sections.push_back(sentences_section("What was not considered", {}));
+    page.sections.back().parts.push_back(rows_part(off_table("The scene does not name", not_named(a))));
+    page.sections.back().parts.push_back(rows_part(off_table("A choice of scene or method leaves off", taken_off(a))));
+    page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
+    page.provenance = scene_provenance(given);
+    add_record_provenance(a.ready.records(), page.provenance);
+    return page;
+}
+
+nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
+{
+    auto j = json_header("assess", given);
+    if (a.recommended) {
+        const Recommendation& r = *a.recommended;
+        j["recommended"] = {{"slip_mm", r.slip / mm},       {"low_mm", r.low / mm}, {"high_mm", r.high / mm},
+                            {"level", word(r.level)},       {"record", r.record},   {"polarity", r.polarity},
+                            {"error_known", r.error_known}, {"range_of", r.from}};
+    } else {
+        j["recommended"] = nullptr;
+    }
+    j["verdict"] = word(a.verdict);
+    j["verdict_reason"] = a.verdict_reason;
+    j["levels"] = json_of(level_table(a));
+    j["assumptions"] = json_of(assumption_table(a));
+    for (const auto& [title, sentences] : answers(a)) j["answers"][title] = sentences;
+    j["limit_equilibrium"] = json_of(sliding::equilibrium_table(a.screening.combinations));
+    if (a.spectrum) j["response_spectrum"] = spectrum_json(*a.spectrum);
+    j["not_considered"] = {{"not_named", not_named(a)}, {"left_off", taken_off(a)}};
+    j["notes"] = assess_notes(a);
+    return j;
+}
+
+std::string assess_text(const Assessment& a, const Scene& given)
+{
+    const Headline head = assess_headline(a);
+    std::vector<Table> tables{level_table(a)};
+    if (a.spectrum) tables.push_back(spectrum_table(*a.spectrum));
+    if (!a.assumptions.empty()) tables.push_back(assumption_table(a));
+    std::string all = given.title + "\n\n" + texts(tables);
+    for (const auto& [title, sentences] : answers(a)) {
+        if (sentences.empty()) continue;
+        all += "\n" + title + "\n";
+        for (const std::string& s : sentences) all += "  " + s + "\n";
+    }
+    all += "\nNot considered, for the scene does not name it\n";
+    for (const std::string& s : not_named(a)) all += "  " + s + "\n";
+    all += "\nOff by a choice of scene or method\n";
+    for (const std::string& s : taken_off(a)) all += "  " + s + "\n";
+    all += "\n" + head.sentence + "\n" + head.verdict + "\n";
+    for (const std::string& note : assess_notes(a)) all += "note: " + note + "\n";
+    return all;
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,339 @@
+#include "pages/fragility/fragility_tables.hpp"
+
+#include "core/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace damslip::pages {
+
+namespace {
+
+using units::mm;
+
+struct SampleRow {
+    std::size_t id;
+    const FragilitySample& sample;
+    const FinishedRow* row;
+};
+
+Cell cell_of_value(const KeyValue& value)
+{
+    if (const auto* d = std::get_if<double>(&value)) return *d;
+    if (const auto* b = std::get_if<bool>(&value)) return *b;
+    return std::get<std::string>(value);
+}
+
+struct LevelRow {
+    const LimitEstimate& limit;
+    const LevelEstimate& level;
+};
+
+std::string count_words(const probability::LognormalFit& fit)
+{
+    switch (fit.method) {
+    case probability::FitMethod::likelihood:
+        return fit.lognormal() ? "likelihood" : "likelihood; not lognormal, deviance p < 0.01";
+    case probability::FitMethod::firth:
+        return "Firth: " + fit.why;
+    case probability::FitMethod::none:
+        break;
+    }
+    return "none: " + fit.why;
+}
+
+Column intensity_column(const FragilityView& view)
+{
+    std::string key = view.unit_text; // m/s2 -> m_s2
+    for (char& c : key)
+        if (c == '/') c = '_';
+    return {"intensity_" + key, view.plan.input.intensity.text, view.unit_text};
+}
+
+} // namespace
+
+Table sample_table(const FragilityView& view)
+{
+    std::vector<SampleRow> rows;
+    for (std::size_t id = 0; id < view.plan.samples.size(); ++id)
+        rows.push_back({id, view.plan.samples[id], view.runs.rows[id] ? &*view.runs.rows[id] : nullptr});
+    const auto result = [](auto member, double unit) {
+        return [=](const SampleRow& r) { return r.row ? optional_cell(r.row->results.*member, unit) : Cell(); };
+    };
+    std::vector<ColumnOf<SampleRow>> columns = {
+        {{"index", "run"}, [](const SampleRow& r) { return count_cell(r.id); }},
+        {{"replicate", "replicate"}, [](const SampleRow& r) { return count_cell(r.sample.replicate); }},
+        {{"epistemic_draw", "epistemic draw"}, [](const SampleRow& r) { return count_cell(r.sample.outer); }},
+        {{"aleatory_draw", "aleatory draw"}, [](const SampleRow& r) { return count_cell(r.sample.inner); }},
+        {intensity_column(view), [&](const SampleRow& r) { return r.sample.x / view.unit; }},
+        {{"record", "record"},
+         [&](const SampleRow& r) { return (*view.plan.suite.pairs)[r.sample.record].files.name; }},
+        {{"event", "event"}, [&](const SampleRow& r) { return view.plan.suite.event[r.sample.record]; }},
+        {{"polarity", "polarity"}, [](const SampleRow& r) { return std::int64_t{r.sample.polarity}; }},
+        {{"factor", "factor", "–"}, [](const SampleRow& r) { return r.sample.factor; }}};
+    for (std::size_t v = 0; v < view.plan.variables().size(); ++v)
+        columns.push_back({{view.plan.variables()[v].name, view.plan.variables()[v].name}, [&, v](const SampleRow& r) {
+                               return cell_of_value(view.plan.draws[r.sample.draw].values[v]);
+                           }});
+    columns.insert(
+        columns.end(),
+        {{{"method", "method"}, [&](const SampleRow&) { return view.method; }},
+         {{"slip_mm", "slip", "mm"}, result(&RowResults::slip, mm)},
+         {{"largest_slip_mm", "largest", "mm"}, result(&RowResults::max_slip, mm)},
+         {{"error_mm", "error", "mm"}, result(&RowResults::slip_error, mm)},
+         {{"critical_friction", "critical friction", "–"}, result(&RowResults::critical_friction, 1.0)},
+         {{"status", "status"}, [](const SampleRow& r) { return r.row ? Cell(r.row->results.status) : Cell(); }}});
+    return table_of("Runs", columns, rows);
+}
+
+Table fragility_table(const FragilityView& view)
+{
+    std::vector<LevelRow> rows;
+    for (const LimitEstimate& limit : view.estimate.limits)
+        for (const LevelEstimate& level : limit.levels) rows.push_back({limit, level});
+    using R = LevelRow;
+    const bool counted = view.plan.input.intensity.design != FragilityDesign::cloud;
+    const auto number = [counted](auto get) {
+        return [=](const R& r) { return counted ? Cell(get(r.level)) : Cell(); };
+    };
+    std::vector<ColumnOf<R>> columns = {
+        {{"limit", "limit"}, [](const R& r) { return r.limit.limit.text; }},
+        {intensity_column(view), [&](const R& r) { return r.level.x / view.unit; }},
+        {{"probability", "P", "–"},
+         [counted](const R& r) { return counted || r.level.fitted ? Cell(r.level.p) : Cell(); }},
+        {{"sampling_lower", "draws 2.5 %", "–", 3}, number([](const LevelEstimate& e) { return e.sampling.lower; })},
+        {{"sampling_upper", "97.5 %", "–", 3}, number([](const LevelEstimate& e) { return e.sampling.upper; })},
+        {{"records_lower", "records 2.5 %", "–", 3},
+         [counted](const R& r) {
+             return counted && r.level.records.clusters > 1 ? Cell(r.level.records.lower) : Cell();
+         }},
+        {{"records_upper", "97.5 %", "–", 3},
+         [counted](const R& r) {
+             return counted && r.level.records.clusters > 1 ? Cell(r.level.records.upper) : Cell();
+         }},
+        {{"runs", "runs"}, number([](const LevelEstimate& e) { return e.n; })},
+        {{"failures", "failures"}, number([](const LevelEstimate& e) { return e.z; })},
+        {{"missing", "missing"}, number([](const LevelEstimate& e) { return e.missing; })},
+        {{"probability_low", "missing survive", "–", 3}, number([](const LevelEstimate& e) { return e.p_low; })},
+        {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })},
+        {{"fitted", "curve", "–"}, [](const R& r) { return optional_cell(r.level.fitted); }}};
+    if (view.plan.epistemic)
+        for (std::size_t q = 0; q < probability::band_levels.size(); ++q)
+            columns.push_back(
+                {{fmt::format("band_{:02.0f}", 100.0 * probability::band_levels[q]),
+                  fmt::format("{:.0f} % of P", 100.0 * probability::band_levels[q]), "–", 3},
+                 [q](const R& r) { return r.level.bands ? Cell(r.level.bands->percentiles[q]) : Cell(); }});
+    Table t = table_of("Probabilities", columns, rows);
+    if (!counted) return t;
+    t.notes = {"draws: 95 % by the draws of variables and records, the suite taken as all there is; records: 95 % by "
+               "drawing its events anew. "
+               "The two are never added up."};
+    if (view.estimate.clusters < 10)
+        t.notes.push_back(
+            fmt::format("records: {} event{}, fewer than 10: that interval is too short, or there is none.",
+                        view.estimate.clusters, view.estimate.clusters == 1 ? "" : "s"));
+    for (const LimitEstimate& limit : view.estimate.limits)
+        for (const LevelEstimate& level : limit.levels)
+            if (level.bands && level.bands->add_inner) {
+                t.notes.push_back(
+                    "bands: inner draws add more than 20 % of their variance; more samples make them narrower.");
+                return t;
+            }
+    return t;
+}
+
+Table curve_table(const FragilityView& view)
+{
+    using L = LimitEstimate;
+    std::vector<ColumnOf<L>> columns = {
+        {{"limit", "limit"}, [](const L& l) { return l.limit.text; }},
+        {{"median", "median", view.unit_text},
+         [&](const L& l) {
+             return l.fit.method != probability::FitMethod::none ? Cell(l.fit.curve.median / view.unit) : Cell();
+         }},
+        {{"beta", "β", "–"},
+         [](const L& l) { return l.fit.method != probability::FitMethod::none ? Cell(l.fit.curve.beta) : Cell(); }},
+        {{"deviance_p", "deviance p", "–", 3},
+         [](const L& l) { return l.fit.method != probability::FitMethod::none ? Cell(l.fit.deviance_p) : Cell(); }},
+        {{"fit", "fit"}, [](const L& l) {
+             return l.cloud ? Cell(l.cloud->found ? "cloud" : "none: " + l.cloud->why) : Cell(count_words(l.fit));
+         }}};
+    if (view.plan.input.intensity.design == FragilityDesign::ida) {
+        const auto found = [](const L& l) { return l.capacities && l.capacities->found; };
+        columns.push_back({{"capacity_median", "median of capacities", view.unit_text}, [&, found](const L& l) {
+                               return found(l) ? Cell(l.capacities->curve.median / view.unit) : Cell();
+                           }});
+        columns.push_back({{"capacity_beta", "β", "–"},
+                           [found](const L& l) { return found(l) ? Cell(l.capacities->curve.beta) : Cell(); }});
+        columns.push_back({{"censored", "never reached"},
+                           [](const L& l) { return l.capacities ? count_cell(l.capacities->censored) : Cell(); }});
+        columns.push_back({{"came_back", "survive again above"}, [](const L& l) { return count_cell(l.came_back); }});
+    }
+    return table_of("Curves", columns, view.estimate.limits);
+}
+
+Table rate_table(const FragilityView& view)
+{
+    std::vector<LimitEstimate> rated;
+    for (const LimitEstimate& limit : view.estimate.limits)
+        if (limit.rate) rated.push_back(limit);
+    using L = LimitEstimate;
+    std::vector<ColumnOf<L>> columns = {
+        {{"limit", "limit"}, [](const L& l) { return l.limit.text; }},
+        {{"rate_lower", "rate, stripes", "1/year"}, [](const L& l) { return l.rate->raw_low.lower; }},
+        {{"rate_upper", "to", "1/year"}, [](const L& l) { return l.rate->raw_high.upper; }},
+        {{"sampling_lower", "draws 2.5 %", "1/year", 3}, [](const L& l) { return l.rate->sampling.lower; }},
+        {{"sampling_upper", "97.5 %", "1/year", 3}, [](const L& l) { return l.rate->sampling.upper; }},
+        {{"records_lower", "records 2.5 %", "1/year", 3},
+         [](const L& l) { return l.rate->records.clusters > 1 ? Cell(l.rate->records.lower) : Cell(); }},
+        {{"records_upper", "97.5 %", "1/year", 3},
+         [](const L& l) { return l.rate->records.clusters > 1 ? Cell(l.rate->records.upper) : Cell(); }},
+        {{"fitted_lower", "rate, curve", "1/year"},
+         [](const L& l) { return l.rate->fitted ? Cell(l.rate->fitted->lower) : Cell(); }},
+        {{"fitted_upper", "to", "1/year"},
+         [](const L& l) { return l.rate->fitted ? Cell(l.rate->fitted->upper) : Cell(); }},
+        {{"outside_share", "outside the levels", "–", 2}, [](const L& l) { return l.rate->raw.outside_share; }},
+        {{"in_50_years", "P in 50 years", "–", 3},
+         [](const L& l) { return probability::probability_in(l.rate->raw.lower, 50.0); }}};
+    if (view.plan.epistemic)
+        for (std::size_t q = 0; q < probability::band_levels.size(); ++q)
+            columns.push_back({{fmt::format("band_{:02.0f}", 100.0 * probability::band_levels[q]),
+                                fmt::format("{:.0f} %", 100.0 * probability::band_levels[q]), "1/year", 3},
+                               [q](const L& l) { return q < l.rate->bands.size() ? Cell(l.rate->bands[q]) : Cell(); }});
+    Table t = table_of("Rates per year", columns, rated);
+    for (const L& l : rated) {
+        if (!l.rate->raw.mostly_tested)
+            t.notes.push_back(
+                fmt::format("{}: {:.0f} % of the upper bound stem from intensities outside the tested levels.",
+                            l.limit.text, 100.0 * l.rate->raw.outside_share));
+        if (!l.rate->raw.below_upper)
+            t.notes.push_back(fmt::format("{}: below the lowest intensity the rate has no bound, P = {:.3g} there; the "
+                                          "rate of all earthquakes gives one.",
+                                          l.limit.text, l.rate->raw.p_first));
+    }
+    if (!rated.empty())
+        t.notes.push_back(view.plan.input.probability.static_failure == StaticFailure::infinite
+                              ? "A dam that does not stand without an earthquake counts at every intensity."
+                              : fmt::format("Of a dam that stands without an earthquake; {:.3g} of the draws do not.",
+                                            view.estimate.p_static));
+    return t;
+}
+
+Table rate_part_table(const FragilityView& view)
+{
+    struct Part {
+        std::string limit;
+        probability::RatePart part;
+        double whole;
+    };
+    std::vector<Part> parts;
+    for (const LimitEstimate& limit : view.estimate.limits)
+        if (limit.rate)
+            for (const probability::RatePart& part : limit.rate->raw.parts)
+                parts.push_back({limit.limit.text, part, limit.rate->raw.inside});
+    return table_of<Part>(
+        "Rate by intensity",
+        {{{"limit", "limit"}, &Part::limit},
+         {{"from", "from", view.unit_text}, [&](const Part& p) { return p.part.x_lower / view.unit; }},
+         {{"to", "to", view.unit_text}, [&](const Part& p) { return p.part.x_upper / view.unit; }},
+         {{"rate", "rate", "1/year"}, [](const Part& p) { return p.part.rate; }},
+         {{"share", "share", "–", 3},
+          [](const Part& p) { return p.whole > 0.0 ? Cell(p.part.rate / p.whole) : Cell(); }}},
+        parts);
+}
+
+Table two_level_table(const FragilityView& view)
+{
+    struct Row {
+        std::string limit;
+        const TwoLevelAtLevel& at;
+    };
+    std::vector<Row> rows;
+    if (view.two_level)
+        for (const TwoLevelLimit& limit : view.two_level->limits)
+            for (const TwoLevelAtLevel& at : limit.levels) rows.push_back({limit.limit.text, at});
+    const auto used = [](auto get) { return [=](const Row& r) { return r.at.used ? Cell(get(r.at)) : Cell(); }; };
+    using A = TwoLevelAtLevel;
+    Table t = table_of<Row>(
+        "Finite elements and rigid block together",
+        {{{"limit", "limit"}, &Row::limit},
+         {intensity_column(view), [&](const Row& r) { return r.at.x / view.unit; }},
+         {{"probability", "P", "–"}, used([](const A& a) { return 0.5 * (a.low.printed + a.high.printed); })},
+         {{"lower", "2.5 %", "–", 3}, used([](const A& a) { return a.low.interval.lower; })},
+         {{"upper", "97.5 %", "–", 3}, used([](const A& a) { return a.high.interval.upper; })},
+         {{"variation", "c.o.v.", "–", 3}, used([](const A& a) { return a.low.se / std::max(a.low.p, 1e-12); })},
+         {{"rho", "ρ", "–", 3}, used([](const A& a) { return a.low.rho; })},
+         {{"dear", "FE runs"}, [](const Row& r) { return count_cell(r.at.dear); }},
+         {{"cheap", "rigid runs"}, [](const Row& r) { return count_cell(r.at.cheap); }},
+         {{"speed_up", "speed-up", "–", 3}, used([](const A& a) { return a.speed_up; })},
+         {{"remark", "remark"}, [](const Row& r) { return r.at.used ? Cell() : Cell(r.at.why_not); }}},
+        rows);
+    if (view.two_level) {
+        t.notes = {"speed-up: variance of plain Monte Carlo with finite elements for the same processor seconds over "
+                   "that of both models."};
+        if (view.two_level->disagree)
+            t.notes.push_back(fmt::format("{} draws stand by one of the two models alone.", view.two_level->disagree));
+    }
+    return t;
+}
+
+Table cause_table(const FragilityView& view)
+{
+    struct Row {
+        std::string variable;
+        const probability::TornadoBar* bar;
+        const probability::SobolIndex* index;
+    };
+    std::vector<Row> rows;
+    if (view.causes)
+        for (const probability::TornadoBar& bar : view.causes->bars) {
+            Row row{bar.variable, &bar, nullptr};
+            for (std::size_t v = 0; view.causes->shares && v < view.plan.variables().size(); ++v)
+                if (view.plan.variables()[v].name == bar.variable) row.index = &view.causes->shares->variables[v];
+            rows.push_back(row);
+        }
+    const auto index = [](auto get) { return [=](const Row& r) { return r.index ? Cell(get(*r.index)) : Cell(); }; };
+    using I = probability::SobolIndex;
+    Table t = table_of<Row>(
+        "What P comes from",
+        {{{"variable", "variable"}, &Row::variable},
+         {{"at", "at"}, [](const Row& r) { return fmt::format("{}", fmt::join(r.bar->at, ", ")); }},
+         {{"probability", "P there"}, [](const Row& r) { return fmt::format("{:.3g}", fmt::join(r.bar->y, ", ")); }},
+         {{"swing", "swing", "–", 3}, [](const Row& r) { return r.bar->swing(); }},
+         {{"first", "share alone", "–", 3}, index([](const I& i) { return i.first.value; })},
+         {{"first_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.first.lower; })},
+         {{"first_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.first.upper; })},
+         {{"total", "share in all", "–", 3}, index([](const I& i) { return i.total.value; })},
+         {{"total_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.total.lower; })},
+         {{"total_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.total.upper; })}},
+        rows);
+    if (view.causes) {
+        t.notes = {fmt::format("P({}) at {:.4g} {} by the rigid block under the whole suite; others at their medians. "
+                               "share: of the variance of P "
+                               "(Sobol'), alone and with all others.",
+                               view.causes->limit.text,
+                               view.plan.input.intensity.levels[view.causes->level] / view.unit, view.unit_text)};
+        if (!view.causes->shares) t.notes.push_back("No shares: the variables are correlated, or P does not vary.");
+    }
+    return t;
+}
+
+Table needed_yield_table(const FragilityView& view)
+{
+    struct Row {
+        std::string limit;
+        NeededYield yield;
+    };
+    std::vector<Row> rows;
+    for (const auto& [limit, yields] : view.needed_yields)
+        for (const NeededYield& yield : yields) rows.push_back({limit.text, yield});
+    return table_of<Row>("Yield acceleration that the limit needs, one-way rigid block",
+                         {{{"limit", "limit"}, &Row::limit},
+                          {intensity_column(view), [&](const Row& r) { return r.yield.x / view.unit; }},
+                          {{"k_16", "16 %", "g"}, [](const Row& r) { return r.yield.k16; }},
+                          {{"k_50", "median", "g"}, [](const Row& r) { return r.yield.k50; }},
+                          {{"k_84", "84 %", "g"}, [](const Row& r) { return r.yield.k84; }}},
+                         rows);
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/table.hpp"
+#include "pages/fragility/fragility_view.hpp"
+
+namespace damslip::pages {
+
+/// One row a run: draw, record, level, answer. The same whatever the number of threads, parts and stops.
+Table sample_table(const FragilityView& view);
+/// One row for each limit and level: counts, P, intervals, bands.
+Table fragility_table(const FragilityView& view);
+/// One row for each limit: the lognormal curve, or why there is none.
+Table curve_table(const FragilityView& view);
+/// One row for each limit: rates per year and their intervals. Without hazard no rows.
+Table rate_table(const FragilityView& view);
+/// One row for each limit and part of the intensities: its share of the rate.
+Table rate_part_table(const FragilityView& view);
+/// One row for each limit and level of the estimate by two models.
+Table two_level_table(const FragilityView& view);
+/// One row a variable: shares of the variance of P, and P at its ends.
+Table cause_table(const FragilityView& view);
+/// One row for each limit and level: the yield that a slip needs.
+Table needed_yield_table(const FragilityView& view);
+
+} // namespace damslip::pages

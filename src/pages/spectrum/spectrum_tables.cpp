@@ -1,0 +1,118 @@
+#include "pages/spectrum/spectrum_tables.hpp"
+
+#include "core/units.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace damslip::pages {
+
+namespace {
+
+constexpr double kilo = 1e3;
+
+/// Of many records: three are shown mode by mode.
+constexpr std::size_t detailed_spectra = 3;
+
+} // namespace
+
+Table spectrum_table(const SpectrumLevel& level)
+{
+    using R = SpectrumDemand;
+    using units::MPa;
+    std::vector<std::string> notes{
+        fmt::format("modes of dam and massless rock on a bonded base with {}, {:.3g} % damping; CQC of Der Kiureghian "
+                    "(1981), the mass that the modes leave moves with the ground; horizontal component alone.",
+                    level.water, 100.0 * level.ratio),
+        fmt::format("without earthquake: T {:.4g} kN/m, N' {:.4g} kN/m, sliding factor {:.3g}, overturning factor "
+                    "{:.3g}, heel {:.3g} MPa, toe {:.3g} MPa (compression positive, no crack).",
+                    level.static_shear / kilo, level.static_normal / kilo, level.static_sliding,
+                    level.static_overturning, level.static_heel / MPa, level.static_toe / MPa),
+        "factors: static loads and the peak of the earthquake downstream together; a factor below 1 at one instant is "
+        "not yet a failure: how far the dam slides is the question of the other levels."};
+    notes.insert(notes.end(), level.notes.begin(), level.notes.end());
+    return table_of<R>(
+        "Response spectrum",
+        {{{"record", "record"}, &R::record},
+         {{"pga_m_s2", "PGA", "m/s²"}, &R::pga},
+         {{"base_shear_kN_m", "base shear", "kN/m", 5}, [](const R& r) { return r.shear / kilo; }},
+         {{"base_shear_srss_kN_m", "by SRSS", "kN/m", 5}, [](const R& r) { return r.shear_srss / kilo; }},
+         {{"seismic_coefficient", "coefficient", "–"}, &R::coefficient},
+         {{"base_moment_kN", "moment", "kN m/m", 5}, [](const R& r) { return r.moment / kilo; }},
+         {{"crest_mm", "crest", "mm"}, [](const R& r) { return r.crest / units::mm; }},
+         {{"heel_least_MPa", "heel, least", "MPa", 3}, [](const R& r) { return r.heel_least / MPa; }},
+         {{"toe_most_MPa", "toe, most", "MPa", 3}, [](const R& r) { return r.toe_most / MPa; }},
+         {{"sliding_factor", "sliding factor", "–", 3}, &R::sliding_factor},
+         {{"overturning_factor", "overturning factor", "–", 3}, &R::overturning_factor}},
+        level.rows, notes);
+}
+
+Table spectrum_mode_table(const SpectrumLevel& level, const SpectrumDemand& row)
+{
+    using M = ModeShare;
+    return table_of<M>(
+        row.record + ": modes",
+        {{{"frequency_Hz", "frequency", "Hz", 5}, &M::frequency},
+         {{"period_s", "period", "s", 4}, [](const M& m) { return 1.0 / m.frequency; }},
+         {{"effective_mass_kg_m", "effective mass", "kg/m", 5}, &M::effective_mass},
+         {{"share_percent", "share", "%", 3}, [&](const M& m) { return 100.0 * m.effective_mass / level.total_mass; }},
+         {{"spectral_acceleration_m_s2", "S_a", "m/s²", 4}, &M::acceleration},
+         {{"base_shear_kN_m", "base shear", "kN/m", 5}, [](const M& m) { return m.base_shear / kilo; }}},
+        row.modes,
+        {fmt::format("total mass {:.5g} kg/m; left by the modes: {:.3g} %, under the PGA.", level.total_mass,
+                     100.0 * row.residual_mass / level.total_mass)});
+}
+
+Table spectrum_height_table(const SpectrumDemand& row)
+{
+    using L = LevelForce;
+    return table_of<L>(
+        row.record + ": forces over the height",
+        {{{"level_m", "level", "m"}, &L::level},
+         {{"lateral_force_kN_m", "lateral force up to the next", "kN/m"}, [](const L& l) { return l.lateral / kilo; }},
+         {{"shear_kN_m", "shear", "kN/m"}, [](const L& l) { return l.shear / kilo; }},
+         {{"moment_kN", "moment", "kN m/m"}, [](const L& l) { return l.moment / kilo; }},
+         {{"stress_MPa", "vertical stress at a face", "MPa", 3}, [](const L& l) { return l.stress / units::MPa; }}},
+        row.levels, {"peaks of the earthquake alone, either way; sections as beams (plane, linear)."});
+}
+
+nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
+{
+    nlohmann::ordered_json j{{"damping_ratio", level.ratio},
+                             {"water", level.water},
+                             {"total_mass_kg_m", level.total_mass},
+                             {"static_sliding_factor", level.static_sliding},
+                             {"static_overturning_factor", level.static_overturning}};
+    j["rows"] = json_of(spectrum_table(level));
+    for (std::size_t i = 0; i < level.rows.size(); ++i) {
+        j["rows"][i]["modes"] = json_of(spectrum_mode_table(level, level.rows[i]));
+        j["rows"][i]["heights"] = json_of(spectrum_height_table(level.rows[i]));
+    }
+    j["notes"] = level.notes;
+    return j;
+}
+
+std::string spectrum_text(const SpectrumLevel& level)
+{
+    std::vector<Table> tables{spectrum_table(level)};
+    for (std::size_t i = 0; i < level.rows.size() && i < detailed_spectra; ++i) {
+        tables.push_back(spectrum_mode_table(level, level.rows[i]));
+        tables.push_back(spectrum_height_table(level.rows[i]));
+    }
+    return texts(tables);
+}
+
+Section spectrum_section(const SpectrumLevel& level)
+{
+    Section section{"Response spectrum", {}, Fold::open};
+    section.parts.push_back(rows_part(spectrum_table(level)));
+    for (const SpectrumDemand& row : level.rows) {
+        section.parts.push_back(TablePart{spectrum_mode_table(level, row), Layout::rows, 1, Fold::folded});
+        section.parts.push_back(TablePart{spectrum_height_table(row), Layout::rows, 1, Fold::folded});
+    }
+    return section;
+}
+
+} // namespace damslip::pages

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/spectrum/spectrum_level.hpp"
+#include "pages/report/page.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+/// The response spectrum's answer as tables.
+namespace damslip::pages {
+
+/// Base shear, stresses and factors of every spectrum.
+Table spectrum_table(const SpectrumLevel& level);
+/// Modes, their masses and shares of one spectrum's base shear.
+Table spectrum_mode_table(const SpectrumLevel& level, const SpectrumDemand& row);
+/// Equivalent lateral forces and sections over the height.
+Table spectrum_height_table(const SpectrumDemand& row);
+
+nlohmann::ordered_json spectrum_json(const SpectrumLevel& level);
+std::string spectrum_text(const SpectrumLevel& level);
+Section spectrum_section(const SpectrumLevel& level);
+
+} // namespace damslip::pages

@@ -1,0 +1,73 @@
+// What accuracy costs on one scene.
+#include "opened_scene.hpp"
+#include "result.hpp"
+#include "watched.hpp"
+
+#include "analysis/accuracy/accuracy.hpp"
+#include "core/usage_error.hpp"
+#include "pages/accuracy/accuracy_report.hpp"
+#include "pages/accuracy/accuracy_tables.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace damslip::python {
+
+namespace {
+
+struct AccuracyResult final : Result {
+    Scene scene;
+    Records records;
+    double tolerance = 0.0;
+    Accuracy found;
+
+    pages::AccuracyReportInput input() const
+    {
+        return {scene, *records, found.rungs, found.judgement, tolerance, "", {}};
+    }
+    std::vector<std::pair<std::string, Table>> tables() const override
+    {
+        return {{"rungs", pages::rung_table(found.rungs, found.judgement)},
+                {"models", pages::model_table(found.rungs, found.judgement)},
+                {"slips", pages::slip_table(found.rungs, *records)}};
+    }
+    std::string json() const override { return pages::accuracy_json(input()).dump(2); }
+    pages::Page page() const override { return pages::accuracy_page(input()); }
+    pages::Headline headline() const override
+    {
+        return {pages::choice_sentence(found.rungs, found.judgement, tolerance), pages::Outcome::none, ""};
+    }
+};
+
+std::shared_ptr<AccuracyResult> accuracy(const OpenedScene& opened, double tolerance, bool quick,
+                                         const py::object& progress)
+{
+    if (!(tolerance > 0.0 && std::isfinite(tolerance)))
+        refuse_usage("this tolerance is not allowed.", "a share of the slip > 0", "for 2 % write  tolerance=0.02");
+    if (opened.scene.wedge)
+        refuse_usage("accuracy cannot take a [wedge]: its slip is exact for its record.", "a scene with a [section]",
+                     "scene.screen() gives it");
+    auto result = std::make_shared<AccuracyResult>();
+    result->scene = opened.scene;
+    result->tolerance = tolerance;
+    result->interrupted = run_watched(progress, [&](Watch& watch) {
+        result->records = load_records(result->scene, Method::finite_elements);
+        result->found = measure_accuracy(result->scene, tolerance, quick ? Effort::quick : Effort::full, watch);
+    });
+    return result;
+}
+
+} // namespace
+
+void add_accuracy(py::module_& module)
+{
+    py::class_<AccuracyResult, Result, std::shared_ptr<AccuracyResult>>(module, "AccuracyResult")
+        .def_property_readonly("choice", [](const AccuracyResult& r) -> std::optional<std::string> {
+            if (!r.found.judgement.choice) return std::nullopt;
+            return rung_id(r.found.rungs[*r.found.judgement.choice].rung);
+        });
+    module.def("_accuracy", &accuracy, py::arg("scene"), py::arg("tolerance"), py::arg("quick"), py::arg("progress"));
+}
+
+} // namespace damslip::python

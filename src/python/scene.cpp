@@ -1,0 +1,132 @@
+// A scene, and its screening.
+#include "opened_scene.hpp"
+#include "result.hpp"
+
+#include "analysis/screen/screening.hpp"
+#include "pages/scene/report_provenance.hpp"
+#include "pages/screen/screen_report.hpp"
+#include "pages/screen/screen_tables.hpp"
+#include "scene/plausible.hpp"
+#include "scene/write.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace damslip::python {
+
+namespace {
+
+/// A screening with what it was made from.
+struct ScreenResult final : Result {
+    Ready ready;
+    Screening screening;
+
+    ScreenResult(Ready made, int jobs, RockingRuns rocking)
+        : ready(std::move(made)), screening(run_screening(ready, jobs, rocking))
+    {
+        for (std::string& note : pages::screen_notes(ready)) screening.warnings.push_back(std::move(note));
+    }
+
+    const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
+    pages::ScreenReportInput input() const { return {ready.given, ready.scene, screening, ready.records()}; }
+
+    std::vector<std::pair<std::string, Table>> tables() const override
+    {
+        using namespace pages;
+        const Screening& s = screening;
+        std::vector<std::pair<std::string, Table>> list{{"displacements", slip_table(s, allowable())}};
+        if (has_rocking(s)) list.emplace_back("rocking_block", rocking_table(s, allowable()));
+        if (s.flexible) list.emplace_back("flexible_block", flexible_table(s, allowable()));
+        list.emplace_back("regressions", regression_table(s.regressions));
+        list.emplace_back("statistics", statistics_table(s));
+        if (!ready.scene.wedge) {
+            list.emplace_back("limit_equilibrium", sliding::equilibrium_table(s.combinations));
+            list.emplace_back("verdicts", sliding::verdict_table(s.combinations));
+            list.emplace_back("yield", yield_table(s));
+            list.emplace_back("uplift_profiles", sliding::uplift_comparison_table(s.uplifts));
+        }
+        return list;
+    }
+    std::string json() const override { return pages::screen_json(input()).dump(2); }
+    pages::Page page() const override { return pages::screen_page(input()); }
+    pages::Headline headline() const override { return pages::screen_headline(ready.scene, screening); }
+};
+
+/// One record with one polarity, alive as long as the Python object is.
+struct Slip {
+    std::shared_ptr<const ScreenResult> of;
+    const SlipRow* row;
+};
+
+OpenedScene with(const OpenedScene& scene, const std::vector<std::pair<std::string, KeyValue>>& keys)
+{
+    std::vector<KeyChange> changes = scene.changes;
+    for (const auto& [key, value] : keys) {
+        const std::string name = scene.text->canonical(key);
+        std::erase_if(changes, [&](const KeyChange& c) { return scene.text->canonical(c.key) == name; });
+        changes.push_back({key, value});
+    }
+    return {scene.text, std::move(changes)};
+}
+
+std::shared_ptr<ScreenResult> screen(const OpenedScene& opened, int jobs, bool rocking)
+{
+    PrepareOptions options;
+    options.flexible_modes = true;
+    return std::make_shared<ScreenResult>(prepare(opened.scene, Method::rigid_block, options), jobs,
+                                          rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
+}
+
+std::optional<double> slip_of(const Slip& slip)
+{
+    return reported(slip.row->judged().status, slip.row->judged().slip);
+}
+
+} // namespace
+
+void add_scene(py::module_& module)
+{
+    py::class_<OpenedScene>(module, "Scene")
+        .def(py::init([](const std::string& text, const std::string& file) {
+                 return OpenedScene(std::make_shared<SceneText>(text, file), {});
+             }),
+             py::arg("text"), py::arg("file"))
+        .def_static("read", [](const std::string& file) { return OpenedScene(std::filesystem::path(file)); })
+        .def("_with", &with)
+        .def("keys", [](const OpenedScene& s) { return s.text->keys(); })
+        .def("words", [](const OpenedScene& s, const std::string& key) { return s.text->words(key); })
+        .def_property_readonly("title", [](const OpenedScene& s) { return s.scene.title; })
+        .def_property_readonly("file", [](const OpenedScene& s) { return s.scene.file.string(); })
+        .def_property_readonly("notes", [](const OpenedScene& s) { return note_texts(s.scene.notes); })
+        .def_property_readonly("allowable_slip", [](const OpenedScene& s) { return s.scene.criteria.allowable_slip; })
+        .def("resolved", [](const OpenedScene& s) { return resolved_toml(s.scene); })
+        .def("_screen", &screen, py::arg("jobs"), py::arg("rocking"), py::call_guard<py::gil_scoped_release>());
+
+    py::class_<Slip>(module, "Slip")
+        .def_property_readonly("record", [](const Slip& s) { return s.row->record; })
+        .def_property_readonly("polarity", [](const Slip& s) { return s.row->polarity; })
+        .def_property_readonly("pga", [](const Slip& s) { return s.row->pga; })
+        .def_property_readonly("vertical_pga", [](const Slip& s) { return s.row->vertical_pga; })
+        .def_property_readonly("slip", &slip_of)
+        .def_property_readonly("max_slip",
+                               [](const Slip& s) { return reported(s.row->judged().status, s.row->judged().max_slip); })
+        .def_property_readonly("method", [](const Slip& s) { return std::string(s.row->governing().method); })
+        .def_property_readonly("status", [](const Slip& s) { return word(s.row->judged().status); })
+        .def_property_readonly("verdict", [](const Slip& s) { return word(judge(*s.row, s.of->allowable())); });
+
+    py::class_<ScreenResult, Result, std::shared_ptr<ScreenResult>>(module, "ScreenResult")
+        .def_property_readonly(
+            "yield_acceleration",
+            [](const ScreenResult& r) { return r.screening.bases.front().model.downstream.law.constant; })
+        .def_property_readonly("critical_friction",
+                               [](const ScreenResult& r) { return r.screening.bases.front().model.critical_friction; })
+        .def_property_readonly("slips",
+                               [](const std::shared_ptr<ScreenResult>& r) {
+                                   std::vector<Slip> slips;
+                                   for (const SlipRow& row : r->screening.slips) slips.push_back({r, &row});
+                                   return slips;
+                               })
+        .def_property_readonly("warnings", [](const ScreenResult& r) { return r.screening.warnings; });
+}
+
+} // namespace damslip::python

@@ -1,0 +1,458 @@
+#include "scene/fragility_input.hpp"
+
+#include "core/file.hpp"
+#include "core/input_error.hpp"
+#include "core/units.hpp"
+#include "scene/read_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+namespace damslip {
+
+namespace {
+
+/// A key of a law, and what its number has to be.
+struct LawKey {
+    const char* name;
+    bool required, positive;
+};
+struct LawKeys {
+    const char* name;
+    std::vector<LawKey> keys;
+    const char* example;
+};
+
+/// Laws; lognormal is written by its median or by its mean.
+const std::vector<LawKeys>& laws_known()
+{
+    static const std::vector<LawKeys> laws = {
+        {"lognormal",
+         {{"median", false, true},
+          {"beta", false, true},
+          {"mean", false, true},
+          {"cov", false, true},
+          {"min", false, false},
+          {"max", false, false}},
+         "{ median = 0.77, beta = 0.15 }"},
+        {"normal",
+         {{"mean", true, false}, {"sd", true, true}, {"min", false, false}, {"max", false, false}},
+         "{ mean = 2400, sd = 30 }"},
+        {"uniform", {{"min", true, false}, {"max", true, false}}, "{ min = 0.6, max = 1.0 }"},
+        {"triangular",
+         {{"min", true, false}, {"mode", true, false}, {"max", true, false}},
+         "{ min = 0.6, mode = 0.77, max = 1.0 }"},
+        {"beta",
+         {{"a", true, true}, {"b", true, true}, {"min", true, false}, {"max", true, false}},
+         "{ a = 2, b = 3, min = 0.6, max = 1.0 }"}};
+    return laws;
+}
+
+/// The tables of a fragility, read with all that is wrong in them.
+class FragilityReader {
+public:
+    explicit FragilityReader(const std::filesystem::path& file)
+        : file_(file), text_(SceneText::read(file)), root_(toml_of(read_file(file, 4u << 20), file))
+    {
+    }
+
+    FragilityInput read()
+    {
+        FragilityInput input;
+        read_probability(input.probability);
+        read_suite(input.suite);
+        read_intensity(input.intensity);
+        read_limits(input.limits);
+        read_hazard(input.hazard);
+        if (!wrong_.empty()) throw InputError(wrong_);
+        return input;
+    }
+
+private:
+    void wrong(const toml::node& where, std::string problem, std::string expected, std::string fix)
+    {
+        wrong_.push_back({file_.string(), static_cast<int>(where.source().begin.line),
+                          static_cast<int>(where.source().begin.column), std::move(problem), std::move(expected),
+                          std::move(fix)});
+    }
+    void missing(const std::string& what, const std::string& expected, const std::string& fix)
+    {
+        wrong_.push_back({file_.string(), 0, 0, what + " is missing.", expected, fix});
+    }
+
+    const toml::table* table_named(const char* name)
+    {
+        const toml::node* node = root_.get(name);
+        if (node && !node->is_table())
+            wrong(*node, fmt::format("{} is no table.", name), fmt::format("[{}]", name),
+                  fmt::format("write  [{}]", name));
+        return node ? node->as_table() : nullptr;
+    }
+    void check_names(const toml::table& table, const std::string& label, const std::vector<std::string>& known)
+    {
+        for (auto&& [key, node] : table) {
+            const std::string name(key.str());
+            if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+            const std::string_view near = nearest(name, known);
+            wrong(node,
+                  fmt::format("unknown key {}.{}.{}", label, name,
+                              near.empty() ? "" : fmt::format(" Did you mean {}?", near)),
+                  fmt::format("keys of {}: {}", label, fmt::join(known, ", ")),
+                  near.empty() ? "leave it out" : fmt::format("write  {}", near));
+        }
+    }
+    /// @param least  of a number; with `open` it has to be above
+    void number(const toml::table& table, const std::string& label, const char* name, double& out, double least,
+                bool open = true)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        const std::optional<double> v = node->is_number() ? node->value<double>() : std::nullopt;
+        if (v && std::isfinite(*v) && (open ? *v > least : *v >= least))
+            out = *v;
+        else
+            wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
+                  fmt::format("a number {} {}", open ? ">" : ">=", least), fmt::format("write another {}", name));
+    }
+    void whole(const toml::table& table, const std::string& label, const char* name, std::int64_t& out,
+               std::int64_t least, std::int64_t most)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        const auto v = node->value_exact<std::int64_t>();
+        if (v && *v >= least && *v <= most)
+            out = *v;
+        else
+            wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
+                  fmt::format("a whole number, {} to {}", least, most), fmt::format("write another {}", name));
+    }
+    /// The place of a word in a list; `out` stays where the key is not there.
+    template <class Value>
+    void choice(const toml::table& table, const std::string& label, const char* name,
+                const std::vector<std::pair<std::string, Value>>& words, Value& out)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        const auto text = node->value<std::string>();
+        std::vector<std::string> known;
+        for (const auto& [word, value] : words) {
+            if (text && *text == word) {
+                out = value;
+                return;
+            }
+            known.push_back("\"" + word + "\"");
+        }
+        wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
+              fmt::format("one of {}", fmt::join(known, ", ")), fmt::format("write  {} = {}", name, known.front()));
+    }
+
+    void read_probability(ProbabilityInput& p)
+    {
+        const toml::table* table = table_named("probability");
+        if (!table) return;
+        check_names(*table, "probability",
+                    {"seed", "sampling", "replicates", "samples", "static_failure", "variable", "correlation"});
+        std::int64_t seed = 1, replicates = p.replicates, samples = 0;
+        whole(*table, "probability", "seed", seed, 0, std::int64_t{1} << 62);
+        whole(*table, "probability", "replicates", replicates, 1, 10'000);
+        whole(*table, "probability", "samples", samples, 1, 100'000'000);
+        p.seed = static_cast<std::uint64_t>(seed);
+        p.replicates = static_cast<int>(replicates);
+        if (samples) p.samples = static_cast<int>(samples);
+        choice<SamplingInput>(*table, "probability", "sampling",
+                              {{"sobol", SamplingInput::sobol},
+                               {"lhs", SamplingInput::latin_hypercube},
+                               {"random", SamplingInput::random}},
+                              p.sampling);
+        choice<StaticFailure>(
+            *table, "probability", "static_failure",
+            {{"infinite", StaticFailure::infinite}, {"given-standing", StaticFailure::given_standing}},
+            p.static_failure);
+        for_each_entry(*table, "variable", [&](const toml::table& entry) { read_variable(entry, p); });
+        for_each_entry(*table, "correlation", [&](const toml::table& entry) { read_correlation(entry, p); });
+    }
+
+    template <class Take>
+    void for_each_entry(const toml::table& table, const char* name, Take take)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        const toml::array* list = node->as_array();
+        if (!list)
+            return wrong(*node, fmt::format("{} is no list of tables.", name), fmt::format("[[probability.{}]]", name),
+                         "double the brackets");
+        for (const toml::node& item : *list)
+            if (const toml::table* entry = item.as_table())
+                take(*entry);
+            else
+                wrong(item, fmt::format("{} is no list of tables.", name), fmt::format("[[probability.{}]]", name),
+                      "double the brackets");
+    }
+
+    void read_variable(const toml::table& entry, ProbabilityInput& p)
+    {
+        RandomVariable v;
+        std::vector<std::string> known = {"name", "key", "factor", "kind", "discrete"};
+        for (const LawKeys& law : laws_known()) known.emplace_back(law.name);
+        check_names(entry, "probability.variable", known);
+        const toml::node* key = entry.get("key");
+        if (!key)
+            return wrong(entry, "probability.variable.key is missing.", "a key of the scene",
+                         "for example  key = \"contact.friction\"");
+        if (const auto one = key->value<std::string>()) v.keys = {*one};
+        if (const toml::array* list = key->as_array())
+            for (const toml::node& item : *list) v.keys.push_back(item.value<std::string>().value_or(""));
+        try {
+            for (const std::string& name : v.keys) text_.canonical(name);
+        } catch (const InputError& e) {
+            const Diagnostic& d = e.diagnostics().front();
+            return wrong(*key, d.problem, d.expected, d.fix);
+        }
+        if (v.keys.empty())
+            return wrong(*key, "probability.variable.key is not allowed.", "a key of the scene, or a list of them",
+                         "for example  key = \"contact.friction\"");
+        v.name = entry["name"].value<std::string>().value_or(v.keys.front());
+        for (const RandomVariable& other : p.variables)
+            if (other.name == v.name)
+                wrong(entry, fmt::format("there are two variables \"{}\".", v.name), "a name of its own for each",
+                      "add a name");
+        v.factor = entry["factor"].value<bool>().value_or(false);
+        choice<VariableKind>(entry, "probability.variable", "kind",
+                             {{"aleatory", VariableKind::aleatory}, {"epistemic", VariableKind::epistemic}}, v.kind);
+        read_law(entry, v);
+        p.variables.push_back(std::move(v));
+    }
+
+    void read_law(const toml::table& entry, RandomVariable& v)
+    {
+        const std::string label = fmt::format("probability.variable[{}]", v.name);
+        const toml::node* discrete = entry.get("discrete");
+        std::size_t laws = discrete ? 1 : 0;
+        if (discrete) read_discrete(*discrete, label, v);
+        for (const LawKeys& law : laws_known()) {
+            const toml::node* node = entry.get(law.name);
+            if (!node) continue;
+            ++laws;
+            v.law.name = law.name;
+            v.law.where = {label + "." + law.name, node->source().begin.line};
+            const toml::table* table = node->as_table();
+            if (!table) {
+                wrong(*node, fmt::format("{} is not allowed.", v.law.where.key), "its numbers in braces",
+                      fmt::format("for example  {} = {}", law.name, law.example));
+                continue;
+            }
+            std::vector<std::string> names;
+            for (const LawKey& k : law.keys) names.emplace_back(k.name);
+            check_names(*table, v.law.where.key, names);
+            for (const LawKey& k : law.keys) {
+                double value = std::nan("");
+                number(*table, v.law.where.key, k.name, value, k.positive ? 0.0 : -1e300);
+                if (table->contains(k.name)) v.law.parameters[k.name] = value;
+                if (k.required && !table->contains(k.name))
+                    wrong(*node, fmt::format("{}.{} is missing.", v.law.where.key, k.name), "all numbers of the law",
+                          fmt::format("for example  {} = {}", law.name, law.example));
+            }
+            const auto has = [&](const char* name) { return table->contains(name); };
+            if (v.law.name == "lognormal" && !((has("median") && has("beta") && !has("mean") && !has("cov")) ||
+                                               (has("mean") && has("cov") && !has("median") && !has("beta"))))
+                wrong(*node, fmt::format("{} is not allowed.", v.law.where.key), "median and beta, or mean and cov",
+                      fmt::format("for example  lognormal = {}", law.example));
+        }
+        if (laws != 1)
+            wrong(entry, fmt::format("{} has {} laws.", label, laws),
+                  "one of lognormal, normal, uniform, triangular, beta, discrete",
+                  "for example  lognormal = { median = 0.77, beta = 0.15 }");
+    }
+
+    void read_discrete(const toml::node& node, const std::string& label, RandomVariable& v)
+    {
+        v.law.name = "discrete";
+        v.law.where = {label + ".discrete", node.source().begin.line};
+        const toml::table* table = node.as_table();
+        const toml::array* values = table ? (*table)["values"].as_array() : nullptr;
+        const toml::array* weights = table ? (*table)["weights"].as_array() : nullptr;
+        bool good = values && weights && values->size() == weights->size() && !values->empty();
+        for (std::size_t i = 0; good && i < values->size(); ++i) {
+            const toml::node& value = (*values)[i];
+            if (const auto text = value.value_exact<std::string>())
+                v.law.values.emplace_back(*text);
+            else if (const auto flag = value.value_exact<bool>())
+                v.law.values.emplace_back(*flag);
+            else if (const auto d = value.value<double>())
+                v.law.values.emplace_back(*d);
+            const double weight = (*weights)[i].value<double>().value_or(0.0);
+            good = v.law.values.size() == i + 1 && weight > 0.0;
+            v.law.weights.push_back(weight);
+        }
+        if (!good)
+            wrong(node, fmt::format("{} is not allowed.", v.law.where.key), "as many weights > 0 as values",
+                  "for example  discrete = { values = [\"seepage\", \"linear\"], weights = [0.6, 0.4] }");
+    }
+
+    void read_correlation(const toml::table& entry, ProbabilityInput& p)
+    {
+        check_names(entry, "probability.correlation", {"between", "spearman"});
+        RankCorrelation c;
+        c.where = {"probability.correlation", entry.source().begin.line};
+        const toml::array* names = entry["between"].as_array();
+        if (names && names->size() == 2) {
+            c.first = (*names)[0].value<std::string>().value_or("");
+            c.second = (*names)[1].value<std::string>().value_or("");
+        }
+        const auto find = [&](const std::string& name) {
+            return std::find_if(p.variables.begin(), p.variables.end(),
+                                [&](const RandomVariable& v) { return v.name == name; });
+        };
+        const auto a = find(c.first), b = find(c.second);
+        if (a == p.variables.end() || b == p.variables.end() || a == b || a->kind != b->kind)
+            return wrong(entry, "probability.correlation.between is not allowed.", "names of two variables of one kind",
+                         "for example  between = [\"mu\", \"c\"]");
+        c.spearman = entry["spearman"].value<double>().value_or(2.0);
+        if (!(std::abs(c.spearman) < 1.0))
+            return wrong(entry, "probability.correlation.spearman is not allowed.", "a number between -1 and 1",
+                         "for example  spearman = -0.3");
+        p.correlations.push_back(std::move(c));
+    }
+
+    void read_suite(std::optional<SuiteInput>& out)
+    {
+        const toml::table* table = table_named("suite");
+        if (!table) return;
+        SuiteInput& suite = out.emplace();
+        check_names(*table, "suite", {"files", "draw", "polarity", "max_scale", "allow_scaling"});
+        if (const auto files = (*table)["files"].value<std::string>())
+            suite.files = (file_.parent_path() / *files).string();
+        if (const toml::node* files = table->get("files")) suite.where = {"suite.files", files->source().begin.line};
+        choice<SuiteDraw>(*table, "suite", "draw",
+                          {{"balanced", SuiteDraw::balanced}, {"with-replacement", SuiteDraw::with_replacement}},
+                          suite.draw);
+        choice<SuitePolarity>(*table, "suite", "polarity",
+                              {{"both", SuitePolarity::both},
+                               {"as-recorded", SuitePolarity::as_recorded},
+                               {"reversed", SuitePolarity::reversed}},
+                              suite.polarity);
+        number(*table, "suite", "max_scale", suite.max_scale, 0.0);
+        suite.allow_scaling = (*table)["allow_scaling"].value<bool>().value_or(false);
+    }
+
+    void read_intensity(IntensityInput& in)
+    {
+        const toml::table* table = table_named("intensity");
+        if (!table)
+            return missing("[intensity]", "measure and levels",
+                           "for example  [intensity] measure = \"PGA\" levels_g = [0.1, 0.2, 0.4]");
+        struct Unit {
+            const char *key, *text;
+            double si;
+            bool acceleration;
+        };
+        static constexpr Unit known_units[] = {{"levels_g", "g", units::standard_gravity, true},
+                                               {"levels_m_s2", "m/s2", 1.0, true},
+                                               {"levels_m_s", "m/s", 1.0, false},
+                                               {"levels_cm_s", "cm/s", units::cm, false}};
+        check_names(*table, "intensity",
+                    {"measure", "component", "design", "levels_g", "levels_m_s2", "levels_m_s", "levels_cm_s"});
+        in.text = (*table)["measure"].value<std::string>().value_or("PGA");
+        if (const auto name = parse_intensity(in.text)) {
+            in.measure = name->measure;
+            in.first_period = name->first_period;
+            in.periods = name->periods;
+        } else {
+            wrong(*table->get("measure"), fmt::format("intensity.measure = \"{}\" is not allowed.", in.text),
+                  std::string(known_intensities), "write  measure = \"PGA\"");
+        }
+        choice<IntensityComponent>(*table, "intensity", "component", {{"as-used", IntensityComponent::as_used}},
+                                   in.component);
+        choice<FragilityDesign>(
+            *table, "intensity", "design",
+            {{"stripes", FragilityDesign::stripes}, {"ida", FragilityDesign::ida}, {"cloud", FragilityDesign::cloud}},
+            in.design);
+        int given = 0;
+        for (const Unit& unit : known_units) {
+            const toml::node* node = table->get(unit.key);
+            if (!node) continue;
+            ++given;
+            in.level_unit = unit.si;
+            in.level_unit_text = unit.text;
+            const toml::array* list = node->as_array();
+            bool good = list && !list->empty() && unit.acceleration == is_acceleration(in.measure);
+            for (std::size_t i = 0; good && i < list->size(); ++i) {
+                in.levels.push_back((*list)[i].value<double>().value_or(-1.0) * unit.si);
+                good = in.levels[i] > 0.0 && (i == 0 || in.levels[i] > in.levels[i - 1]);
+            }
+            if (!good)
+                wrong(*node, fmt::format("intensity.{} is not allowed.", unit.key),
+                      fmt::format("ascending numbers > 0 in the unit of {}: levels_g or levels_m_s2 of accelerations, "
+                                  "levels_m_s or levels_cm_s of PGV, IA and CAV",
+                                  in.text),
+                      is_acceleration(in.measure) ? "for example  levels_g = [0.1, 0.2, 0.4]"
+                                                  : "for example  levels_m_s = [0.1, 0.2, 0.4]");
+        }
+        if (given != 1)
+            wrong(*table, fmt::format("intensity has {} lists of levels.", given), "one",
+                  "for example  levels_g = [0.1, 0.2, 0.4]");
+    }
+
+    void read_limits(std::vector<LimitInput>& limits)
+    {
+        const toml::node* node = root_.get("limit");
+        if (!node)
+            return missing("[[limit]]", "at least one", "for example  [[limit]] quantity = \"slip\" above_mm = 50");
+        for_each_entry(root_, "limit", [&](const toml::table& entry) {
+            check_names(entry, "limit", {"quantity", "above_mm", "above_cm", "above_m"});
+            LimitInput limit;
+            choice<LimitQuantity>(entry, "limit", "quantity",
+                                  {{"slip", LimitQuantity::slip}, {"largest-slip", LimitQuantity::largest_slip}},
+                                  limit.quantity);
+            int given = 0;
+            for (const auto& [key, unit, si] :
+                 {std::tuple{"above_mm", "mm", units::mm}, {"above_cm", "cm", units::cm}, {"above_m", "m", 1.0}}) {
+                if (!entry.contains(key)) continue;
+                ++given;
+                double value = 0.0;
+                number(entry, "limit", key, value, 0.0, false);
+                limit.value = value * si;
+                limit.text = fmt::format("{} > {} {}", limit.quantity == LimitQuantity::slip ? "slip" : "largest slip",
+                                         value, unit);
+            }
+            if (given != 1)
+                wrong(entry, fmt::format("limit has {} values.", given), "one of above_mm, above_cm, above_m",
+                      "for example  above_mm = 50");
+            limits.push_back(std::move(limit));
+        });
+    }
+
+    void read_hazard(std::optional<HazardInput>& out)
+    {
+        const toml::table* table = table_named("hazard");
+        if (!table) return;
+        check_names(*table, "hazard", {"curve", "all_events"});
+        HazardInput& hazard = out.emplace();
+        const auto curve = (*table)["curve"].value<std::string>();
+        if (!curve)
+            return wrong(*table, "hazard.curve is missing.", "a CSV file: intensity, annual rate",
+                         "for example  curve = \"hazard.csv\"");
+        hazard.curve = file_.parent_path() / *curve;
+        hazard.where = {"hazard.curve", table->get("curve")->source().begin.line};
+        double rate = 0.0;
+        number(*table, "hazard", "all_events", rate, 0.0);
+        if (rate > 0.0) hazard.all_events = rate;
+    }
+
+    std::filesystem::path file_;
+    SceneText text_;
+    toml::table root_;
+    std::vector<Diagnostic> wrong_;
+};
+
+} // namespace
+
+FragilityInput read_fragility_input(const std::filesystem::path& file)
+{
+    return FragilityReader(file).read();
+}
+
+} // namespace damslip

@@ -1,0 +1,117 @@
+// Records of a folder, a pattern or a list, paired by their names.
+#include "analysis/prepare/record_list.hpp"
+#include "core/input_error.hpp"
+#include "program_answer.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace damslip {
+
+namespace {
+
+using Kind = ComponentName::Kind;
+
+TEST(ComponentName, is_read_from_the_ways_agencies_name_files)
+{
+    const struct {
+        const char* file;
+        Kind kind;
+        const char* base;
+    } rows[] = {{"RSN6_IMPVALL.I_I-ELC180.AT2", Kind::horizontal, "RSN6_IMPVALL.I_I-ELC"},
+                {"RSN6_IMPVALL.I_I-ELC-UP.AT2", Kind::vertical, "RSN6_IMPVALL.I_I-ELC"},
+                {"RSN4863_CHUETSU_65036EW.AT2", Kind::horizontal, "RSN4863_CHUETSU_65036"},
+                {"RSN4863_CHUETSU_65036UD.AT2", Kind::vertical, "RSN4863_CHUETSU_65036"},
+                {"backup.csv", Kind::none, "backup"}, // no separator: not guessed
+                {"rock_2.0_long_h.csv", Kind::horizontal, "rock_2.0_long"},
+                {"rock_2.0_long_v.csv", Kind::vertical, "rock_2.0_long"},
+                {"AKT0010311091313.EW", Kind::horizontal, "AKT0010311091313"},
+                {"AKT0010311091313.UD2", Kind::vertical, "AKT0010311091313"},
+                {"station_H1.txt", Kind::horizontal, "station"},
+                {"station-vert.txt", Kind::vertical, "station"},
+                {"elcentro_1940_ns.txt", Kind::horizontal, "elcentro_1940"},
+                {"pulse.csv", Kind::none, "pulse"},
+                {"run_1940.csv", Kind::none, "run_1940"}, // a year is no azimuth
+                {"ab999.at2", Kind::none, "ab999"}};
+    for (const auto& row : rows) {
+        const ComponentName found = component_of_name(row.file);
+        EXPECT_EQ(found.kind, row.kind) << row.file;
+        EXPECT_EQ(found.base, row.base) << row.file;
+    }
+}
+
+class RecordFolder : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        folder = std::filesystem::temp_directory_path() / ("damslip suite " + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder);
+        for (const char* name : {"a_h.csv", "a_v.csv", "b090.csv", "b000.csv", "b-up.csv", "alone.csv", "c_up.csv"})
+            write(name, "time_s,accel_m_s2\n0,0\n1," + std::to_string(1 + name[0] % 3) + "\n2,0\n3,0\n");
+        write("readme.md", "no record");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+
+    std::filesystem::path folder;
+};
+
+TEST_F(RecordFolder, components_of_a_station_are_one_event_with_one_vertical)
+{
+    const RecordList list = record_list(folder.string());
+    ASSERT_EQ(list.records.size(), 4u);
+    const struct {
+        const char *name, *vertical, *event;
+    } rows[] = {{"a_h", "a_v.csv", "a"}, {"alone", "", "alone"}, {"b000", "b-up.csv", "b"}, {"b090", "b-up.csv", "b"}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(list.records[i].name, rows[i].name);
+        EXPECT_EQ(list.records[i].vertical ? list.records[i].vertical->filename().string() : "", rows[i].vertical);
+        EXPECT_EQ(list.events[i], rows[i].event);
+    }
+    ASSERT_EQ(list.notes.size(), 1u); // c_up.csv has no horizontal component
+    EXPECT_NE(list.notes[0].find("c_up.csv"), std::string::npos);
+    EXPECT_EQ(record_list((folder / "b*.csv").string()).records.size(), 2u);
+    EXPECT_TRUE(record_list((folder / "z*").string()).records.empty());
+}
+
+TEST_F(RecordFolder, a_list_says_it_all)
+{
+    write("list.csv",
+          "# two of them\nhorizontal,vertical,event,weight,scale\na_h.csv,,e1,2,1.5\nb000.csv,b-up.csv,e1,1,1\n");
+    const RecordList list = record_list((folder / "list.csv").string());
+    ASSERT_EQ(list.records.size(), 2u);
+    EXPECT_EQ(list.events, (std::vector<std::string>{"e1", "e1"}));
+    EXPECT_EQ(list.weights, (std::vector<double>{2.0, 1.0}));
+    EXPECT_EQ(list.records[0].scale, 1.5);
+    EXPECT_FALSE(list.records[0].vertical);
+    write("bad.csv", "horizontal,weigth\na_h.csv,1\n");
+    EXPECT_THROW(record_list((folder / "bad.csv").string()), InputError);
+    write("gone.csv", "horizontal\nnowhere.csv\n");
+    EXPECT_THROW(record_list((folder / "gone.csv").string()), InputError);
+}
+
+TEST_F(RecordFolder, records_of_the_command_line_take_the_scenes_place)
+{
+    write("dam.toml", "[section]\nheight_m = 10\nbase_m = 20\n[dam]\ndensity_kg_m3 = 2000\n[contact]\nfriction = 0.1\n"
+                      "[[motion.record]]\nhorizontal = \"alone.csv\"\n");
+    const std::string scene = (folder / "dam.toml").string();
+    const ProgramAnswer a = answer_of({"screen", scene, "--records", (folder / "b*").string(), "--json"});
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto answer = nlohmann::json::parse(a.out);
+    ASSERT_EQ(answer["records"].size(), 2u);
+    EXPECT_EQ(answer["records"][0]["name"], "b000");
+    EXPECT_FALSE(answer["records"][0]["vertical"].is_null());
+    const ProgramAnswer none = answer_of({"screen", scene, "--records", (folder / "z*").string()});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.talk.find("there is no record"), std::string::npos) << none.talk;
+    const ProgramAnswer twice =
+        answer_of({"screen", scene, "--records", folder.string(), "--record", (folder / "a_h.csv").string()});
+    EXPECT_EQ(twice.code, 2);
+}
+
+} // namespace
+
+} // namespace damslip
