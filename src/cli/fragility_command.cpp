@@ -283,17 +283,12 @@ int fragility(const FragilityArguments& a, const Streams& streams)
         }
         input.suite->allow_scaling = true;
     }
+    const NumberInFile written = [&text](const std::string& key) { return text.written(key); };
+    check_supports(input, text, written);
     if (!a.slurm_array.empty()) return write_slurm(a, streams);
     ShakingSuite suite = suite_of_input(scene, input);
     const SweepMethod& method = method_of_fragility(a, suite.pairs, scene);
-    const FragilityJob job{a,
-                           streams,
-                           text,
-                           std::move(scene),
-                           std::move(input),
-                           std::move(suite),
-                           method,
-                           [&text](const std::string& key) { return text.written(key); }};
+    const FragilityJob job{a, streams, text, std::move(scene), std::move(input), std::move(suite), method, written};
     const std::size_t samples = a.budget
                                     ? samples_by_budget(job)
                                     : static_cast<std::size_t>(a.samples.value_or(job.finite_elements() ? 128 : 1024));

@@ -405,6 +405,7 @@ void read_expectations(const toml::table& root, Scene& scene, Findings& findings
 void unknown_tables(const std::vector<KeyGroup>& groups, const toml::table& root, Findings& findings)
 {
     std::vector<std::string> names{"expect"};
+    names.insert(names.end(), std::begin(fragility_tables), std::end(fragility_tables));
     for (const KeyGroup& g : groups)
         if (!g.name.empty() && g.name.find('.') == std::string::npos) names.push_back(g.name);
     for (auto&& [name, node] : root) {
@@ -478,8 +479,8 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     std::vector<KeyGroup> groups = key_groups(section);
     const bool wedge = root.contains("wedge");
     if (wedge) keep_wedge_tables(groups, root, findings);
-    for (const char* table : fragility_tables) root.erase(table); // read by read_fragility_input() alone
     unknown_tables(groups, root, findings);
+    for (const char* table : fragility_tables) root.erase(table); // read by read_fragility_input() alone
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
     read_expectations(root, scene, findings);
 

@@ -347,6 +347,30 @@ TEST(Fragility, TablesAreRead)
     }
 }
 
+// A law that reaches values its key does not allow is refused before the first run, with its line.
+TEST(Fragility, LawsStayWithinTheirKeys)
+{
+    const std::string head = "[probability]\n[[probability.variable]]\nname = \"nu\"\nkey = \"dam.poisson_ratio\"\n";
+    const std::string tail = "\n[intensity]\nmeasure = \"PGA\"\nlevels_g = [0.1]\n[[limit]]\nabove_mm = 50\n";
+    const auto refused = [&](const std::string& law) -> std::string {
+        EXPECT_EQ(refusal(head + law + tail), ""); // the tables themselves are right
+        const auto file = test_folder() / "read.toml";
+        const SceneText text = SceneText::read(file);
+        try {
+            check_supports(read_fragility_input(file), text, [&](const std::string& key) { return text.written(key); });
+        } catch (const InputError& e) {
+            EXPECT_GT(e.diagnostics().front().line, 0);
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refused("uniform = { min = 0.15, max = 0.25 }"), "");
+    const std::string unbounded = refused("lognormal = { median = 0.2, beta = 0.3 }");
+    EXPECT_NE(unbounded.find("probability.variable[nu].lognormal reaches"), std::string::npos) << unbounded;
+    EXPECT_NE(unbounded.find("dam.poisson_ratio"), std::string::npos) << unbounded;
+    EXPECT_EQ(refused("lognormal = { median = 0.2, beta = 0.3, max = 0.45 }"), "");
+}
+
 // A list of records: events and weights are taken, what is no number or no file is refused with its line.
 TEST(Fragility, SuiteOfAList)
 {

@@ -262,6 +262,35 @@ FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, co
     return ValuesOfDraw(input, scene_file, written)(u);
 }
 
+void check_supports(const FragilityInput& input, const SceneText& text, const NumberInFile& written)
+{
+    const double beyond = std::exp2(-40.0);
+    const std::vector<RandomVariable>& variables = input.probability.variables;
+    std::vector<double> u(variables.size(), 0.5);
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        const RandomVariable& variable = variables[i];
+        for (const double end : {beyond, 1.0 - beyond}) {
+            u[i] = end;
+            const FragilityDraw draw = draw_of(input, u, text.file(), written);
+            std::vector<KeyChange> own;
+            for (const KeyChange& change : draw.changes)
+                if (std::find(variable.keys.begin(), variable.keys.end(), change.key) != variable.keys.end())
+                    own.push_back(change);
+            try {
+                text.with(own);
+            } catch (const InputError& e) {
+                const Diagnostic& reason = e.diagnostics().front();
+                throw InputError(
+                    Diagnostic{text.file().string(), static_cast<int>(variable.law.where.line), 0,
+                               fmt::format("{} reaches {}, which {} does not allow. {}", variable.law.where.key,
+                                           text_of(draw.values[i]), variable.keys.front(), reason.problem),
+                               reason.expected, "give the law a min and a max within it, or a smaller spread"});
+            }
+        }
+        u[i] = 0.5;
+    }
+}
+
 FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, const FragilitySizes& sizes,
                              const std::filesystem::path& scene_file, const NumberInFile& written)
 {

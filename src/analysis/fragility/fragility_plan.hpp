@@ -70,6 +70,10 @@ using NumberInFile = std::function<double(const std::string& key)>;
 FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, const FragilitySizes& sizes,
                              const std::filesystem::path& scene_file, const NumberInFile& written);
 
+/// Reads the scene with both ends of every law, 2^-40 of its probability left beyond each, so that no run stops half-way at a value
+/// that its key does not allow. @throws InputError with the law's line, the value, what the key allows and the fix
+void check_supports(const FragilityInput& input, const SceneText& text, const NumberInFile& written);
+
 /// The draw of given uniform numbers, one a variable, dependent already where they are correlated.
 FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, const std::filesystem::path& scene_file,
                       const NumberInFile& written);

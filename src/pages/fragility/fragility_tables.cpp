@@ -2,6 +2,7 @@
 
 #include "core/units.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -86,6 +87,16 @@ Table sample_table(const FragilityView& view)
     return table_of("Runs", columns, rows);
 }
 
+namespace {
+
+/// Weighted runs are no whole number.
+Cell count_of(double n)
+{
+    return n == std::round(n) ? Cell(static_cast<std::int64_t>(n)) : Cell(n);
+}
+
+} // namespace
+
 Table fragility_table(const FragilityView& view)
 {
     std::vector<LevelRow> rows;
@@ -111,8 +122,8 @@ Table fragility_table(const FragilityView& view)
          [counted](const R& r) {
              return counted && r.level.records.clusters > 1 ? Cell(r.level.records.upper) : Cell();
          }},
-        {{"runs", "runs"}, number([](const LevelEstimate& e) { return e.n; })},
-        {{"failures", "failures"}, number([](const LevelEstimate& e) { return e.z; })},
+        {{"runs", "runs"}, number([](const LevelEstimate& e) { return count_of(e.n); })},
+        {{"failures", "failures"}, number([](const LevelEstimate& e) { return count_of(e.z); })},
         {{"missing", "missing"}, number([](const LevelEstimate& e) { return e.missing; })},
         {{"probability_low", "missing survive", "–", 3}, number([](const LevelEstimate& e) { return e.p_low; })},
         {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })},
