@@ -2,6 +2,7 @@
 
 #include "analysis/screen/regression_rows.hpp"
 #include "cli/flags.hpp"
+#include "core/number.hpp"
 #include "core/status.hpp"
 #include "core/units.hpp"
 #include "pages/report/json_object.hpp"
@@ -83,7 +84,13 @@ namespace {
 
 void regress_flags(CLI::App& sub, RegressArguments& a)
 {
-    const auto range = [](double low, double high) { return CLI::Range(low, high); };
+    const auto range = [](double low, double high) { // CLI::Range lets NaN through
+        return [low, high](const std::string& text) -> std::string {
+            const std::optional<double> value = parse_number(text);
+            if (value && *value >= low && *value <= high) return {};
+            return fmt::format("{} is not allowed: a number from {:g} to {:g}", text, low, high);
+        };
+    };
     sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g]")->required()->check(range(1e-6, 10));
     sub.add_option("--pga-g", a.pga_g, "largest horizontal ground acceleration [g]")
         ->required()

@@ -23,7 +23,7 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
                             ->needs(on)
                             ->group(spectrum);
     CLI::Option* pga = sub.add_option("--spectrum-pga", a.pga, "S_a at period 0 of that spectrum [m/s^2]")
-                           ->check(CLI::PositiveNumber)
+                           ->check(CLI::Range(1e-3, 100.0))
                            ->needs(file)
                            ->group(spectrum);
     file->needs(pga);

@@ -71,6 +71,9 @@ TEST(Regress, bad_numbers_are_named)
     const ProgramAnswer none = answer_of({"regress", "--pga-g", "0.35"});
     EXPECT_EQ(none.code, 2);
     EXPECT_NE(none.talk.find("--yield-g"), std::string::npos) << none.talk;
+    const ProgramAnswer nothing = answer_of({"regress", "--yield-g", "0.1", "--pga-g", "nan"});
+    EXPECT_EQ(nothing.code, 2);
+    EXPECT_NE(nothing.talk.find("a number from"), std::string::npos) << nothing.talk;
     const ProgramAnswer high = answer_of({"regress", "--yield-g", "0.1", "--pga-g", "35"});
     EXPECT_EQ(high.code, 2);
     EXPECT_NE(high.talk.find("--pga-g"), std::string::npos) << high.talk;

@@ -23,13 +23,6 @@ double moving_mass(const Scene& scene)
     return scene.dam.density * area(scene.section) + sliding::scene_added_mass(scene, level).xx;
 }
 
-/// Laws that the flexible block does not follow. Beside [flexible_block] they are refused.
-bool has_laws_of_rigid_blocks(const Scene& scene)
-{
-    return !scene.anchors.empty() || scene.contact.rate.active() || scene.contact.restitution > 0.0 ||
-           !scene.motion.sequence.empty();
-}
-
 sliding::StrainColumn column_of(const FlexibleMass& mass)
 {
     return {*mass.height, *mass.shear_velocity, mass.damping_ratio, mass.base_velocity.value_or(0.0),
@@ -46,6 +39,12 @@ double mass_ratio(const Scene& scene, double otherwise)
 }
 
 } // namespace
+
+bool has_laws_of_rigid_blocks(const Scene& scene)
+{
+    return !scene.anchors.empty() || scene.contact.rate.active() || scene.contact.restitution > 0.0 ||
+           !scene.motion.sequence.empty();
+}
 
 std::optional<sliding::FlexibleBlock> flexible_block(const Scene& scene)
 {

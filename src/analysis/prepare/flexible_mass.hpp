@@ -11,6 +11,9 @@
 /// The sliding mass as one mode on its base.
 namespace damslip {
 
+/// Anchors, friction over the rate, rebounds, a sequence: the flexible block does not follow them. Beside [flexible_block] they are refused.
+bool has_laws_of_rigid_blocks(const Scene& scene);
+
 /// What the scene asks for beside the rigid block: [flexible_block], or regressions.period_s alone with all defaults; nothing for
 /// a rigid mass, and where the scene has anchors, friction over the rate, rebounds or a sequence, which a flexible block does not follow.
 /// Of a column without its strain. @pre period and mass ratio "modes" are found: resolve_flexible_modes

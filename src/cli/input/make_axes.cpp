@@ -1,5 +1,6 @@
 #include "cli/input/make_axes.hpp"
 
+#include "analysis/prepare/flexible_mass.hpp"
 #include "cli/input/number_list.hpp"
 #include "cli/input/run_inputs.hpp"
 #include "core/number.hpp"
@@ -198,8 +199,7 @@ void add_mode_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
                             scene.wedge ? "a [wedge] has no mode" : "the scene does not say how the block vibrates"),
                 "[flexible_block] with period_s, regressions.period_s, or --period",
                 scene.wedge ? "delete it" : "add  --period 0.2");
-    if (axes.flexible() && (!scene.anchors.empty() || scene.contact.rate.active() ||
-                            scene.contact.restitution > 0.0 || !scene.motion.sequence.empty()))
+    if (axes.flexible() && has_laws_of_rigid_blocks(scene))
         refuse_usage("decoupled and coupled with anchors, friction over the rate, rebounds or a sequence.",
                      "a block that vibrates without them: it does not follow these laws",
                      "take rigid or fe, or leave the law out");
