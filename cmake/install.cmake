@@ -17,7 +17,7 @@ function(damslip_install_package)
   # All of a folder under one name; fe2d has its own.
   add_library(damslip_records INTERFACE)
   target_link_libraries(damslip_records INTERFACE
-    damslip_record records_read records_write records_measure records_transform records_generate)
+    damslip_record records_read records_write records_measure records_transform records_generate records_suite)
   add_library(damslip_sliding INTERFACE)
   target_link_libraries(damslip_sliding INTERFACE
     sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs all tests. --all: then the long tests too, the Python package with its notebook, a build of every
+# Installs what is missing, builds, and runs all tests. --all: then the long tests too, a fragility killed twenty times, the Python package with its notebook, a build of every
 # file by itself, a comparison with another finite-element program, the suite under the address and undefined-behaviour checkers, and what
 # share of the lines the tests reach (an hour or more on two cores).
 set -euo pipefail
@@ -12,6 +12,7 @@ ctest --preset release --parallel "$(nproc)"
 [ "${1:-}" = --all ] || exit 0
 
 ctest --test-dir build/release --label-regex '^long$' --output-on-failure --no-tests=error --parallel "$(nproc)"
+tests/surroundings/check_fragility.sh build/release/damslip . 20
 scripts/python.sh --notebook
 cmake --preset dev >/dev/null   # every file by itself, warnings are errors
 cmake --build --preset dev

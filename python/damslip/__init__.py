@@ -11,14 +11,14 @@ name, and the same digits.
 """
 
 from . import errors
-from ._core import (AccuracyResult, FeResult, FeRun, ModesResult, Result, ScreenResult, Slip, SweepResult, Table,
-                    __version__)
+from ._core import (AccuracyResult, FeResult, FeRun, FragilityCurve, FragilityResult, ModesResult, Result, ScreenResult,
+                    Slip, SweepResult, Table, __version__)
 from .errors import DamslipError, InputError, Interrupted, NotConverged, UsageError
 from .scene import Scene, load
 from . import display as _display
 
 _display.add_to(Result, Table)
 
-__all__ = ["AccuracyResult", "DamslipError", "FeResult", "FeRun", "InputError", "Interrupted", "ModesResult",
-           "NotConverged", "Result", "Scene", "ScreenResult", "Slip", "SweepResult", "Table", "UsageError",
-           "__version__", "errors", "load"]
+__all__ = ["AccuracyResult", "DamslipError", "FeResult", "FeRun", "FragilityCurve", "FragilityResult", "InputError",
+           "Interrupted", "ModesResult", "NotConverged", "Result", "Scene", "ScreenResult", "Slip", "SweepResult", "Table",
+           "UsageError", "__version__", "errors", "load"]

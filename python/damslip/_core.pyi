@@ -1,10 +1,12 @@
-from typing import Callable, Dict, List, Optional
+from typing import Callable, Dict, List, Optional, Tuple, Union
 
 import numpy
 import numpy.typing
 import pandas
 
 Array = numpy.typing.NDArray[numpy.float64]
+CountArray = numpy.typing.NDArray[numpy.uint64]
+IntegerArray = numpy.typing.NDArray[numpy.int32]
 SingleArray = numpy.typing.NDArray[numpy.float32]
 Progress = Optional[Callable[[str, float, float], object]]
 
@@ -111,6 +113,42 @@ class SweepResult(Result):
 
 class AccuracyResult(Result):
     choice: Optional[str]
+
+class FragilityCurve:
+    limit: str
+    allowable: float
+    intensity: Array
+    probability: Array
+    probability_low: Array
+    probability_high: Array
+    lower: Array
+    upper: Array
+    runs: Array
+    failures: Array
+    median: Optional[float]
+    beta: Optional[float]
+    rate: Optional[Tuple[float, float]]
+
+class FragilityResult(Result):
+    curves: List[FragilityCurve]
+    complete: bool
+    finished: int
+    method: str
+    measure: str
+    share_not_standing: float
+    warnings: List[str]
+    records: List[str]
+    variables: List[str]
+    intensity: Array
+    level: CountArray
+    record: CountArray
+    polarity: IntegerArray
+    factor: Array
+    draw: CountArray
+    slip: Array
+    max_slip: Array
+    def drawn(self, variable: str) -> List[Union[float, bool, str]]: ...
+    def __len__(self) -> int: ...
 
 class Scene:
     title: str

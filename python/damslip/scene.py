@@ -1,6 +1,8 @@
 """A scene, and what can be computed of it."""
 
+import contextlib
 import os
+import tempfile
 
 from . import _core
 from .errors import Interrupted, UsageError
@@ -59,6 +61,51 @@ def _axis(values):
     if isinstance(values, (int, float)) or getattr(values, "ndim", 1) == 0:
         values = [values]
     return ",".join(v if isinstance(v, str) else repr(v.item() if hasattr(v, "item") else v) for v in values)
+
+
+_UNITS = {"g": "levels_g", "m/s2": "levels_m_s2", "m/s": "levels_m_s", "cm/s": "levels_cm_s"}
+_FRAGILITY = ("probability", "suite", "intensity", "limit", "hazard")
+
+
+def _numbers(values):
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    return [float(v) for v in (values if isinstance(values, (list, tuple)) else [values])]
+
+
+def _record_rows(records):
+    """A list of records as the CSV that [suite] files takes: files, or pairs of horizontal and vertical."""
+    rows = []
+    for record in records:
+        files = [record, ""] if isinstance(record, (str, os.PathLike)) else list(record)
+        files = [os.path.abspath(f) if f else "" for f in files]
+        if len(files) != 2 or any(c in f for f in files for c in ",\n"):
+            raise UsageError(f"record {record!r} is not allowed: a file, or a pair of horizontal and vertical file, without commas")
+        rows.append(",".join(files))
+    return "\n".join(["horizontal,vertical", *rows, ""])
+
+
+def _fragility_tables(tables, records, levels, unit, measure, design, limits_mm):
+    """The tables of a fragility that take the place of the scene's, as dictionaries."""
+    given = {name: dict(t) if isinstance(t, dict) else t for name, t in (tables or {}).items()}
+    for name in given:
+        if name not in _FRAGILITY:
+            raise UsageError(f"tables has no {name!r}: one of {', '.join(_FRAGILITY)}")
+    intensity = given.get("intensity", {})
+    if levels is not None:
+        if unit not in _UNITS:
+            raise UsageError(f"unit={unit!r} is not allowed: one of {', '.join(_UNITS)}")
+        intensity[_UNITS[unit]] = _numbers(levels)
+    for key, value in (("measure", measure), ("design", design)):
+        if value is not None:
+            intensity[key] = value
+    if intensity:
+        given["intensity"] = intensity
+    if limits_mm is not None:
+        given["limit"] = [{"quantity": "slip", "above_mm": v} for v in _numbers(limits_mm)]
+    if records is not None:
+        given.setdefault("suite", {})["files"] = os.path.abspath(records)
+    return given
 
 
 def _whole(result):
@@ -143,6 +190,31 @@ class Scene:
     def accuracy(self, tolerance=0.02, quick=False, progress=None):
         """Every method on all records of the scene, what each errs and costs, as `damslip accuracy --all-records`."""
         return _whole(_core._accuracy(self._opened, tolerance, quick, progress))
+
+    def fragility(self, records=None, levels=None, unit="g", limits_mm=None, method=None, measure=None, design=None,
+                  samples=None, tables=None, cheap_samples=2048, share_rows=128, conditioning="auto",
+                  multi_fidelity="two-level", jobs=0, progress=None):
+        """How likely the dam slides too far, as `damslip fragility`: fragility(records="suite/*.AT2", levels=[0.1, 0.2, 0.4],
+        limits_mm=[10, 50]).
+
+        records: folder, pattern, or CSV of a suite, or a list of files or of pairs (horizontal, vertical); levels: of the measure, in
+        unit ("g", "m/s2", "m/s", "cm/s"); limits_mm: slips; tables: dictionaries of [probability], [suite], [intensity], [[limit]],
+        [hazard] with the keys of a file. What is given takes the place of what the scene says; the rest is the scene's. method:
+        "rigid", "rigid-v", "fe", ...; samples, cheap_samples, share_rows: as --samples, --cheap-samples, --share-rows;
+        conditioning, multi_fidelity: as --conditioning and --multi-fidelity. Ctrl-C stops it and
+        raises Interrupted, whose result has the runs that are finished; those that are not count as missing.
+        """
+        listed = records is not None and not isinstance(records, (str, os.PathLike))
+        folder = tempfile.TemporaryDirectory() if listed else contextlib.nullcontext()
+        with folder as place:
+            if listed:
+                rows = _record_rows(records)
+                records = os.path.join(place, "records.csv")
+                with open(records, "w", encoding="utf-8") as out:
+                    out.write(rows)
+            given = _fragility_tables(tables, records, levels, unit, measure, design, limits_mm)
+            return _whole(_core._fragility(self._opened, _toml(given), method or "", samples, cheap_samples, share_rows, conditioning,
+                                           multi_fidelity, jobs, progress))
 
     def __repr__(self):
         return f"<damslip.Scene {self.title!r} ({self.file})>"

@@ -1,9 +1,11 @@
 import os
-from typing import List, Mapping, Optional, Sequence, Union
+from typing import List, Mapping, Optional, Sequence, Tuple, Union
 
-from ._core import AccuracyResult, FeResult, ModesResult, Progress, ScreenResult, SweepResult
+from ._core import AccuracyResult, FeResult, FragilityResult, ModesResult, Progress, ScreenResult, SweepResult
 
 Key = Union[float, bool, str]
+File = Union[str, os.PathLike]
+Suite = Union[File, Sequence[Union[File, Tuple[File, Optional[File]]]]]
 Axis = Union[float, str, Sequence[Union[float, str]]]
 
 def load(scene: Union[str, os.PathLike, dict], folder: Union[str, os.PathLike] = ".") -> Scene: ...
@@ -23,3 +25,9 @@ class Scene:
     def modes(self, count: int = 10, transfer: bool = False, progress: Progress = None) -> ModesResult: ...
     def sweep(self, jobs: int = 0, progress: Progress = None, **axes: Axis) -> SweepResult: ...
     def accuracy(self, tolerance: float = 0.02, quick: bool = False, progress: Progress = None) -> AccuracyResult: ...
+    def fragility(self, records: Optional[Suite] = None, levels: Union[None, float, Sequence[float]] = None, unit: str = "g",
+                  limits_mm: Union[None, float, Sequence[float]] = None, method: Optional[str] = None,
+                  measure: Optional[str] = None, design: Optional[str] = None, samples: Optional[int] = None,
+                  tables: Optional[Mapping[str, object]] = None, cheap_samples: int = 2048, share_rows: int = 128,
+                  conditioning: str = "auto", multi_fidelity: str = "two-level",
+                  jobs: int = 0, progress: Progress = None) -> FragilityResult: ...

@@ -76,6 +76,50 @@ Deviations deviations(const std::vector<double>& accel, double dt, const TargetS
     return d;
 }
 
+/// The best pass.
+struct Matched {
+    std::vector<double> accel;
+    SpectrumMatch match;
+    int passes = 0;
+};
+
+/// Wavelet passes, bolder after a good one, more careful after a bad one, which is dropped (Levenberg-Marquardt). Where no step helps any
+/// more, one is taken all the same to get away. What counts is the finished record: rounded, at rest, with its PGA.
+Matched match(std::vector<double> accel, double dt, const TargetSpectrum& target, double pga, double tolerance)
+{
+    constexpr double start = 1e-4, boldest = 1e-7, too_careful = 0.1;
+    const std::vector<double> periods = logarithmic_periods(0.9 * matched_from, 1.1 * matched_to, 100);
+    Deviations now = deviations(accel, dt, target, pga);
+    Matched best{accel, now.worst, 0};
+    double regularisation = start;
+    int since_best = 0;
+    const auto good_enough = [&] {
+        return best.match.deviation <= 0.5 * tolerance || (best.match.deviation <= tolerance && since_best >= patience);
+    };
+    for (; best.passes < most_passes && !good_enough(); ++best.passes, ++since_best) {
+        std::vector<double> trial = accel;
+        match_by_wavelets(trial, dt, target, pga, periods, regularisation);
+        trial = finished(std::move(trial), pga);
+        const Deviations then = deviations(trial, dt, target, pga);
+        const bool better = then.norm<now.norm, stalled = regularisation> too_careful;
+        if (better || stalled) accel = std::move(trial), now = then;
+        if (now.worst.deviation < best.match.deviation) best.accel = accel, best.match = now.worst, since_best = 0;
+        regularisation = better ? std::max(regularisation / 3.0, boldest) : stalled ? start : 4.0 * regularisation;
+    }
+    return best;
+}
+
+GeneratedRecord with_story(Record record, const Matched& m, double tolerance)
+{
+    GeneratedRecord result{std::move(record), m.match.deviation, m.match.period, m.passes,
+                           m.match.deviation <= tolerance};
+    if (!result.within_tolerance)
+        result.record.warnings.push_back(
+            fmt::format("the spectrum is {:.1f} % off its target at {:.3g} s, more than the {:.1f} % asked for",
+                        100.0 * result.worst_deviation, result.worst_period, 100.0 * tolerance));
+    return result;
+}
+
 } // namespace
 
 SpectrumMatch spectrum_match(const std::vector<double>& accel, double dt, const TargetSpectrum& target, double pga)
@@ -86,46 +130,36 @@ SpectrumMatch spectrum_match(const std::vector<double>& accel, double dt, const 
 GeneratedRecord generate_record(const TargetSpectrum& target, const GenerateOptions& o)
 {
     check(o);
-    // 1. random phases under the envelope, spectrum roughly right
+    // random phases under the envelope, spectrum roughly right; then wavelets
     const auto n = static_cast<std::size_t>(std::lround(o.duration / o.dt)) + 1;
     const std::vector<double> envelope = envelope_samples(o.envelope, n);
     const std::uint64_t stream = o.component == MotionComponent::horizontal ? 0 : 1;
-    std::vector<double> accel = finished(random_phase_record(target, envelope, {o.dt, o.pga, o.seed, stream}), o.pga);
-    Deviations now = deviations(accel, o.dt, target, o.pga);
+    Matched m = match(finished(random_phase_record(target, envelope, {o.dt, o.pga, o.seed, stream}), o.pga), o.dt,
+                      target, o.pga, o.tolerance);
+    return with_story(described(std::move(m.accel), target, o), m, o.tolerance);
+}
 
-    // 2. wavelet passes, bolder after a good one, more careful after a bad one, which is dropped (Levenberg-Marquardt).
-    // Where no step
-    //    helps any more, one is taken all the same to get away. What counts is the finished record: rounded, at rest,
-    //    with its PGA
-    constexpr double start = 1e-4, boldest = 1e-7, too_careful = 0.1;
-    const std::vector<double> periods = logarithmic_periods(0.9 * matched_from, 1.1 * matched_to, 100);
-    std::vector<double> best = accel;
-    SpectrumMatch best_match = now.worst;
-    double regularisation = start;
-    int pass = 0, since_best = 0;
-    const auto good_enough = [&] {
-        return best_match.deviation <= 0.5 * o.tolerance ||
-               (best_match.deviation <= o.tolerance && since_best >= patience);
-    };
-    for (; pass < most_passes && !good_enough(); ++pass, ++since_best) {
-        std::vector<double> trial = accel;
-        match_by_wavelets(trial, o.dt, target, o.pga, periods, regularisation);
-        trial = finished(std::move(trial), o.pga);
-        const Deviations then = deviations(trial, o.dt, target, o.pga);
-        const bool better = then.norm<now.norm, stalled = regularisation> too_careful;
-        if (better || stalled) accel = std::move(trial), now = then;
-        if (now.worst.deviation < best_match.deviation) best = accel, best_match = now.worst, since_best = 0;
-        regularisation = better ? std::max(regularisation / 3.0, boldest) : stalled ? start : 4.0 * regularisation;
-    }
-
-    // 3. the record with its story
-    GeneratedRecord result{described(std::move(best), target, o), best_match.deviation, best_match.period, pass,
-                           best_match.deviation <= o.tolerance};
-    if (!result.within_tolerance)
-        result.record.warnings.push_back(
-            fmt::format("the spectrum is {:.1f} % off its target at {:.3g} s, more than the {:.1f} % asked for",
-                        100.0 * result.worst_deviation, result.worst_period, 100.0 * o.tolerance));
-    return result;
+GeneratedRecord matched_record(const Record& record, const TargetSpectrum& target, double pga, double tolerance)
+{
+    GenerateOptions o;
+    o.pga = pga;
+    o.tolerance = tolerance;
+    check(o);
+    const std::string& file = record.source.file;
+    if (!(record.dt >= 0.001 && record.dt <= 0.01))
+        throw InputError(Diagnostic{file, 0, 0, fmt::format("dt = {} s is not allowed for a match.", record.dt),
+                                    "0.001 to 0.01 s: five samples at the shortest period matched",
+                                    fmt::format("damslip record convert {} --new-dt 0.01 --out ...", file)});
+    if (record.duration() < 5.0)
+        throw InputError(Diagnostic{file, 0, 0,
+                                    fmt::format("a record of {:.4g} s is too short for a match.", record.duration()),
+                                    "5 s or more", "leave it out, or do not match"});
+    Matched m = match(finished(record.acceleration, pga), record.dt, target, pga, tolerance);
+    Record changed = record;
+    changed.acceleration = std::move(m.accel);
+    changed.source.title = fmt::format("{}{}matched by wavelets to {}, PGA {} m/s2", record.source.title,
+                                       record.source.title.empty() ? "" : "; ", target.name, pga);
+    return with_story(std::move(changed), m, tolerance);
 }
 
 } // namespace damslip::records

@@ -39,6 +39,12 @@ struct GeneratedRecord {
 /// @throws InputError for options outside their range.
 GeneratedRecord generate_record(const TargetSpectrum& target, const GenerateOptions& options);
 
+/// A record of an earthquake whose 5 % spectrum is brought to `target` * pga by the same wavelet passes, with the same end: it keeps
+/// its phases and its length, ends at rest and reaches the PGA exactly.
+/// @param record  scaled already as near as a factor brings it: dt 0.001 ... 0.01 s, 5 s long at least @param pga  [m/s^2]
+/// @param tolerance  0.01 ... 0.5 [-] @throws InputError for a record that is coarser or shorter, with the fix
+GeneratedRecord matched_record(const Record& record, const TargetSpectrum& target, double pga, double tolerance);
+
 /// Largest |S_a/(pga target) - 1| over the matched band and its period.
 struct SpectrumMatch {
     double deviation = 0.0; ///< [-]

@@ -11,12 +11,12 @@
 namespace damslip::sliding {
 namespace {
 
-void require(bool holds, std::vector<Diagnostic>& found, const std::string& what, double value,
-             const std::string& expected, const std::string& fix)
+void require(bool holds, std::vector<Diagnostic>& found, const char* what, double value, const char* expected,
+             const char* fix)
 {
     if (holds) return;
     Diagnostic diagnostic;
-    diagnostic.problem = "rigid block: " + what + " = " + shortest(value) + " is not allowed.";
+    diagnostic.problem = std::string("rigid block: ") + what + " = " + shortest(value) + " is not allowed.";
     diagnostic.expected = expected;
     diagnostic.fix = fix;
     found.push_back(diagnostic);

@@ -7,12 +7,16 @@ namespace damslip::sliding {
 
 enum class SlipDirection { downstream = 1, upstream = -1 };
 
+class SlowWater;
+
 /// Change of the uplift of a block by the crack that its own motion opens, for each direction of sliding [N/m]. While a block
 /// slides it has the acceleration at which it began to, whatever the ground does, and so one crack: only the vertical
 /// acceleration changes it. Below that it rests, and how much it is pressed does not matter.
 struct OpeningUplift {
     std::vector<double> accel_v;              ///< a_v, ascending, at least one [m/s²]
     std::vector<double> downstream, upstream; ///< change of U there, linear between, constant beyond [N/m]
+    /// Water that needs time to come in; the table is then its limit for fast water. Null: it is there at once.
+    std::shared_ptr<const SlowWater> slow = {};
 
     double at(SlipDirection direction, double a_v) const;
     double per_accel_v(SlipDirection direction) const; ///< about a_v = 0 [kg/m]

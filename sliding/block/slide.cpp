@@ -4,11 +4,14 @@
 #include "core/input_error.hpp"
 #include "core/number.hpp"
 #include "sliding/block/slammer.hpp"
+#include "sliding/block/slide_rests.hpp"
 #include "sliding/block/slip_motion.hpp"
+#include "sliding/block/slow_water.hpp"
 #include "sliding/block/yield.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 
 namespace damslip::sliding {
 namespace {
@@ -52,7 +55,7 @@ void add_changes(const GroundMotion& motion, double slip, SlideResult& result)
         before = event.slip;
     }
     const std::size_t left = motion.events.size() - result.events.size();
-    if (left > 0)
+    if (left > 0 && (result.status == Status::at_rest || result.status == Status::sliding_at_end))
         result.notes.push_back("The block did not come to rest after \"" + result.events.back().name + "\": " +
                                std::to_string(left) + (left == 1 ? " event" : " events") + " of the sequence not run.");
 }
@@ -94,6 +97,10 @@ void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& 
         result.notes.push_back("The water in the crack that its sliding opens carries the whole block (N' = " +
                                shortest(static_normal_force(block)) + " N/m at rest, uplift up to " +
                                shortest(block.opening->largest()) + " N/m more): nothing resists while it slides.");
+    if (block.opening && block.opening->slow)
+        result.notes.push_back("Water that needs time to come into the crack: with " +
+                               shortest(block.opening->slow->speed()) + " m/s it came " +
+                               shortest(std::round(1e3 * result.wet_length) / 1e3) + " m far at most.");
     if (result.lift_offs > 0)
         result.notes.push_back("The base opened " + std::to_string(result.lift_offs) +
                                " times (N' = 0); lift-off is treated as " +
@@ -101,9 +108,52 @@ void add_notes(const SlipStages& stages, StaticState state, const SlideOptions& 
                                                                                : "loss of resistance without flight."));
 }
 
+/// Longest cracks from heel and toe under a motion.
+struct LongestCracks {
+    double heel = 0.0, toe = 0.0; ///< [m]
+
+    void look(const RestBetweenEvents& rests, double a_h, double a_v)
+    {
+        heel = std::max(heel, rests.crack(SlipDirection::downstream, a_h, a_v));
+        toe = std::max(toe, rests.crack(SlipDirection::upstream, a_h, a_v));
+    }
+};
+
+/// The static states between records, one after the other.
+class Rests {
+public:
+    explicit Rests(const RestBetweenEvents* rests) : rests_(rests) {}
+
+    void look(double a_h, double a_v)
+    {
+        if (rests_) cracks_.look(*rests_, a_h, a_v);
+    }
+    /// @returns false where the block does not stand there
+    bool take(SlipMotion& block, SlideResult& result)
+    {
+        if (!rests_) return true;
+        const RestBetweenEvents::Rest& now = taken_.emplace_back(rests_->rest(cracks_.heel, cracks_.toe));
+        rests_ = now.next.get();
+        state_ = static_state(now.stages.front().block);
+        const bool stands = state_ == StaticState::at_rest;
+        result.notes.push_back("After \"" + result.events.back().name + "\": " + now.note +
+                               (stands ? "" : " It does not stand there: the sequence ends."));
+        if (!stands) return false;
+        block.stand_on(now.stages);
+        return true;
+    }
+    StaticState state() const { return state_; }
+
+private:
+    const RestBetweenEvents* rests_;
+    LongestCracks cracks_;
+    std::list<RestBetweenEvents::Rest> taken_; ///< the block looks at the stages of the last one
+    StaticState state_ = StaticState::at_rest;
+};
+
 /// `blocks`: ranges of the motion's blocks of samples, for skipping; null: every interval is looked at.
 SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
-                        const SlideOptions& options)
+                        const SlideOptions& options, const RestBetweenEvents* between = nullptr)
 {
     const bool vertical = !motion.accel_v.empty();
     const double polarity = options.polarity;
@@ -119,11 +169,14 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         return options.polarity > 0 ? block.stays_at_rest(r.h_min, r.h_max, r.v_min, r.v_max)
                                     : block.stays_at_rest(-r.h_max, -r.h_min, r.v_min, r.v_max);
     };
+    Rests static_rests(between);
+    if (between) static_rests.look(a_h(0), a_v(0));
     std::size_t n = 0; // intervals so far, those between events included
     const auto now = [&] { return static_cast<double>(n) * motion.dt; };
     const auto cross = [&](const Line& h, const Line& v) {
         block.cross(now(), motion.dt, h, v);
         ++n;
+        static_rests.look(h.end, v.end);
         if (history) block.add_sample(now(), h.end, v.end, *history);
     };
     const std::size_t events = std::max<std::size_t>(1, motion.events.size());
@@ -132,12 +185,12 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (e > 0) cross({0.0, a_h(first)}, {0.0, a_v(first)});
         if (motion.is_sequence()) result.events.push_back({motion.events[e].name, now(), now(), 0.0, 0.0});
         for (std::size_t k = first; k < last && !block.unresolved(); ++k) {
-            if (blocks && !history && block.at_rest()) {
+            if (blocks && !history && !between && block.at_rest()) {
                 const std::size_t next = std::min(blocks->skip(k, rests), last);
                 n += next - k;
                 k = next;
             }
-            if (!history && k < last) {
+            if (!history && !between && k < last) {
                 const std::size_t next = block.pass(motion, polarity, k, last, n);
                 n += next - k;
                 k = next;
@@ -151,11 +204,13 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
             e + 1 < events && stands && !defect(Defect::run_out_off) &&
             pause(block, motion, options.sliding.run_out_max, {a_h(last), 0.0}, {a_v(last), 0.0}, cross);
         result.events.back().slip = block.slip();
-        if (!rests_then) break;
+        if (!rests_then || !static_rests.take(block, result)) break;
     }
     const double end = now();
     if (stands && !defect(Defect::run_out_off)) run_out(block, end, motion.dt, options.sliding.run_out_max, history);
     conclude(block, stages, options, end, result);
+    if (static_rests.state() != StaticState::at_rest && !block.unresolved())
+        result.status = status_of(static_rests.state());
     add_changes(motion, block.slip(), result);
     return result;
 }
@@ -204,6 +259,17 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
     check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
     return slide_exact(motion, nullptr, stages, options);
+}
+
+SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options,
+                  const RestBetweenEvents* rests)
+{
+    if (!rests || !motion.is_sequence() || options.sliding.scheme == SlidingScheme::slammer)
+        return slide(motion, stages, options);
+    check_motion(motion);
+    check_stages(stages);
+    check_anchors(options);
+    return slide_exact(motion, nullptr, stages, options, rests);
 }
 
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)

@@ -66,6 +66,7 @@ struct SlideResult {
     double last_landing_time =
         std::numeric_limits<double>::quiet_NaN(); ///< when the base last shut after a flight [s]; NaN: never
     double impact_loss = 0.0;           ///< kinetic energy that landings took, friction's impulses included [J/m]
+    double wet_length = 0.0;            ///< how far water came into the crack at most (uplift.opening mouth) [m]
     std::vector<EventSlip> events;      ///< of a sequence, as far as they were reached; else empty
     std::vector<std::string> notes;     ///< sentences for people
     std::vector<AnchorOutcome> anchors; ///< in the order of the options

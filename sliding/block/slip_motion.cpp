@@ -2,6 +2,7 @@
 
 #include "sliding/block/roots.hpp"
 #include "sliding/block/sloped_slip.hpp"
+#include "sliding/block/slow_water.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,21 +29,44 @@ int events_per_interval(const SlipStage& stage)
     return stage.restitution > 0.0 ? 200000 : stage.rate.active() ? 5000 : 1000;
 }
 
+/// Water comes less than this share of the base further in one part of an interval, in at most so many parts.
+constexpr double water_share = 1.0 / 128.0;
+constexpr int most_parts = 64;
+
 constexpr double shortest_flight = 1e-13; ///< [s]; a landing that would rebound for less stays
 
 } // namespace
 
-SlipMotion::SlipMotion(const SlipStages& stages, const SlideOptions& options)
-    : stages_(stages), options_(options.sliding)
+SlipMotion::SlipMotion(const SlipStages& stages, const SlideOptions& options) : options_(options.sliding)
 {
+    for (const AnchorBar& bar : options.anchors) anchors_.emplace_back(bar);
+    take_stages(stages);
+}
+
+void SlipMotion::stand_on(const SlipStages& stages)
+{
+    take_stages(stages);
+    if (!anchors_.empty()) hold_anchors();
+    touching_ = true;
+}
+
+void SlipMotion::take_stages(const SlipStages& stages)
+{
+    stages_ = stages;
+    forms_.clear();
+    plain_.clear();
     forms_.reserve(stages.size());
     for (const SlipStage& stage : stages) {
         forms_.push_back(forms_of(stage.block));
-        plain_.push_back(options.anchors.empty() && !stage.rate.active() && stage.friction_slope == 0.0 &&
+        plain_.push_back(anchors_.empty() && !stage.rate.active() && stage.friction_slope == 0.0 &&
                          !stage.block.opening);
     }
-    if (options.anchors.empty()) return;
-    for (const AnchorBar& bar : options.anchors) anchors_.emplace_back(bar);
+    if (const SlowWater* water = slow_water()) {
+        const double heel = water->first(SlipDirection::downstream), toe = water->first(SlipDirection::upstream);
+        wet_down_ = {heel, heel};
+        wet_up_ = {toe, toe};
+    }
+    if (anchors_.empty()) return;
     anchored_ = stages;
     unanchored_forms_ = forms_;
 }
@@ -64,7 +88,51 @@ SlipMotion::StageForms SlipMotion::forms_of(const RigidBlock& block)
             .bond = block.cohesion_force + block.dowel_force};
 }
 
+/// Water on its way is brought forward in parts of the interval; all else is exact whatever the length of a part.
 void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v)
+{
+    const SlowWater* water = slow_water();
+    if (!water) {
+        cross_part(start, dt, a_h, a_v);
+        return;
+    }
+    const double wanted = std::ceil(water->speed() * dt / (water_share * water->length()));
+    const int parts = static_cast<int>(std::clamp(wanted, 4.0, static_cast<double>(most_parts)));
+    for (int k = 0; k < parts && !unresolved_; ++k) {
+        const double from = static_cast<double>(k) / parts, to = static_cast<double>(k + 1) / parts;
+        const Line h{a_h.at(from), a_h.at(to)}, v{a_v.at(from), a_v.at(to)};
+        let_water_flow(*water, dt / parts, h.end, v.end);
+        cross_part(start + from * dt, dt / parts, h, v);
+    }
+}
+
+const SlowWater* SlipMotion::slow_water() const
+{
+    const OpeningUplift* opening = stages_[stage_].block.opening.get();
+    return opening ? opening->slow.get() : nullptr;
+}
+
+/// Where the water will be at the end of a part, (a_h, a_v) being the ground's acceleration then.
+void SlipMotion::let_water_flow(const SlowWater& water, double dt, double a_h, double a_v)
+{
+    const auto flow = [&](SlipDirection direction, Line& wet) {
+        wet.now = wet.end;
+        const double come = std::min(wet.now + water.speed() * dt, water.length());
+        if (airborne_) {
+            wet.end = come;
+        } else if (moving_ && direction_ != direction) {
+            wet.end = water.first(direction);
+        } else {
+            wet.end = water.sliding(direction, a_v, come).wet;
+            if (!moving_) wet.end = std::min(wet.end, water.at_rest(direction, a_h, a_v, come).wet);
+        }
+        longest_wet_ = std::max(longest_wet_, wet.end);
+    };
+    flow(SlipDirection::downstream, wet_down_);
+    flow(SlipDirection::upstream, wet_up_);
+}
+
+void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line& a_v)
 {
     time_ = start;
     span_ = dt;
@@ -108,6 +176,11 @@ void SlipMotion::read_opening()
     const OpeningUplift* opening = stage().block.opening.get();
     if (!opening) return;
     const auto over = [&](SlipDirection direction) {
+        if (const SlowWater* slow = opening->slow.get()) {
+            const Line& wet = direction == SlipDirection::downstream ? wet_down_ : wet_up_;
+            return Line{slow->sliding(direction, a_v_.now, wet.now).change,
+                        slow->sliding(direction, a_v_.end, wet.end).change};
+        }
         return Line{opening->at(direction, a_v_.now), opening->at(direction, a_v_.end)};
     };
     opening_down_ = over(SlipDirection::downstream);
@@ -138,7 +211,7 @@ void SlipMotion::settle_contact()
     touching_ = moving_ ? above_zero(sliding)
                         : above_zero(line(forms().equations.normal)) || (bond_stays() && above_zero(sliding));
     if (was_touching != touching_) ++changes_;
-    if (was_touching && !touching_) ++lift_offs_;
+    if (was_touching && !touching_) ++slid_.lift_offs;
     if (options_.lift_off == LiftOff::ballistic && !touching_ && above_zero(-sliding)) airborne_ = true;
 }
 
@@ -178,7 +251,7 @@ void SlipMotion::turn_contact()
     }
     touching_ = !touching_;
     if (touching_) return;
-    ++lift_offs_;
+    ++slid_.lift_offs;
     // At rest on an inclined base with added mass N' = 0 need not be where a sliding block leaves its base.
     const bool leaves = moving_ || forms().equations.mass_tn == 0.0 || above_zero(-line(forms().free_normal));
     airborne_ = leaves && options_.lift_off == LiftOff::ballistic;
@@ -321,7 +394,7 @@ void SlipMotion::start(SlipDirection direction)
     direction_ = direction;
     rate_ = 0.0;
     phase_start_path_ = path_;
-    if (++phases_ == 1) first_time_ = time_;
+    if (++slid_.phases == 1) slid_.first_time = time_;
     const bool changed = enter_stages();
     if (changed) from_rest_ = false;
     // Off the horizontal N' of the moving block is another one than that of the block at rest.
@@ -335,9 +408,9 @@ void SlipMotion::stop()
     from_rest_ = false;
     rate_ = 0.0;
     if (path_ == phase_start_path_)
-        --phases_; // nothing moved: a start taken back
+        --slid_.phases; // nothing moved: a start taken back
     else
-        last_time_ = time_;
+        slid_.last_time = time_;
     if (forms().equations.mass_tn != 0.0 || stage().block.opening) settle_contact();
 }
 
@@ -401,10 +474,10 @@ void SlipMotion::move()
 
     const double accel_then = h == span_ ? accel.end : accel.at(h / span_);
     if (accel.now > 0.0 && accel_then < 0.0)
-        peak_rate_ = std::max(peak_rate_, rate_ - accel.now * accel.now / (2.0 * jerk));
+        slid_.peak_rate = std::max(slid_.peak_rate, rate_ - accel.now * accel.now / (2.0 * jerk));
     add_slip(h * (rate_ + h * (2.0 * accel.now + accel_then) / 6.0));
     rate_ = std::max(0.0, rate_ + 0.5 * h * (accel.now + accel_then));
-    peak_rate_ = std::max(peak_rate_, rate_);
+    slid_.peak_rate = std::max(slid_.peak_rate, rate_);
     from_rest_ = from_rest_ && h == 0.0;
     elapse(h);
     meet(h, h_stage, h_stop, h_contact);
@@ -415,10 +488,11 @@ template <class Step>
 void SlipMotion::go_along(const Step& step, double h)
 {
     if (step.accel(0.0) > 0.0 && step.accel(h) < 0.0)
-        peak_rate_ = std::max(peak_rate_, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
+        slid_.peak_rate =
+            std::max(slid_.peak_rate, step.rate(bracketed_root([&](double x) { return step.accel(x); }, 0.0, h)));
     add_slip(step.path(h));
     rate_ = std::max(0.0, step.rate(h));
-    peak_rate_ = std::max(peak_rate_, rate_);
+    slid_.peak_rate = std::max(slid_.peak_rate, rate_);
     from_rest_ = from_rest_ && h == 0.0;
 }
 
@@ -553,8 +627,8 @@ void SlipMotion::add_slip(double path)
 {
     path = std::max(path, 0.0);
     path_ += path;
-    (direction_ == SlipDirection::downstream ? downstream_ : upstream_) += path;
-    max_slip_ = std::max(max_slip_, std::abs(downstream_ - upstream_));
+    (direction_ == SlipDirection::downstream ? slid_.downstream : slid_.upstream) += path;
+    slid_.largest = std::max(slid_.largest, std::abs(slid_.downstream - slid_.upstream));
 }
 
 /// Time passes; the gap moves on, the ground lines are cut to the rest of the interval.
@@ -581,18 +655,22 @@ void SlipMotion::elapse(double h)
         a_v_.now = a_v_.end;
         opening_down_.now = opening_down_.end;
         opening_up_.now = opening_up_.end;
+        wet_down_.now = wet_down_.end;
+        wet_up_.now = wet_up_.end;
         return;
     }
     a_h_.now = a_h_.at(h / span_);
     a_v_.now = a_v_.at(h / span_);
     opening_down_.now = opening_down_.at(h / span_);
     opening_up_.now = opening_up_.at(h / span_);
+    wet_down_.now = wet_down_.at(h / span_);
+    wet_up_.now = wet_up_.at(h / span_);
     span_ -= h;
 }
 
 bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
 {
-    if (!at_rest() || moving_ || !touching_) return false;
+    if (!at_rest() || moving_ || !touching_ || slow_water()) return false;
     const BaseEquations& e = forms().equations;
     const RigidBlock& block = stage().block;
     const double mu = friction();

@@ -5,6 +5,7 @@
 #include "sliding/block/line.hpp"
 #include "sliding/block/rated_slip.hpp"
 #include "sliding/block/slide.hpp"
+#include "sliding/block/slip_totals.hpp"
 
 #include <span>
 #include <vector>
@@ -26,14 +27,17 @@ public:
     /// @returns the first interval that is cross()'s business
     std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before);
 
+    /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.
+    void stand_on(const SlipStages& stages);
+
     bool moving() const { return moving_ && rate_ > 0.0; }
     bool at_rest() const { return !moving() && !airborne_; }
     bool unresolved() const { return unresolved_; }
     bool used_series() const { return used_series_; }
-    bool on_base() const { return touching_ && !airborne_; } ///< N' > 0, there is resistance
-    double rate() const { return moving() ? rate_ : 0.0; }   ///< |slip rate| [m/s]
-    double slip() const { return downstream_ - upstream_; }  ///< so far [m]
-    double peak_rate() const { return peak_rate_; }          ///< largest |slip rate| so far [m/s]
+    bool on_base() const { return touching_ && !airborne_; }          ///< N' > 0, there is resistance
+    double rate() const { return moving() ? rate_ : 0.0; }            ///< |slip rate| [m/s]
+    double slip() const { return slid_.downstream - slid_.upstream; } ///< so far [m]
+    double peak_rate() const { return slid_.peak_rate; }              ///< largest |slip rate| so far [m/s]
     /// Starts, stops, contacts and stages so far: two equal counts say that nothing of the kind came between.
     long changes() const { return changes_; }
     void add_sample(double time, double a_h, double a_v, SlideHistory& history) const;
@@ -55,6 +59,10 @@ private:
         double bond = 0.0;                                 ///< cohesion and dowels [N/m]
     };
 
+    void take_stages(const SlipStages& stages);
+    void cross_part(double start, double dt, const Line& a_h, const Line& a_v);
+    const SlowWater* slow_water() const;
+    void let_water_flow(const SlowWater& water, double dt, double a_h, double a_v);
     void wait();
     void wait_pressed();
     void wait_lagging();
@@ -111,6 +119,7 @@ private:
     double span_ = 0.0; ///< rest of the interval [s]
     Line a_h_, a_v_;
     Line opening_down_, opening_up_; ///< change of the uplift while it slides [N/m]
+    Line wet_down_, wet_up_;         ///< x_w in the crack at heel and toe (SlowWater) [m]
 
     // The block. Its direction is only meaningful while it moves; rate and path are counted along it.
     std::size_t stage_ = 0;
@@ -126,10 +135,11 @@ private:
     double ratio_ = 1.0;                ///< mu over that of rest, where it lags behind the rate [-]
 
     // Results.
-    double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, max_gap_ = 0.0;
-    double first_time_ = 0.0, last_time_ = 0.0, phase_start_path_ = 0.0;
+    SlipTotals slid_;
+    double max_gap_ = 0.0, phase_start_path_ = 0.0;
     double last_landing_ = 0.0, impact_loss_ = 0.0;
-    int phases_ = 0, lift_offs_ = 0, landings_ = 0;
+    double longest_wet_ = 0.0; ///< largest x_w [m]
+    int landings_ = 0;
     long changes_ = 0;
     bool unresolved_ = false, used_series_ = false;
 };

@@ -29,7 +29,7 @@ void SlipMotion::add_sample(double time, double a_h, double a_v, SlideHistory& h
         normal_force += e.mass_tn * sign(direction_) * accel;
     }
     history.time.push_back(time);
-    history.slip.push_back(downstream_ - upstream_);
+    history.slip.push_back(slid_.downstream - slid_.upstream);
     history.slip_rate.push_back(moving_ ? sign(direction_) * rate_ : 0.0);
     history.yield.push_back(yield_with_lift_off(block, e, a_v));
     history.normal_force.push_back(touching_ && !airborne_ ? std::max(0.0, normal_force) : 0.0);
@@ -38,25 +38,17 @@ void SlipMotion::add_sample(double time, double a_h, double a_v, SlideHistory& h
 
 void SlipMotion::write(SlideResult& result) const
 {
-    result.slip = downstream_ - upstream_;
-    result.max_slip = max_slip_;
-    result.downstream_slip = downstream_;
-    result.upstream_slip = upstream_;
-    result.peak_slip_rate = peak_rate_;
-    result.phases = phases_;
-    result.lift_offs = lift_offs_;
+    result.slip = slid_.downstream - slid_.upstream;
+    slid_.write(result, time_, moving());
     result.max_gap = max_gap_;
     result.landings = landings_;
     result.impact_loss = impact_loss_;
+    result.wet_length = longest_wet_;
     if (landings_ > 0) result.last_landing_time = last_landing_;
-    result.end_time = time_;
     result.accuracy = used_series_ ? SlideAccuracy::series : SlideAccuracy::closed_form;
     for (const BlockAnchor& anchor : anchors_)
         result.anchors.push_back(
             {anchor.bar.name, anchor.history, anchor.bar.yield_force, anchor.history.stored(anchor.bar)});
-    if (phases_ == 0) return;
-    result.first_slip_time = first_time_;
-    result.last_slip_time = moving() ? time_ : last_time_;
 }
 
 } // namespace damslip::sliding

@@ -107,10 +107,10 @@ std::size_t SlipMotion::pass_sliding(const GroundMotion& motion, double polarity
         const double path = dt * (rate_ + dt * (2.0 * accel.now + accel.end) / 6.0);
         if (next_stage_path() != never && time_of_stage(dt, accel) != never) break;
         if (accel.now > 0.0 && accel.end < 0.0)
-            peak_rate_ = std::max(peak_rate_, rate_ - accel.now * accel.now / (2.0 * jerk));
+            slid_.peak_rate = std::max(slid_.peak_rate, rate_ - accel.now * accel.now / (2.0 * jerk));
         add_slip(path);
         rate_ = std::max(0.0, rate_ + 0.5 * dt * (accel.now + accel.end));
-        peak_rate_ = std::max(peak_rate_, rate_);
+        slid_.peak_rate = std::max(slid_.peak_rate, rate_);
     }
     span_ = 0.0;
     return k;

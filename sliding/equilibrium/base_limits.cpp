@@ -120,8 +120,12 @@ BaseLimits base_limits(const Scene& scene, const SeepageProfile& seepage, std::o
     const BaseState before = base_state(scene, static_case, seepage);
     const AddedMassIntegral water = scene_added_mass(scene, static_case.loads.reservoir_level);
     BaseLimits limits;
-    limits.tips = tipping_acceleration(scene, water, before, 0.0, Towards::downstream);
-    limits.tips_upstream = tipping_acceleration(scene, water, before, 0.0, Towards::upstream);
+    const auto tips = [&](Towards towards, Side opens) {
+        return tipping_acceleration(scene, water, with_open_joint(scene, static_case, before, opens, seepage), 0.0,
+                                    towards);
+    };
+    limits.tips = tips(Towards::downstream, Side::heel);
+    limits.tips_upstream = tips(Towards::upstream, Side::toe);
     const ShakenJoint joint(scene, static_case, water, before, seepage);
     limits.opens = smallest_acceleration([&](double a_h) { return joint.open(a_h); });
     const RigidBlock block = make_rigid_block(scene, before, static_case.loads.reservoir_level);

@@ -24,7 +24,9 @@ double tipping_acceleration(const Scene& scene, const AddedMassIntegral& water, 
 /// Constant horizontal ground accelerations at which the sliding block ends to be a model of the dam, without vertical
 /// acceleration.
 struct BaseLimits {
-    double tips = std::numeric_limits<double>::infinity();          ///< about the toe, uplift unchanged [m/s^2]
+    /// About the toe, with the uplift of the joint that is open then where uplift.opening says one, else unchanged; there the
+    /// block that rocks begins to [m/s^2].
+    double tips = std::numeric_limits<double>::infinity();
     double tips_upstream = std::numeric_limits<double>::infinity(); ///< about the heel [m/s^2]
     /// Downstream: from here on the joint is open from heel to toe, and whatever bond it had is lost [m/s^2]. By the crack
     /// rule of the state; `none` and `static` say nothing of what the earthquake opens, `seismic-unchanged` is taken.

@@ -2,6 +2,7 @@
 
 #include "core/units.hpp"
 #include "sliding/block/base_equations.hpp"
+#include "sliding/equilibrium/mouth_water.hpp"
 #include "sliding/equilibrium/shaken_base.hpp"
 
 #include <algorithm>
@@ -110,6 +111,9 @@ std::shared_ptr<const OpeningUplift> opening_uplift(const Scene& scene, const St
         table.downstream.push_back(edge.change(SlipDirection::downstream, a_v));
         table.upstream.push_back(edge.change(SlipDirection::upstream, a_v));
     }
+    const JointWaterLaw& law = scene.uplift->water;
+    if (law.opening == OpeningWater::mouth)
+        table.slow = mouth_water(scene, static_case, before, block, *law.mouth_speed, vertical, seepage);
     return std::make_shared<const OpeningUplift>(std::move(table));
 }
 

@@ -85,6 +85,15 @@ std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const St
     return std::nullopt;
 }
 
+BaseState with_open_joint(const Scene& scene, const StaticCase& static_case, const BaseState& before, Side opens,
+                          const SeepageProfile& seepage)
+{
+    BaseState state = before;
+    if (const auto uplift = uplift_of_open_joint(scene, static_case, before, opens, seepage))
+        state.base.uplift = *uplift;
+    return state;
+}
+
 double bonded_length(const BaseState& before, const CrackedBase& base)
 {
     const double length = before.frame.length;

@@ -23,6 +23,11 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
 std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,
                                                     const BaseState& before, Side opens, const SeepageProfile& seepage);
 
+/// The static state with the uplift of the joint that is open from `opens` to the other end, where uplift.opening names one:
+/// what tips about that other end stands on it.
+BaseState with_open_joint(const Scene& scene, const StaticCase& static_case, const BaseState& before, Side opens,
+                          const SeepageProfile& seepage);
+
 /// Length still bonded [m]: neither in the static crack nor in the one under the earthquake.
 double bonded_length(const BaseState& before, const CrackedBase& base);
 

@@ -2,8 +2,10 @@
 
 #include "scene/section.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace damslip::sliding {
 
@@ -15,15 +17,29 @@ struct Moments {
     double zeroth = 0.0, first = 0.0, second = 0.0;
 };
 
-template <class Function>
-Moments integrate(Function f)
+struct Node {
+    double w, weight;
+};
+
+std::array<Node, 109> tanh_sinh_nodes()
 {
     constexpr int half = 54;
     constexpr double step = 1.0 / 16.0;
-    Moments sum;
+    std::array<Node, 2 * half + 1> nodes;
     for (int k = -half; k <= half; ++k) {
         const double t = k * step, e = std::exp(-std::numbers::pi * std::sinh(t));
-        const double w = 1.0 / (1.0 + e), weight = step * std::numbers::pi * std::cosh(t) * w * (e * w);
+        const double w = 1.0 / (1.0 + e);
+        nodes[static_cast<std::size_t>(k + half)] = {w, step * std::numbers::pi * std::cosh(t) * w * (e * w)};
+    }
+    return nodes;
+}
+
+template <class Function>
+Moments integrate(Function f)
+{
+    static const std::array<Node, 109> nodes = tanh_sinh_nodes();
+    Moments sum;
+    for (const auto& [w, weight] : nodes) {
         const double value = weight * f(w);
         sum.zeroth += value;
         sum.first += w * value;
@@ -55,6 +71,17 @@ void add_piece(const AddedMass& method, const WaterColumn& water, Point upper, P
     sum.rotation += length * (arm * arm * m.zeroth + 2.0 * arm * change * m.first + change * change * m.second);
 }
 
+bool same(const AddedMass& a, const AddedMass& b)
+{
+    return a.formula == b.formula && a.period == b.period && a.inclined_face == b.inclined_face &&
+           a.zangar_table == b.zangar_table;
+}
+
+bool same(const WaterColumn& a, const WaterColumn& b)
+{
+    return a.depth == b.depth && a.density == b.density && a.bulk_modulus == b.bulk_modulus;
+}
+
 Point at_height(Point a, Point b, double y)
 {
     const double s = (y - a.y) / (b.y - a.y);
@@ -83,8 +110,22 @@ AddedMassIntegral scene_added_mass(const Scene& scene, std::optional<double> lev
 {
     if (!scene.reservoir || !level || !(*level > 0.0) || scene.reservoir->model == ReservoirModel::hydrostatic)
         return {};
+    // A sweep over friction asks for the same integral for each of its models: the last one is kept, for each thread.
+    struct Last {
+        AddedMass method;
+        WaterColumn water;
+        Polyline face;
+        AddedMassIntegral sum;
+    };
+    static thread_local std::optional<Last> last;
     const WaterColumn water{*level, scene.reservoir->density, scene.reservoir->bulk_modulus};
-    return integrate_added_mass(scene.added_mass, water, upstream_face(scene.section));
+    Polyline face = upstream_face(scene.section);
+    if (!last || !same(last->method, scene.added_mass) || !same(last->water, water) || last->face != face) {
+        last.reset(); // also where the integral is refused
+        const AddedMassIntegral sum = integrate_added_mass(scene.added_mass, water, face);
+        last = Last{scene.added_mass, water, std::move(face), sum};
+    }
+    return last->sum;
 }
 
 FaceLoad hydrodynamic_force(const AddedMassIntegral& mass, double ax, double ay)

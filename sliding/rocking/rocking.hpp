@@ -29,6 +29,7 @@ struct RockingResult {
     double overturned_time = std::numeric_limits<double>::quiet_NaN();    ///< [s]; NaN: did not
     RockingEnergy energy;
     std::vector<double> rotation; ///< at the samples of slide.history, clockwise [rad]
+    std::vector<double> uplift;   ///< U there, of the base or of the open joint [N/m]
 };
 
 /// How the block stands when the motion begins.

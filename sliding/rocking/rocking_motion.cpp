@@ -283,8 +283,8 @@ void RockingMotion::note_extremes(double h, const State& to)
     if (y_[turn_rate] * to[turn_rate] < 0.0)
         note(after(bracketed_root([&](double x) { return after(x)[turn_rate]; }, 0.0, h))[turn]);
     note(to[turn]);
-    max_slip_ = std::max(max_slip_, std::abs(to[slip]));
-    peak_rate_ = std::max(peak_rate_, std::abs(to[slip_rate]));
+    slid_.largest = std::max(slid_.largest, std::abs(to[slip]));
+    slid_.peak_rate = std::max(slid_.peak_rate, std::abs(to[slip_rate]));
     largest_work_ = std::max(
         {largest_work_, std::abs(to[work_ground]), std::abs(to[work_loads]), to[work_friction] + landing_loss_});
 }
@@ -292,7 +292,7 @@ void RockingMotion::note_extremes(double h, const State& to)
 void RockingMotion::elapse(double h, const State& to)
 {
     note_extremes(h, to);
-    (direction_ > 0.0 ? downstream_ : upstream_) += std::abs(to[slip] - y_[slip]);
+    (direction_ > 0.0 ? slid_.downstream : slid_.upstream) += std::abs(to[slip] - y_[slip]);
     y_ = to;
     time_ += h;
     if (h >= span_) {
@@ -328,7 +328,7 @@ void RockingMotion::apply(Event event)
         break;
     case Event::press:
         pressed_ = !pressed_;
-        if (!pressed_) ++lift_offs_;
+        if (!pressed_) ++slid_.lift_offs;
         settle();
         break;
     case Event::stage:
@@ -348,9 +348,9 @@ void RockingMotion::stop()
     sliding_ = false;
     y_[slip_rate] = 0.0;
     if (y_[path] == phase_start_path_)
-        --phases_; // nothing moved: a start taken back
+        --slid_.phases; // nothing moved: a start taken back
     else
-        last_time_ = time_;
+        slid_.last_time = time_;
 }
 
 void RockingMotion::start(double drive)
@@ -358,7 +358,7 @@ void RockingMotion::start(double drive)
     sliding_ = true;
     direction_ = drive < 0.0 ? -1.0 : 1.0;
     phase_start_path_ = y_[path];
-    if (++phases_ == 1) first_time_ = time_;
+    if (++slid_.phases == 1) slid_.first_time = time_;
     enter_stages();
 }
 
@@ -537,31 +537,24 @@ void RockingMotion::add_sample(double time, RockingResult& result) const
     history.slip_rate.push_back(y_[slip_rate]);
     history.normal_force.push_back(pressed_ ? std::max(0.0, instant(0.0, y_).normal) : 0.0);
     result.rotation.push_back(y_[turn]);
+    result.uplift.push_back(stance_ == Stance::base ? block_.stages[stage_].slip.block.uplift
+                                                    : standing().force_n - block_.force_n);
 }
 
 void RockingMotion::write(RockingResult& result) const
 {
-    std::vector<double> rotation = std::move(result.rotation);
+    std::vector<double> rotation = std::move(result.rotation), uplift = std::move(result.uplift);
     SlideHistory history = std::move(result.slide.history);
     result = seen_;
     result.rotation = std::move(rotation);
+    result.uplift = std::move(uplift);
     SlideResult& r = result.slide;
     r.history = std::move(history);
     r.accuracy = SlideAccuracy::series;
     r.slip = y_[slip];
-    r.max_slip = max_slip_;
-    r.downstream_slip = downstream_;
-    r.upstream_slip = upstream_;
-    r.peak_slip_rate = peak_rate_;
-    r.phases = phases_;
-    r.lift_offs = lift_offs_;
+    slid_.write(r, time_, sliding_);
     r.max_gap = block_.length *
                 std::sin(std::min(0.5 * std::numbers::pi, std::max(seen_.max_toe_rotation, seen_.max_heel_rotation)));
-    r.end_time = time_;
-    if (phases_ > 0) {
-        r.first_slip_time = first_time_;
-        r.last_slip_time = sliding_ ? time_ : last_time_;
-    }
     RockingEnergy& e = result.energy;
     e.ground = y_[work_ground];
     e.loads = y_[work_loads];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sliding/block/line.hpp"
+#include "sliding/block/slip_totals.hpp"
 #include "sliding/rocking/corner.hpp"
 #include "sliding/rocking/dormand_prince.hpp"
 #include "sliding/rocking/rocking.hpp"
@@ -105,9 +106,9 @@ private:
     std::size_t stage_ = 0;
 
     // Results.
-    double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, phase_start_path_ = 0.0;
-    double first_time_ = 0.0, last_time_ = 0.0, landing_loss_ = 0.0, largest_work_ = 0.0, first_energy_ = 0.0;
-    int phases_ = 0, lift_offs_ = 0;
+    SlipTotals slid_;
+    double phase_start_path_ = 0.0;
+    double landing_loss_ = 0.0, largest_work_ = 0.0, first_energy_ = 0.0;
     RockingResult seen_; ///< rotations, counts and times
     bool unresolved_ = false, overturned_ = false, jammed_ = false;
 };

@@ -41,6 +41,12 @@ void check(const AccuracyArguments& a)
         refuse_usage(fmt::format("--repeats {} is not allowed.", a.repeats), "1 or more", "write  --repeats 3");
     if (!(a.budget > 0.0))
         refuse_usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
+    for (const auto& [flag, given] : {std::pair{"--method", !a.method.empty()},
+                                      {"--level", a.level.has_value()},
+                                      {"--samples", a.samples.has_value()},
+                                      {"--reduced", a.middle}})
+        if (given && !a.probability)
+            refuse_usage(fmt::format("{} without --probability.", flag), "both", "add  --probability");
     if (!a.rung.empty() && !parse_rung(a.rung))
         refuse_usage("--rung " + a.rung + " is not known.", "a rung as the table names it",
                      "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
@@ -205,6 +211,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
 int accuracy(const AccuracyArguments& a, const Streams& streams)
 {
     check(a);
+    if (a.probability) return accuracy_of_probability(a, streams);
     const Loaded loaded = load(a, streams);
     say_base(loaded.scene, streams);
     TerminalWatch watch(streams);

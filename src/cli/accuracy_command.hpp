@@ -17,11 +17,21 @@ struct AccuracyArguments {
     std::filesystem::path report; ///< the report alone; empty: none
     std::filesystem::path pdf;    ///< the report on paper; empty: none
     std::filesystem::path svg;    ///< the figure alone; empty: none
+    bool probability = false;     ///< what the interval of a probability costs, in place of the ladder
+    std::string method;           ///< of --probability: as of fragility; empty: rigid-v or rigid
+    std::optional<double> level;  ///< of --probability, in the unit of the levels; none: P nearest to 0.1
+    std::optional<int> samples; ///< of --probability: runs of the largest estimate; none: 16384, of finite elements 128
+    bool middle = false;        ///< of --probability with finite elements: few modes between them and the block
+    int jobs = 0;               ///< of --probability: threads; 0: all cores
 };
 
 /// Climbs the ladder of methods on a scene: slip, its error, its cost; names the cheapest rung within the tolerance.
 /// @returns exit_no_answer where no rung is within it, or after an interrupt; what was computed is written all the
 /// same.
 int accuracy(const AccuracyArguments& arguments, const Streams& streams);
+
+/// The half-width of the 95 % interval of P at one level over processor time, by several estimators (interval_cost()).
+/// @returns exit_no_answer where the budget allows no estimate, or after an interrupt
+int accuracy_of_probability(const AccuracyArguments& arguments, const Streams& streams);
 
 } // namespace damslip::cli

@@ -1,11 +1,13 @@
 #include "cli/arguments.hpp"
 
 #include "cli/command.hpp"
+#include "core/number.hpp"
 #include "core/usage_error.hpp"
 #include "core/version.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -23,6 +25,16 @@ struct Parser {
     std::map<const CLI::App*, Run> runs; ///< of the commands that run something
 };
 
+/// NaN and infinity are no numbers of any flag; CLI11 reads them.
+void refuse_no_numbers(CLI::App& sub)
+{
+    const auto finite = [](const std::string& text) -> std::string {
+        return parse_number(text) ? "" : text + " is not allowed: a finite number";
+    };
+    for (CLI::Option* option : sub.get_options([](const CLI::Option*) { return true; }))
+        if (option->get_type_name().starts_with("FLOAT")) option->check(finite);
+}
+
 void add(const Command& command, CLI::App& parent, Parser& p)
 {
     CLI::App& sub = *parent.add_subcommand(command.name, command.description);
@@ -37,6 +49,7 @@ void add(const Command& command, CLI::App& parent, Parser& p)
     sub.add_flag("!--no-cache", p.cache,
                  "make reduced rock anew: do not use the cache folder ($XDG_CACHE_HOME/damslip or ~/.cache/damslip)");
     p.runs[&sub] = command.declare(sub);
+    refuse_no_numbers(sub);
 }
 
 void build(Parser& p)

@@ -8,6 +8,7 @@ Command draw_command();
 Command assess_command();
 Command screen_command();
 Command regress_command();
+Command slide_command();
 Command sweep_command();
 Command fragility_command();
 Command worker_command();
@@ -33,6 +34,7 @@ std::span<const Command> commands()
                  assess_command,
                  screen_command,
                  regress_command,
+                 slide_command,
                  sweep_command,
                  fragility_command,
                  worker_command,

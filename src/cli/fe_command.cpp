@@ -3,6 +3,7 @@
 #include "cli/print_pdf.hpp"
 #include "core/usage_error.hpp"
 #include "pages/report/page_html.hpp"
+#include "pages/spectrum/spectrum_tables.hpp"
 
 #include <fmt/format.h>
 #include <ostream>
@@ -13,15 +14,21 @@ using namespace pages;
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0), arguments.modes};
+    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0),
+            arguments.modes};
 }
 
-void put_answer(const FeAnswer& answer, const FeArguments& arguments, const Scene& scene, const FieldSeries& fields,
-                const std::function<Page()>& page, const Streams& streams)
+void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scene, const SpectrumLevel* spectrum,
+                const FieldSeries& fields, const std::function<Page()>& page, const Streams& streams)
 {
+    if (spectrum) {
+        answer.json["response_spectrum"] = spectrum_json(*spectrum);
+        answer.text += "\n" + spectrum_text(*spectrum);
+    }
     streams.out << (streams.form == Form::json ? answer.json.dump(2) + "\n" : answer.text);
     if (!arguments.reports()) return;
-    const Page report = page();
+    Page report = page();
+    if (spectrum) report.sections.push_back(spectrum_section(*spectrum));
     if (!arguments.out.empty()) {
         write_fe_files(arguments.out, scene, answer, fields, report);
         if (!streams.quiet)
@@ -50,8 +57,10 @@ int fe(const FeArguments& arguments, const Streams& streams)
     if (arguments.frames && arguments.base == "tied")
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
-    if (arguments.reduced) return run_reduced(arguments, ready, streams);
-    return arguments.base == "tied" ? run_tied(arguments, ready, streams) : run_contact(arguments, ready, streams);
+    const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, ready);
+    if (arguments.reduced) return run_reduced(arguments, ready, found.get(), streams);
+    return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)
+                                    : run_contact(arguments, ready, found.get(), streams);
 }
 
 } // namespace damslip::cli

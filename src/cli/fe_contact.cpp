@@ -3,7 +3,6 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/model_spread.hpp"
 #include "analysis/fe/state_file.hpp"
-#include "analysis/prepare/rock_warnings.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/usage_error.hpp"
 #include "pages/fe/fe_report.hpp"
@@ -36,7 +35,7 @@ FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
 
 } // namespace
 
-int run_contact(const FeArguments& arguments, const Ready& ready, const Streams& streams)
+int run_contact(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
 {
     TerminalWatch watch(streams);
     ContactRuns all(ready, options_with_state(arguments, ready), watch);
@@ -45,11 +44,9 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
-    std::vector<std::string> of_rock = radiating_messages(ready.scene, model);
+    ModelNotes of_model(ready.scene, model);
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
-        for (const std::string& warning : rock_warnings(ready.scene, model.model().mesh, motion))
-            if (std::string note = r.record + ": " + warning; of_rock.empty() || of_rock.back() != note)
-                of_rock.push_back(std::move(note));
+        of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
         if (page) page->add(r, motion);
         if (const std::string series = write_frames(arguments.out, {ready.scene, model, all.uplift()}, r);
@@ -62,9 +59,9 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Streams&
     if (!arguments.state_out.empty() && !runs.empty() && has_slip(runs.front()))
         write_state(arguments.state_out, ready.given, runs.front().fe.state, runs.front().label());
     const std::string spread = spread_line(model_spread(ready, runs, arguments.spread, watch), runs);
-    const std::vector<std::string> messages = contact_messages(ready.scene, runs, of_rock);
+    const std::vector<std::string> messages = contact_messages(ready.scene, runs, of_model.lines());
     put_answer(
-        contact_answer(shared, runs, messages, spread), arguments, ready.scene, fields,
+        contact_answer(shared, runs, messages, spread), arguments, ready.scene, spectrum, fields,
         [&] { return page->page(runs, messages, spread); }, streams);
     return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
 }

@@ -48,6 +48,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->check(CLI::Range(2, 10000))
         ->needs(out)
         ->excludes(reduced);
+    add_response_spectrum(sub, a.spectrum);
     add_pdf(sub, a.pdf);
 }
 

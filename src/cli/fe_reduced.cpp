@@ -9,7 +9,7 @@ namespace damslip::cli {
 
 using namespace pages;
 
-int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams& streams)
+int run_reduced(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
 {
     TerminalWatch watch(streams);
     ReducedRuns all(ready, fe_options(arguments), watch);
@@ -22,7 +22,7 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Streams&
                                 all.uplift(), runs,       messages};
     const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
     put_answer(
-        reduced_answer(in), arguments, ready.scene, no_fields, [&] { return reduced_page(in); }, streams);
+        reduced_answer(in), arguments, ready.scene, spectrum, no_fields, [&] { return reduced_page(in); }, streams);
     return runs.size() == all.whole() ? exit_code_of(as_contact_runs(runs)) : exit_no_answer;
 }
 

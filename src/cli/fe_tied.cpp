@@ -12,7 +12,7 @@ namespace damslip::cli {
 
 using namespace pages;
 
-int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& streams)
+int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
 {
     TerminalWatch watch(streams);
     TiedRuns all(ready, fe_options(arguments), watch);
@@ -35,7 +35,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const Streams& st
     }
     const FePageFrame frame = tied_frame(ready.scene, ready.plan, ready.records(), model, all.water());
     put_answer(
-        tied_answer(frame, all.statics(), runs), arguments, ready.scene, fields,
+        tied_answer(frame, all.statics(), runs), arguments, ready.scene, spectrum, fields,
         [&] { return tied_page(frame, all.statics(), runs); }, streams);
     const bool whole = runs.size() == ready.records().size() &&
                        std::all_of(runs.begin(), runs.end(),

@@ -1,7 +1,10 @@
 #include "cli/flags.hpp"
 
 #include "cli/print_pdf.hpp"
+#include "core/number.hpp"
 #include "core/usage_error.hpp"
+
+#include <fmt/format.h>
 
 namespace damslip::cli {
 
@@ -35,6 +38,45 @@ void add_rock(CLI::App& sub, RunInputs& in)
 {
     sub.add_option("--rock", in.rock, "radiating (with mass, waves leave) or massless, in place of the scene's rock")
         ->check(CLI::IsMember({"radiating", "massless"}));
+}
+
+void add_response_spectrum(CLI::App& sub, SpectrumArguments& a)
+{
+    const char* const group = "Response spectrum";
+    CLI::Option* on = sub.add_flag("--response-spectrum", a.wanted,
+                                   "peaks of the dam on a bonded base by its modes: forces, stresses, factors")
+                          ->group(group);
+    CLI::Option* file = sub.add_option("--spectrum", a.horizontal,
+                                       "its spectrum at 5 % damping, period [s] and S_a over any unit, in place of the "
+                                       "records'")
+                            ->needs(on)
+                            ->group(group);
+    CLI::Option* pga = sub.add_option("--spectrum-pga", a.pga, "S_a at period 0 of that spectrum [m/s^2]")
+                           ->check(in_range(1e-3, 100.0))
+                           ->needs(file)
+                           ->group(group);
+    file->needs(pga);
+    CLI::Option* vertical = sub.add_option("--spectrum-vertical", a.vertical,
+                                           "the same of the vertical component; without it that spectrum has none")
+                                ->needs(file)
+                                ->group(group);
+    CLI::Option* vertical_pga =
+        sub.add_option("--spectrum-vertical-pga", a.vertical_pga, "S_a at period 0 of the vertical spectrum [m/s^2]")
+            ->check(in_range(1e-3, 100.0))
+            ->needs(vertical)
+            ->group(group);
+    vertical->needs(vertical_pga);
+}
+
+CLI::Validator in_range(double low, double high)
+{
+    const auto check = [low, high](const std::string& text) -> std::string {
+        std::size_t used = 0;
+        const std::optional<double> value = parse_number(text, &used);
+        if (value && used == text.size() && *value >= low && *value <= high) return {};
+        return fmt::format("{} is not allowed: a number from {:g} to {:g}", text, low, high);
+    };
+    return {check, fmt::format("FLOAT in [{:g} - {:g}]", low, high)};
 }
 
 void add_pdf(CLI::App& sub, std::filesystem::path& target)

@@ -2,6 +2,7 @@
 
 #include "cli/command.hpp"
 #include "cli/input/run_inputs.hpp"
+#include "cli/spectrum_input.hpp"
 #include "core/file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,13 @@ void add_scene(CLI::App& sub, RunInputs& in);
 void add_run_inputs(CLI::App& sub, RunInputs& in);
 /// --rock, of commands that run finite elements.
 void add_rock(CLI::App& sub, RunInputs& in);
+
+/// --response-spectrum and what belongs to it.
+void add_response_spectrum(CLI::App& sub, SpectrumArguments& a);
+
+/// Check of an option with a decimal number: low <= value <= high. Text that is no number, NaN and infinity are refused,
+/// which CLI::Range lets through. For whole numbers CLI::Range does.
+CLI::Validator in_range(double low, double high);
 
 /// --pdf, of commands that have a report; checked before anything begins.
 void add_pdf(CLI::App& sub, std::filesystem::path& target);

@@ -9,18 +9,35 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
 {
     add_scene(sub, a.inputs);
     sub.add_option("--method", a.method,
-                   "rigid (horizontal), rigid-v (with the vertical component), fe, fe-exact, fe-penalty, "
+                   "rigid (horizontal), rigid-v (with the vertical component), rocking (a block that rocks and "
+                   "slides), fe, fe-exact, fe-penalty, "
                    "fe-slip-tolerance, fe-whole-steps, "
-                   "fe-radiating, fe-massless; default: rigid-v where a record has a vertical component, else rigid");
+                   "fe-radiating, fe-massless, fe-reduced (few modes); default: rigid-v where a record has a vertical "
+                   "component, else rigid");
     sub.add_option("--samples", a.samples,
                    "runs per level, rounded up to whole blocks; default: 1024, of finite elements 128")
         ->check(CLI::Range(1, 10'000'000));
     sub.add_option("--budget", a.budget,
                    "processor seconds of finite elements in place of --samples; a pilot of a tenth fixes the number")
-        ->check(CLI::Range(1.0, 1e9));
+        ->check(in_range(1.0, 1e9));
+    sub.add_option("--conditioning", a.conditioning,
+                   "on, off, auto: runs draw friction only where the rigid block, corrected by a pilot, does not know "
+                   "whether the dam slides too far; auto: with finite elements, if no variable is epistemic. The rigid "
+                   "block alone: P = F(mu*) of each draw of the rest, no friction drawn")
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->capture_default_str();
+    sub.add_option("--aim-at", a.aim,
+                   "a probability, where friction is conditioned on: two thirds of the runs go to the level whose P is "
+                   "nearest to it; without it half of the runs make all P equally sure, half the annual rate")
+        ->check(in_range(1e-9, 1.0));
     sub.add_option("--cheap-samples", a.cheap_samples,
                    "of finite elements: further runs of the rigid block per level; 0: none")
         ->check(CLI::Range(0, 10'000'000))
+        ->capture_default_str();
+    sub.add_option("--multi-fidelity", a.multi_fidelity,
+                   "of finite elements: two-level (with the rigid block), mfmc (with few modes and the block, as a "
+                   "pilot says they pay), none")
+        ->check(CLI::IsMember({"two-level", "mfmc", "none"}))
         ->capture_default_str();
     sub.add_option("--share-rows", a.rows, "rows of each of two samples for what P comes from; 0: not asked for")
         ->check(CLI::Range(0, 1'000'000))

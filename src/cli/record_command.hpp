@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// `damslip record info|convert|baseline|scale|spectrum|generate`. Each command has its arguments, a function that computes (testable
+/// `damslip record info|convert|baseline|scale|spectrum|generate|suite`. Each command has its arguments, a function that computes (testable
 /// without streams) and one that talks. Data goes to `out` files or standard output, remarks to the talk stream.
 namespace damslip::cli {
 
@@ -87,5 +87,20 @@ struct RecordGenerateArguments {
 records::TargetSpectrum generate_target(const RecordGenerateArguments& arguments);
 records::GeneratedRecord generate(const RecordGenerateArguments& arguments);
 int record_generate(const RecordGenerateArguments& arguments, const Streams& streams);
+
+struct RecordSuiteArguments {
+    std::vector<std::string> patterns; ///< one: a folder, a pattern in quotes, a list
+    std::string spectrum;              ///< --target-spectrum rock | ec8-1 | ec8-2 | a CSV file; empty: PGA alone
+    std::string ground = "A";          ///< --ground A ... E, of ec8
+    std::optional<double> pga;         ///< --target-pga-m-s2; none: the index alone
+    double from = 0.05, to = 2.0;      ///< --from, --to: the band that is fitted [s]
+    std::optional<int> select;         ///< --select; none: all, each with its factor
+    double max_scale = 4.0;            ///< --max-scale [-]
+    bool match = false;                ///< --match: by wavelets, after scaling
+    double tolerance = 0.10;           ///< --tolerance, of the match [-]
+    std::filesystem::path out;         ///< list for --records and [suite] files
+};
+/// The index of a suite, and those of its records that fit a target, each with its factor.
+int record_suite(const RecordSuiteArguments& arguments, const Streams& streams);
 
 } // namespace damslip::cli

@@ -124,6 +124,25 @@ void generate_flags(CLI::App& sub, Filter<RecordGenerateArguments>& filter)
     add_target(sub, g.destination, filter.form);
 }
 
+void suite_flags(CLI::App& sub, RecordSuiteArguments& a)
+{
+    sub.add_option("RECORDS", a.patterns, "a folder, a pattern in quotes, or a CSV with the column horizontal")
+        ->required();
+    sub.add_option("--target-spectrum", a.spectrum,
+                   "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration; without it PGA alone");
+    sub.add_option("--ground", a.ground, "Eurocode 8 ground type A ... E")->capture_default_str();
+    sub.add_option("--target-pga-m-s2", a.pga, "PGA of the target [m/s2]");
+    sub.add_option("--from", a.from, "first period of the band that is fitted [s]")->capture_default_str();
+    sub.add_option("--to", a.to, "last period of it [s]")->capture_default_str();
+    sub.add_option("--select", a.select, "how many records, of different events; default: all, each with its factor")
+        ->check(CLI::Range(1, 100'000));
+    sub.add_option("--max-scale", a.max_scale, "largest factor; the smallest is one over it")->capture_default_str();
+    sub.add_flag("--match", a.match, "then match each by wavelets to the spectrum, over 0.05 to 2 s");
+    sub.add_option("--tolerance", a.tolerance, "largest deviation of a matched spectrum")->capture_default_str();
+    sub.add_option("-o,--out", a.out, "list of the records with their factors, for --records and [suite] files")
+        ->check(output_to(OutputPath::file, "--out"));
+}
+
 int run_generate(const Filter<RecordGenerateArguments>& a, const Streams& streams)
 {
     RecordGenerateArguments arguments = a.arguments;
@@ -136,7 +155,7 @@ int run_generate(const Filter<RecordGenerateArguments>& a, const Streams& stream
 Command record_command()
 {
     return {.name = "record",
-            .description = "accelerograms: info, convert, baseline, scale, spectrum, generate",
+            .description = "accelerograms: info, convert, baseline, scale, spectrum, generate, suite",
             .example = "damslip record info ns.at2",
             .below = {info_command(),
                       {"convert", "another file format or time step", "damslip record convert ns.at2 --out ns.csv",
@@ -152,7 +171,11 @@ Command record_command()
                        with_flags<RecordSpectrumArguments>(spectrum_flags, record_spectrum)},
                       {"generate", "artificial accelerogram that matches a response spectrum; same seed, same bytes",
                        "damslip record generate --target rock --pga-m-s2 1.0 --duration 20 --seed 2 --out rock.csv",
-                       with_flags<Filter<RecordGenerateArguments>>(generate_flags, run_generate)}}};
+                       with_flags<Filter<RecordGenerateArguments>>(generate_flags, run_generate)},
+                      {"suite", "measures of many records; those that fit a target, each with its factor",
+                       "damslip record suite 'records/*.AT2' --target-spectrum ec8-1 --target-pga-m-s2 2 --select 11 "
+                       "--out suite.csv",
+                       with_flags<RecordSuiteArguments>(suite_flags, record_suite)}}};
 }
 
 } // namespace damslip::cli

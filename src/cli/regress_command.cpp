@@ -84,21 +84,14 @@ namespace {
 
 void regress_flags(CLI::App& sub, RegressArguments& a)
 {
-    const auto range = [](double low, double high) { // CLI::Range lets NaN through
-        return [low, high](const std::string& text) -> std::string {
-            const std::optional<double> value = parse_number(text);
-            if (value && *value >= low && *value <= high) return {};
-            return fmt::format("{} is not allowed: a number from {:g} to {:g}", text, low, high);
-        };
-    };
-    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g]")->required()->check(range(1e-6, 10));
+    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g]")->required()->check(in_range(1e-6, 10));
     sub.add_option("--pga-g", a.pga_g, "largest horizontal ground acceleration [g]")
         ->required()
-        ->check(range(1e-6, 10));
+        ->check(in_range(1e-6, 10));
     const char* const group = "What more is known of the motion";
     const auto optional = [&](const char* flag, std::optional<double>& target, const char* words, double low,
                               double high) {
-        sub.add_option(flag, target, words)->check(range(low, high))->group(group);
+        sub.add_option(flag, target, words)->check(in_range(low, high))->group(group);
     };
     optional("--pgv-cm-s", a.pgv_cm_s, "largest ground velocity [cm/s]", 1e-6, 1e4);
     optional("--arias-m-s", a.arias_m_s, "Arias intensity [m/s]", 1e-9, 1e4);
@@ -109,7 +102,7 @@ void regress_flags(CLI::App& sub, RegressArguments& a)
     optional("--sa13-g", a.sa_13_g, "5 % spectral acceleration at 1.3 periods [g]", 1e-6, 100);
     optional("--sa15-g", a.sa_15_g, "5 % spectral acceleration at 1.5 periods [g]", 1e-6, 100);
     sub.add_option("--allowable-mm", a.allowable_mm, "then also the yield coefficient for this slip [mm]")
-        ->check(range(1e-3, 1e6));
+        ->check(in_range(1e-3, 1e6));
 }
 
 } // namespace

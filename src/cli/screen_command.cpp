@@ -5,7 +5,6 @@
 #include "core/usage_error.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/screen/screen_report.hpp"
-#include "records/generate/spectrum_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -17,21 +16,14 @@ using namespace pages;
 namespace {
 
 /// The response spectrum's answer, on the model of finite elements.
-SpectrumLevel find_spectrum_level(const ScreenArguments& a, const Scene& given_scene, const Ready& ready,
-                                  const Streams& streams)
+std::shared_ptr<const SpectrumLevel> spectrum_of_elements(const ScreenArguments& a, const Scene& given,
+                                                          const Ready& ready, const Streams& streams)
 {
-    need_section(given_scene, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
-    std::vector<LevelSpectrum> given;
-    if (!a.spectrum.empty()) {
-        const records::TargetSpectrum shape = records::read_target_spectrum(a.spectrum);
-        constexpr double ratio_of_files = 0.05;
-        given.push_back({shape.name, ratio_of_files,
-                         [shape, pga = *a.pga](double period) { return pga * shape.amplification(period); }});
-    } else if (ready.records().empty()) {
-        refuse_usage("--response-spectrum without a record.", "a record, or a spectrum",
-                     "add  --record FILE , or  --spectrum FILE --spectrum-pga 1.0");
-    }
-    return spectrum_level(prepare(given_scene, Method::finite_elements, ready.pairs, {.stop = streams.stop}), given);
+    if (!a.spectrum.wanted) return nullptr;
+    need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
+    check_spectrum_level(a.spectrum, !ready.records().empty());
+    return find_spectrum_level(a.spectrum,
+                               prepare(given, Method::finite_elements, ready.pairs, {.stop = streams.stop}));
 }
 
 } // namespace
@@ -49,13 +41,12 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     if (arguments.rocking && ready.scene.wedge)
         refuse_usage("--rocking cannot take a [wedge]: it has no toe to rock on.", "a scene with a [section]",
                      "delete --rocking");
-    std::optional<SpectrumLevel> spectrum;
-    if (arguments.response_spectrum) spectrum = find_spectrum_level(arguments, given, ready, streams);
+    const std::shared_ptr<const SpectrumLevel> spectrum = spectrum_of_elements(arguments, given, ready, streams);
     Screening s = run_screening(ready, arguments.jobs,
                                 arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
-    const ScreenReportInput in{ready.given,     ready.scene,    s,
-                               ready.records(), arguments.jobs, spectrum ? &*spectrum : nullptr};
+    const ScreenReportInput in{
+        ready.given, ready.scene, s, ready.records(), arguments.jobs, spectrum.get(), arguments.mean_polarity};
     streams.out << (streams.form == Form::json ? screen_json(in).dump(2) + "\n" : screen_text(in));
     if (!arguments.out.empty()) {
         write_screening(arguments.out, in);

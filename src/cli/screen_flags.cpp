@@ -13,20 +13,8 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
     sub.add_option("--scheme", a.inputs.scheme, "of the rigid block: exact (default) or slammer");
     sub.add_flag("--rocking", a.rocking,
                  "the block that rocks and slides, too; without it where the sliding block does not hold");
-    const char* const spectrum = "Response spectrum";
-    CLI::Option* on = sub.add_flag("--response-spectrum", a.response_spectrum,
-                                   "peaks of the dam on a bonded base by its modes: forces, stresses, factors")
-                          ->group(spectrum);
-    CLI::Option* file = sub.add_option("--spectrum", a.spectrum,
-                                       "its spectrum at 5 % damping, period [s] and S_a over any unit, in place of the "
-                                       "records'")
-                            ->needs(on)
-                            ->group(spectrum);
-    CLI::Option* pga = sub.add_option("--spectrum-pga", a.pga, "S_a at period 0 of that spectrum [m/s^2]")
-                           ->check(CLI::Range(1e-3, 100.0))
-                           ->needs(file)
-                           ->group(spectrum);
-    file->needs(pga);
+    sub.add_flag("--mean-polarity", a.mean_polarity, "a table with the mean slip of both polarities of each record");
+    add_response_spectrum(sub, a.spectrum);
     sub.add_option("--out", a.out, "folder for summary.json, displacements.csv and the resolved scene")
         ->check(output_to(OutputPath::folder, "--out"));
     add_pdf(sub, a.pdf);

@@ -52,6 +52,9 @@ void check_flags(const SweepArguments& a, Form form)
         refuse_usage("--out " + a.out.string() + " is the name of the report.",
                      "a name for the rows; the report is beside it",
                      "write  --out " + std::filesystem::path(a.out).replace_extension(".csv").string());
+    if (a.mean_polarity && (parts || !a.shard.empty() || !a.merge.empty()))
+        refuse_usage("--mean-polarity with a part or a plan of a sweep.",
+                     "a whole sweep: a part may hold one polarity alone", "delete --mean-polarity");
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
         refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
                      "delete --json");
@@ -194,7 +197,7 @@ void put_report(const Job& job, const std::vector<RecordPair>& records, const Ta
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
            const std::vector<std::size_t>& wanted, const SweepOutcome& outcome, const Streams& streams)
 {
-    const Table table = sweep_table(grid, wanted, outcome);
+    const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
     if (streams.form == Form::json)
@@ -268,7 +271,7 @@ bool is_long(const Job& job, const std::vector<std::size_t>& wanted, const Strea
 {
     constexpr std::size_t most_rows_at_once = 10'000;
     return wanted.size() > most_rows_at_once && !job.axes.finite_elements() && !has_opening_axis(job.axes) &&
-           streams.form != Form::json;
+           streams.form != Form::json && !job.arguments.mean_polarity;
 }
 
 int stopped(std::size_t finished, std::size_t wanted, const Streams& streams)
@@ -354,6 +357,8 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     Scene scene = read_run_scene(arguments.inputs, streams);
     const Axes axes = make_axes(arguments, scene);
     say(axes.notes, arguments.inputs.strict, streams);
+    if (arguments.mean_polarity && axes.polarity.size() != 2)
+        refuse_usage("--mean-polarity without both polarities.", "both", "add  --polarity 1,-1");
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
         say_base(scene, streams);

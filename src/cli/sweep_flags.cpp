@@ -48,6 +48,7 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list("--damping", a.damping, "damping ratios of the flexible block, for decoupled and coupled");
     list("--scale", a.scale, "factors on the records");
     list("--polarity", a.polarity, "1, -1 or both: 1,-1");
+    sub.add_flag("--mean-polarity", a.mean_polarity, "a column with the mean slip of --polarity 1,-1");
     list("--method", a.method,
          "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "
          "decoupled and coupled (the block that vibrates on its base: [flexible_block] or --period), "
@@ -57,7 +58,7 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
          "id such as "
          "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
-    sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(CLI::Range(1.0, 1e20));
+    sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(in_range(1.0, 1e20));
     sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
     sub.add_option(
            "-o,--out", a.out,

@@ -5,7 +5,6 @@
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/fe/model_spread.hpp"
-#include "analysis/prepare/rock_warnings.hpp"
 #include "core/usage_error.hpp"
 #include "pages/fe/fe_report.hpp"
 #include "pages/fe/rock_lines.hpp"
@@ -22,7 +21,7 @@ struct FeResult final : Result {
     std::unique_ptr<ContactRuns> models;
     std::optional<pages::FeReport> report;
     std::vector<ContactRun> runs;
-    std::vector<std::string> of_rock, messages;
+    std::vector<std::string> messages;
     std::string spread;
 
     pages::FeReport::Input input() const
@@ -56,15 +55,13 @@ void compute(const OpenedScene& opened, const FeOptions& options, bool spread, W
     result.models = std::make_unique<ContactRuns>(result.ready, options, watch);
     const fe2d::EarthquakeRun& model = result.models->model();
     result.report.emplace(result.input());
-    result.of_rock = pages::radiating_messages(result.ready.scene, model);
+    pages::ModelNotes of_model(result.ready.scene, model);
     result.runs = result.models->run([&](ContactRun& r, const GroundMotion& motion) {
-        for (const std::string& warning : rock_warnings(result.ready.scene, model.model().mesh, motion))
-            if (std::string note = r.record + ": " + warning; result.of_rock.empty() || result.of_rock.back() != note)
-                result.of_rock.push_back(std::move(note));
+        of_model.add(r.record, motion);
         result.report->add(r, motion);
     });
     result.spread = spread_line(model_spread(result.ready, result.runs, spread, watch), result.runs);
-    result.messages = pages::contact_messages(result.ready.scene, result.runs, result.of_rock);
+    result.messages = pages::contact_messages(result.ready.scene, result.runs, of_model.lines());
 }
 
 std::shared_ptr<FeResult> fe(const OpenedScene& opened, std::optional<int> polarity, bool mesh_error, bool spread,

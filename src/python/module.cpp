@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, module)
     add_modes(module);
     add_sweep(module);
     add_accuracy(module);
+    add_fragility(module);
 }

@@ -50,5 +50,6 @@ void add_fe(py::module_& module);
 void add_modes(py::module_& module);
 void add_sweep(py::module_& module);
 void add_accuracy(py::module_& module);
+void add_fragility(py::module_& module);
 
 } // namespace damslip::python

@@ -66,7 +66,7 @@ OpenedScene with(const OpenedScene& scene, const std::vector<std::pair<std::stri
         std::erase_if(changes, [&](const KeyChange& c) { return scene.text->canonical(c.key) == name; });
         changes.push_back({key, value});
     }
-    return {scene.text, std::move(changes)};
+    return {scene.text, scene.written, std::move(changes)};
 }
 
 std::shared_ptr<ScreenResult> screen(const OpenedScene& opened, int jobs, bool rocking)
@@ -88,7 +88,7 @@ void add_scene(py::module_& module)
 {
     py::class_<OpenedScene>(module, "Scene")
         .def(py::init([](const std::string& text, const std::string& file) {
-                 return OpenedScene(std::make_shared<SceneText>(text, file), {});
+                 return OpenedScene(std::make_shared<SceneText>(text, file), std::make_shared<std::string>(text), {});
              }),
              py::arg("text"), py::arg("file"))
         .def_static("read", [](const std::string& file) { return OpenedScene(std::filesystem::path(file)); })

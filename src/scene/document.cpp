@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "scene/fragility_keys.hpp"
 #include "scene/key_table.hpp"
 #include "scene/usual.hpp"
 
@@ -126,6 +127,118 @@ std::string usual_cell(const Key& key)
                        key.usual->or_zero && !(key.usual->low <= 0.0) ? ", or 0" : "", key.usual->source);
 }
 
+/// A law in braces: its numbers.
+Json law_schema(const FragilityKey& key)
+{
+    Json properties = Json::object(), required = Json::array();
+    for (const LawNumber& number : key.numbers) {
+        properties[number.name] = number_schema(number.positive ? Range::above(0) : Range::any(), 1.0);
+        if (number.required) required.push_back(number.name);
+    }
+    Json j{{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+    if (!required.empty()) j["required"] = required;
+    return j;
+}
+
+Json value_schema(const FragilityKey& key)
+{
+    const Json text{{"type", "string"}, {"minLength", 1}};
+    switch (key.value) {
+    case FragilityValue::number:
+        return number_schema(key.range, 1.0);
+    case FragilityValue::whole: {
+        Json j = number_schema(key.range, 1.0);
+        j["type"] = "integer";
+        return j;
+    }
+    case FragilityValue::flag:
+        return {{"type", "boolean"}};
+    case FragilityValue::word:
+        return {{"enum", key.words}};
+    case FragilityValue::text:
+        return text;
+    case FragilityValue::text_or_list:
+        return {{"anyOf", {text, {{"type", "array"}, {"minItems", 1}, {"items", text}}}}};
+    case FragilityValue::numbers:
+        return {{"type", "array"}, {"minItems", 1}, {"items", number_schema(key.range, 1.0)}};
+    case FragilityValue::names:
+        return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", text}};
+    case FragilityValue::law:
+        return law_schema(key);
+    case FragilityValue::discrete: {
+        const Json weights{{"type", "array"}, {"minItems", 1}, {"items", number_schema(Range::above(0), 1.0)}};
+        return {{"type", "object"},
+                {"additionalProperties", false},
+                {"required", {"values", "weights"}},
+                {"properties", {{"values", {{"type", "array"}, {"minItems", 1}}}, {"weights", weights}}}};
+    }
+    }
+    return {};
+}
+
+/// "number > 0", "`sobol`, `lhs`, `random`".
+std::string allowed(const FragilityKey& key)
+{
+    switch (key.value) {
+    case FragilityValue::number:
+        return key.range.text();
+    case FragilityValue::whole:
+        return "whole number, " + key.range.text();
+    case FragilityValue::flag:
+        return "`true`, `false`";
+    case FragilityValue::word:
+        return fmt::format("`{}`", fmt::join(key.words, "`, `"));
+    case FragilityValue::text:
+        return "text";
+    case FragilityValue::text_or_list:
+        return "text, or list of texts";
+    case FragilityValue::numbers:
+        return "list of numbers " + key.range.text();
+    case FragilityValue::names:
+        return "two names";
+    case FragilityValue::law:
+    case FragilityValue::discrete:
+        return fmt::format("`{}`", key.example);
+    }
+    return {};
+}
+
+Json group_schema(const FragilityKeyTable& table)
+{
+    Json properties = Json::object(), required = Json::array();
+    for (const FragilityKey& key : table.keys) {
+        properties[key.name] = value_schema(key);
+        const bool needed = key.default_text == "required";
+        properties[key.name]["description"] =
+            key.meaning + (key.default_text.empty() || needed ? "" : ". Default: " + key.default_text);
+        if (needed) required.push_back(key.name);
+    }
+    Json j{{"type", "object"},
+           {"description", table.meaning},
+           {"additionalProperties", false},
+           {"properties", properties}};
+    if (!required.empty()) j["required"] = required;
+    return table.presence == Presence::list ? Json{{"type", "array"}, {"items", j}} : j;
+}
+
+std::string header_of(const std::string& name, Presence presence)
+{
+    return name.empty() ? "Top level" : presence == Presence::list ? "`[[" + name + "]]`" : "`[" + name + "]`";
+}
+
+std::string fragility_markdown()
+{
+    std::string out;
+    for (const FragilityKeyTable& table : fragility_key_tables()) {
+        out += fmt::format("\n## {}\n{}\n\n| key | allowed | default | meaning |\n| --- | --- | --- | --- |\n",
+                           header_of(table.name, table.presence), table.meaning);
+        for (const FragilityKey& key : table.keys)
+            out += fmt::format("| `{}` | {} | {} | {} |\n", key.name, escaped(allowed(key)), escaped(key.default_text),
+                               escaped(key.meaning));
+    }
+    return out;
+}
+
 std::string sources_markdown()
 {
     std::string out = "\n## Sources of the usual ranges\nThe ranges are rounded outward from what a source gives.\n\n"
@@ -163,6 +276,13 @@ std::string scene_schema()
             required.push_back(group.name);
         properties[group.name] = schema;
     }
+    for (const FragilityKeyTable& table : fragility_key_tables()) {
+        const std::size_t dot = table.name.find('.');
+        if (dot == std::string::npos)
+            properties[table.name] = group_schema(table);
+        else
+            properties[table.name.substr(0, dot)]["properties"][table.name.substr(dot + 1)] = group_schema(table);
+    }
     required.push_back("section");
     properties["expect"] = {
         {"type", "object"},
@@ -188,12 +308,9 @@ std::string scene_keys_markdown()
         "each other are looked at, too: water levels beside the crest and each other, base, rock box, "
         "curtain and drains beside the size of the dam.\n";
     for (const KeyGroup& group : key_groups(section)) {
-        const std::string header = group.name.empty()                 ? "Top level"
-                                   : group.presence == Presence::list ? "`[[" + group.name + "]]`"
-                                                                      : "`[" + group.name + "]`";
         out += fmt::format(
-            "\n## {}\n{}\n\n| key | allowed | usual | default | meaning |\n| --- | --- | --- | --- | --- |\n", header,
-            group.meaning);
+            "\n## {}\n{}\n\n| key | allowed | usual | default | meaning |\n| --- | --- | --- | --- | --- |\n",
+            header_of(group.name, group.presence), group.meaning);
         for (const Key& key : group.keys) {
             std::vector<std::string> others = key.spellings();
             others.erase(others.begin());
@@ -204,7 +321,7 @@ std::string scene_keys_markdown()
                                escaped(key.meaning));
         }
     }
-    return out + sources_markdown();
+    return out + fragility_markdown() + sources_markdown();
 }
 
 } // namespace damslip

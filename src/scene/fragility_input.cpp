@@ -3,6 +3,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
+#include "scene/fragility_keys.hpp"
 #include "scene/read_table.hpp"
 
 #include <algorithm>
@@ -15,48 +16,32 @@ namespace damslip {
 
 namespace {
 
-/// A key of a law, and what its number has to be.
-struct LawKey {
-    const char* name;
-    bool required, positive;
-};
-struct LawKeys {
-    const char* name;
-    std::vector<LawKey> keys;
-    const char* example;
-};
-
-/// Laws; lognormal is written by its median or by its mean.
-const std::vector<LawKeys>& laws_known()
-{
-    static const std::vector<LawKeys> laws = {
-        {"lognormal",
-         {{"median", false, true},
-          {"beta", false, true},
-          {"mean", false, true},
-          {"cov", false, true},
-          {"min", false, false},
-          {"max", false, false}},
-         "{ median = 0.77, beta = 0.15 }"},
-        {"normal",
-         {{"mean", true, false}, {"sd", true, true}, {"min", false, false}, {"max", false, false}},
-         "{ mean = 2400, sd = 30 }"},
-        {"uniform", {{"min", true, false}, {"max", true, false}}, "{ min = 0.6, max = 1.0 }"},
-        {"triangular",
-         {{"min", true, false}, {"mode", true, false}, {"max", true, false}},
-         "{ min = 0.6, mode = 0.77, max = 1.0 }"},
-        {"beta",
-         {{"a", true, true}, {"b", true, true}, {"min", true, false}, {"max", true, false}},
-         "{ a = 2, b = 3, min = 0.6, max = 1.0 }"}};
-    return laws;
-}
-
 /// The tables of a fragility, read with all that is wrong in them.
 class FragilityReader {
 public:
-    explicit FragilityReader(const std::filesystem::path& file)
-        : file_(file), text_(SceneText::read(file)), root_(toml_of(read_file(file, 4u << 20), file))
+    FragilityReader(std::string_view text, const std::filesystem::path& file)
+        : file_(file), text_(text, file), root_(toml_of(text, file))
     {
+    }
+
+    /// Keys of `instead` in place of those of the file.
+    void replace(std::string_view instead)
+    {
+        const toml::table given = toml_of(instead, file_);
+        for (auto&& [name, node] : given) {
+            const toml::table* from = node.as_table();
+            toml::table* into = from && root_.contains(name.str()) ? root_[name.str()].as_table() : nullptr;
+            if (!into) {
+                root_.insert_or_assign(name.str(), node);
+                continue;
+            }
+            const auto is_level = [](std::string_view key) { return key.starts_with("levels_"); };
+            for (auto&& [key, value] : *from)
+                if (is_level(key.str()))
+                    for (const char* level : {"levels_g", "levels_m_s2", "levels_m_s", "levels_cm_s"})
+                        into->erase(level);
+            for (auto&& [key, value] : *from) into->insert_or_assign(key.str(), value);
+        }
     }
 
     FragilityInput read()
@@ -69,6 +54,18 @@ public:
         read_hazard(input.hazard);
         if (!wrong_.empty()) throw InputError(wrong_);
         return input;
+    }
+
+    /// What is wrong in the tables that are there.
+    std::vector<Diagnostic> look_over()
+    {
+        FragilityInput input;
+        read_probability(input.probability);
+        read_suite(input.suite);
+        if (root_.contains("intensity")) read_intensity(input.intensity);
+        if (root_.contains("limit")) read_limits(input.limits);
+        read_hazard(input.hazard);
+        return wrong_;
     }
 
 private:
@@ -104,30 +101,57 @@ private:
                   near.empty() ? "leave it out" : fmt::format("write  {}", near));
         }
     }
-    /// @param least  of a number; with `open` it has to be above
-    void number(const toml::table& table, const std::string& label, const char* name, double& out, double least,
-                bool open = true)
+    void not_allowed(const toml::node& node, const std::string& label, const std::string& name,
+                     const std::string& expected, const std::string& example)
     {
-        const toml::node* node = table.get(name);
-        if (!node) return;
-        const std::optional<double> v = node->is_number() ? node->value<double>() : std::nullopt;
-        if (v && std::isfinite(*v) && (open ? *v > least : *v >= least))
-            out = *v;
-        else
-            wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
-                  fmt::format("a number {} {}", open ? ">" : ">=", least), fmt::format("write another {}", name));
+        wrong(node, fmt::format("{}.{} is not allowed.", label, name), expected,
+              fmt::format("for example  {} = {}", name, example));
     }
-    void whole(const toml::table& table, const std::string& label, const char* name, std::int64_t& out,
-               std::int64_t least, std::int64_t most)
+    static std::optional<double> finite_number(const toml::node& node)
+    {
+        const std::optional<double> v = node.is_number() ? node.value<double>() : std::nullopt;
+        return v && std::isfinite(*v) ? v : std::nullopt;
+    }
+    /// A key of a table; `out` stays where it is not there.
+    void number(const toml::table& table, const std::string& label, const char* name, double& out)
     {
         const toml::node* node = table.get(name);
         if (!node) return;
-        const auto v = node->value_exact<std::int64_t>();
-        if (v && *v >= least && *v <= most)
+        const FragilityKey& key = fragility_key_table(label).key(name);
+        const std::optional<double> v = finite_number(*node);
+        if (v && key.range.contains(*v))
             out = *v;
         else
-            wrong(*node, fmt::format("{}.{} is not allowed.", label, name),
-                  fmt::format("a whole number, {} to {}", least, most), fmt::format("write another {}", name));
+            not_allowed(*node, label, name, "a number " + key.range.text(), key.example);
+    }
+    void whole(const toml::table& table, const std::string& label, const char* name, std::int64_t& out)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        const FragilityKey& key = fragility_key_table(label).key(name);
+        const auto v = node->value_exact<std::int64_t>();
+        if (v && key.range.contains(static_cast<double>(*v)))
+            out = *v;
+        else
+            not_allowed(*node, label, name, "a whole number, " + key.range.text(), key.example);
+    }
+    void flag(const toml::table& table, const std::string& label, const char* name, bool& out)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return;
+        if (const auto v = node->value_exact<bool>())
+            out = *v;
+        else
+            not_allowed(*node, label, name, "true or false", "true");
+    }
+    std::optional<std::string> text(const toml::table& table, const std::string& label, const char* name)
+    {
+        const toml::node* node = table.get(name);
+        if (!node) return std::nullopt;
+        auto v = node->value_exact<std::string>();
+        if (!v || v->empty())
+            not_allowed(*node, label, name, "a text in quotes", fragility_key_table(label).key(name).example);
+        return v;
     }
     /// The place of a word in a list; `out` stays where the key is not there.
     template <class Value>
@@ -153,12 +177,13 @@ private:
     {
         const toml::table* table = table_named("probability");
         if (!table) return;
-        check_names(*table, "probability",
-                    {"seed", "sampling", "replicates", "samples", "static_failure", "variable", "correlation"});
+        std::vector<std::string> names = fragility_key_table("probability").names();
+        names.insert(names.end(), {"variable", "correlation"});
+        check_names(*table, "probability", names);
         std::int64_t seed = 1, replicates = p.replicates, samples = 0;
-        whole(*table, "probability", "seed", seed, 0, std::int64_t{1} << 62);
-        whole(*table, "probability", "replicates", replicates, 1, 10'000);
-        whole(*table, "probability", "samples", samples, 1, 100'000'000);
+        whole(*table, "probability", "seed", seed);
+        whole(*table, "probability", "replicates", replicates);
+        whole(*table, "probability", "samples", samples);
         p.seed = static_cast<std::uint64_t>(seed);
         p.replicates = static_cast<int>(replicates);
         if (samples) p.samples = static_cast<int>(samples);
@@ -171,33 +196,34 @@ private:
             *table, "probability", "static_failure",
             {{"infinite", StaticFailure::infinite}, {"given-standing", StaticFailure::given_standing}},
             p.static_failure);
-        for_each_entry(*table, "variable", [&](const toml::table& entry) { read_variable(entry, p); });
-        for_each_entry(*table, "correlation", [&](const toml::table& entry) { read_correlation(entry, p); });
+        for_each_entry(*table, "variable", "[[probability.variable]]",
+                       [&](const toml::table& entry) { read_variable(entry, p); });
+        for_each_entry(*table, "correlation", "[[probability.correlation]]",
+                       [&](const toml::table& entry) { read_correlation(entry, p); });
     }
 
     template <class Take>
-    void for_each_entry(const toml::table& table, const char* name, Take take)
+    void for_each_entry(const toml::table& table, const char* name, const char* header, Take take)
     {
         const toml::node* node = table.get(name);
         if (!node) return;
+        const auto no_list = [&](const toml::node& where) {
+            wrong(where, fmt::format("{} is no list of tables.", name), header, "double the brackets");
+        };
         const toml::array* list = node->as_array();
-        if (!list)
-            return wrong(*node, fmt::format("{} is no list of tables.", name), fmt::format("[[probability.{}]]", name),
-                         "double the brackets");
+        if (!list) return no_list(*node);
         for (const toml::node& item : *list)
             if (const toml::table* entry = item.as_table())
                 take(*entry);
             else
-                wrong(item, fmt::format("{} is no list of tables.", name), fmt::format("[[probability.{}]]", name),
-                      "double the brackets");
+                no_list(item);
     }
 
     void read_variable(const toml::table& entry, ProbabilityInput& p)
     {
         RandomVariable v;
-        std::vector<std::string> known = {"name", "key", "factor", "kind", "discrete"};
-        for (const LawKeys& law : laws_known()) known.emplace_back(law.name);
-        check_names(entry, "probability.variable", known);
+        const char* const label = "probability.variable";
+        check_names(entry, label, fragility_key_table(label).names());
         const toml::node* key = entry.get("key");
         if (!key)
             return wrong(entry, "probability.variable.key is missing.", "a key of the scene",
@@ -214,13 +240,13 @@ private:
         if (v.keys.empty())
             return wrong(*key, "probability.variable.key is not allowed.", "a key of the scene, or a list of them",
                          "for example  key = \"contact.friction\"");
-        v.name = entry["name"].value<std::string>().value_or(v.keys.front());
+        v.name = text(entry, label, "name").value_or(v.keys.front());
         for (const RandomVariable& other : p.variables)
             if (other.name == v.name)
                 wrong(entry, fmt::format("there are two variables \"{}\".", v.name), "a name of its own for each",
                       "add a name");
-        v.factor = entry["factor"].value<bool>().value_or(false);
-        choice<VariableKind>(entry, "probability.variable", "kind",
+        flag(entry, label, "factor", v.factor);
+        choice<VariableKind>(entry, label, "kind",
                              {{"aleatory", VariableKind::aleatory}, {"epistemic", VariableKind::epistemic}}, v.kind);
         read_law(entry, v);
         p.variables.push_back(std::move(v));
@@ -232,7 +258,8 @@ private:
         const toml::node* discrete = entry.get("discrete");
         std::size_t laws = discrete ? 1 : 0;
         if (discrete) read_discrete(*discrete, label, v);
-        for (const LawKeys& law : laws_known()) {
+        for (const FragilityKey& law : fragility_key_table("probability.variable").keys) {
+            if (law.value != FragilityValue::law) continue;
             const toml::node* node = entry.get(law.name);
             if (!node) continue;
             ++laws;
@@ -245,13 +272,18 @@ private:
                 continue;
             }
             std::vector<std::string> names;
-            for (const LawKey& k : law.keys) names.emplace_back(k.name);
+            for (const LawNumber& k : law.numbers) names.push_back(k.name);
             check_names(*table, v.law.where.key, names);
-            for (const LawKey& k : law.keys) {
-                double value = std::nan("");
-                number(*table, v.law.where.key, k.name, value, k.positive ? 0.0 : -1e300);
-                if (table->contains(k.name)) v.law.parameters[k.name] = value;
-                if (k.required && !table->contains(k.name))
+            for (const LawNumber& k : law.numbers) {
+                const toml::node* value = table->get(k.name);
+                const std::optional<double> number = value ? finite_number(*value) : std::nullopt;
+                const bool good = number && (!k.positive || *number > 0.0);
+                if (good) v.law.parameters[k.name] = *number;
+                if (value && !good)
+                    wrong(*value, fmt::format("{}.{} is not allowed.", v.law.where.key, k.name),
+                          k.positive ? "a number > 0" : "a number",
+                          fmt::format("for example  {} = {}", law.name, law.example));
+                if (!value && k.required)
                     wrong(*node, fmt::format("{}.{} is missing.", v.law.where.key, k.name), "all numbers of the law",
                           fmt::format("for example  {} = {}", law.name, law.example));
             }
@@ -294,7 +326,7 @@ private:
 
     void read_correlation(const toml::table& entry, ProbabilityInput& p)
     {
-        check_names(entry, "probability.correlation", {"between", "spearman"});
+        check_names(entry, "probability.correlation", fragility_key_table("probability.correlation").names());
         RankCorrelation c;
         c.where = {"probability.correlation", entry.source().begin.line};
         const toml::array* names = entry["between"].as_array();
@@ -322,9 +354,8 @@ private:
         const toml::table* table = table_named("suite");
         if (!table) return;
         SuiteInput& suite = out.emplace();
-        check_names(*table, "suite", {"files", "draw", "polarity", "max_scale", "allow_scaling"});
-        if (const auto files = (*table)["files"].value<std::string>())
-            suite.files = (file_.parent_path() / *files).string();
+        check_names(*table, "suite", fragility_key_table("suite").names());
+        if (const auto files = text(*table, "suite", "files")) suite.files = (file_.parent_path() / *files).string();
         if (const toml::node* files = table->get("files")) suite.where = {"suite.files", files->source().begin.line};
         choice<SuiteDraw>(*table, "suite", "draw",
                           {{"balanced", SuiteDraw::balanced}, {"with-replacement", SuiteDraw::with_replacement}},
@@ -334,8 +365,8 @@ private:
                                {"as-recorded", SuitePolarity::as_recorded},
                                {"reversed", SuitePolarity::reversed}},
                               suite.polarity);
-        number(*table, "suite", "max_scale", suite.max_scale, 0.0);
-        suite.allow_scaling = (*table)["allow_scaling"].value<bool>().value_or(false);
+        number(*table, "suite", "max_scale", suite.max_scale);
+        flag(*table, "suite", "allow_scaling", suite.allow_scaling);
     }
 
     void read_intensity(IntensityInput& in)
@@ -353,9 +384,8 @@ private:
                                                {"levels_m_s2", "m/s2", 1.0, true},
                                                {"levels_m_s", "m/s", 1.0, false},
                                                {"levels_cm_s", "cm/s", units::cm, false}};
-        check_names(*table, "intensity",
-                    {"measure", "component", "design", "levels_g", "levels_m_s2", "levels_m_s", "levels_cm_s"});
-        in.text = (*table)["measure"].value<std::string>().value_or("PGA");
+        check_names(*table, "intensity", fragility_key_table("intensity").names());
+        in.text = text(*table, "intensity", "measure").value_or("PGA");
         if (const auto name = parse_intensity(in.text)) {
             in.measure = name->measure;
             in.first_period = name->first_period;
@@ -401,22 +431,42 @@ private:
         const toml::node* node = root_.get("limit");
         if (!node)
             return missing("[[limit]]", "at least one", "for example  [[limit]] quantity = \"slip\" above_mm = 50");
-        for_each_entry(root_, "limit", [&](const toml::table& entry) {
-            check_names(entry, "limit", {"quantity", "above_mm", "above_cm", "above_m"});
+        for_each_entry(root_, "limit", "[[limit]]", [&](const toml::table& entry) {
+            check_names(entry, "limit", fragility_key_table("limit").names());
             LimitInput limit;
             choice<LimitQuantity>(entry, "limit", "quantity",
-                                  {{"slip", LimitQuantity::slip}, {"largest-slip", LimitQuantity::largest_slip}},
+                                  {{"slip", LimitQuantity::slip},
+                                   {"largest-slip", LimitQuantity::largest_slip},
+                                   {"lift-off", LimitQuantity::lift_off},
+                                   {"post-seismic-fs", LimitQuantity::post_seismic_fs}},
                                   limit.quantity);
             int given = 0;
+            const bool factor = limit.quantity == LimitQuantity::post_seismic_fs;
+            if (factor != entry.contains("below")) {
+                wrong(entry, factor ? "limit post-seismic-fs has no value." : "limit has below, which is of factors.",
+                      factor ? "below, the least factor" : "above_mm, above_cm or above_m",
+                      factor ? "for example  below = 1.1" : "for example  above_mm = 50");
+                return;
+            }
+            if (factor) {
+                number(entry, "limit", "below", limit.value);
+                limit.text = fmt::format("factor after the earthquake < {}", limit.value);
+                if (entry.contains("above_mm") || entry.contains("above_cm") || entry.contains("above_m"))
+                    wrong(entry, "limit post-seismic-fs has below and above.", "below alone", "delete the other");
+                limits.push_back(std::move(limit));
+                return;
+            }
+            const char* const name = limit.quantity == LimitQuantity::slip       ? "slip"
+                                     : limit.quantity == LimitQuantity::lift_off ? "opening of the base"
+                                                                                 : "largest slip";
             for (const auto& [key, unit, si] :
                  {std::tuple{"above_mm", "mm", units::mm}, {"above_cm", "cm", units::cm}, {"above_m", "m", 1.0}}) {
                 if (!entry.contains(key)) continue;
                 ++given;
                 double value = 0.0;
-                number(entry, "limit", key, value, 0.0, false);
+                number(entry, "limit", key, value);
                 limit.value = value * si;
-                limit.text = fmt::format("{} > {} {}", limit.quantity == LimitQuantity::slip ? "slip" : "largest slip",
-                                         value, unit);
+                limit.text = fmt::format("{} > {} {}", name, value, unit);
             }
             if (given != 1)
                 wrong(entry, fmt::format("limit has {} values.", given), "one of above_mm, above_cm, above_m",
@@ -429,16 +479,17 @@ private:
     {
         const toml::table* table = table_named("hazard");
         if (!table) return;
-        check_names(*table, "hazard", {"curve", "all_events"});
+        check_names(*table, "hazard", fragility_key_table("hazard").names());
         HazardInput& hazard = out.emplace();
-        const auto curve = (*table)["curve"].value<std::string>();
-        if (!curve)
+        const auto curve = text(*table, "hazard", "curve");
+        if (!table->contains("curve"))
             return wrong(*table, "hazard.curve is missing.", "a CSV file: intensity, annual rate",
                          "for example  curve = \"hazard.csv\"");
+        if (!curve) return;
         hazard.curve = file_.parent_path() / *curve;
         hazard.where = {"hazard.curve", table->get("curve")->source().begin.line};
         double rate = 0.0;
-        number(*table, "hazard", "all_events", rate, 0.0);
+        number(*table, "hazard", "all_events", rate);
         if (rate > 0.0) hazard.all_events = rate;
     }
 
@@ -452,7 +503,19 @@ private:
 
 FragilityInput read_fragility_input(const std::filesystem::path& file)
 {
-    return FragilityReader(file).read();
+    return FragilityReader(read_file(file, 4u << 20), file).read();
+}
+
+std::vector<Diagnostic> wrong_in_fragility_tables(std::string_view text, const std::filesystem::path& file)
+{
+    return FragilityReader(text, file).look_over();
+}
+
+FragilityInput fragility_input_of(std::string_view text, std::string_view instead, const std::filesystem::path& file)
+{
+    FragilityReader reader(text, file);
+    reader.replace(instead);
+    return reader.read();
 }
 
 } // namespace damslip

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/input_error.hpp"
 #include "core/intensity_measure.hpp"
 #include "scene/scene_text.hpp"
 
@@ -8,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace damslip {
@@ -65,8 +67,9 @@ enum class SuitePolarity { as_recorded, reversed, both };
 
 /// [suite]. Absent: the records of [motion].
 struct SuiteInput {
-    std::string files; ///< folder, glob, or CSV with columns horizontal, vertical, event, weight, magnitude, scale; found from where the
-                       ///< program runs: the reader has put the scene's folder in front
+    std::string
+        files; ///< folder, glob, or CSV with columns horizontal, vertical, event, weight, magnitude, scale; found from where the
+        ///< program runs: the reader has put the scene's folder in front
     LineOfFile where;
     SuiteDraw draw = SuiteDraw::balanced;
     SuitePolarity polarity = SuitePolarity::both;
@@ -85,7 +88,7 @@ struct IntensityInput {
     IntensityComponent component = IntensityComponent::as_used;
     std::vector<double> levels; ///< ascending, SI: m/s^2, m/s of PGV, IA and CAV
     FragilityDesign design = FragilityDesign::stripes;
-    double level_unit = 1.0;             ///< SI value of one unit of the levels key: 9.80665 of levels_g
+    double level_unit = 1.0;              ///< SI value of one unit of the levels key: 9.80665 of levels_g
     std::string level_unit_text = "m/s2"; ///< "g", "m/s2", "m/s"
 };
 
@@ -100,7 +103,8 @@ struct LimitInput {
 
 /// [hazard]
 struct HazardInput {
-    std::filesystem::path curve;      ///< CSV: im (unit of the levels key), annual rate; or an OpenQuake export. With the scene's folder
+    std::filesystem::path
+        curve; ///< CSV: im (unit of the levels key), annual rate; or an OpenQuake export. With the scene's folder
     std::optional<double> all_events; ///< rate of all events [1/year]
     LineOfFile where;
 };
@@ -117,8 +121,17 @@ struct FragilityInput {
     std::optional<HazardInput> hazard;
 };
 
-/// The tables [probability], [suite], [intensity], [[limit]] and [hazard] of a scene file. Other commands pass over them.
+/// The tables [probability], [suite], [intensity], [[limit]] and [hazard] of a scene file. Other commands look them over.
 /// @throws InputError with everything that is wrong at once
 FragilityInput read_fragility_input(const std::filesystem::path& file);
+
+/// What is wrong in those of these tables that a scene has: every command reads them, so that a misspelt key is found at once. Tables that only
+/// `fragility` needs may be missing.
+std::vector<Diagnostic> wrong_in_fragility_tables(std::string_view text, const std::filesystem::path& file);
+
+/// The same of a text. @param instead  TOML of the same tables: its keys take the place of those of the text; of [[limit]] and
+/// [[probability.variable]] the whole list does, of [intensity] the levels in any unit. What is wrong in it has no line.
+/// @param file  for messages; paths start from its folder
+FragilityInput fragility_input_of(std::string_view text, std::string_view instead, const std::filesystem::path& file);
 
 } // namespace damslip

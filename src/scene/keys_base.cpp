@@ -117,7 +117,7 @@ std::vector<KeyGroup> base_groups()
                          {"penalty", ContactEnforcement::penalty},
                          {"slip-tolerance", ContactEnforcement::slip_tolerance}})),
          only_with(ContactEnforcement::penalty,
-                   number("tangential_stiffness", subgrade, Range::above(0), "required with penalty",
+                   number("tangential_stiffness", subgrade, Range::at_least(1), "required with penalty",
                           "enforcement penalty: shear stress per elastic slip", "1e11",
                           at(&Contact::tangential_stiffness))),
          only_with(ContactEnforcement::slip_tolerance,

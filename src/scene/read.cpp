@@ -467,7 +467,19 @@ toml::table toml_of(std::string_view text, const std::filesystem::path& file)
 
 Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file, FileCheck check)
 {
-    return scene_of_table(toml_of(toml_text, file), file, check);
+    toml::table root = toml_of(toml_text, file);
+    const bool fragility = std::any_of(std::begin(fragility_tables), std::end(fragility_tables),
+                                       [&root](const char* table) { return root.contains(table); });
+    if (!fragility) return scene_of_table(std::move(root), file, check);
+
+    std::vector<Diagnostic> wrong = wrong_in_fragility_tables(toml_text, file);
+    try {
+        Scene scene = scene_of_table(std::move(root), file, check);
+        if (wrong.empty()) return scene;
+    } catch (const InputError& error) {
+        wrong.insert(wrong.begin(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+    throw InputError(std::move(wrong));
 }
 
 Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCheck check)
@@ -480,7 +492,7 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     const bool wedge = root.contains("wedge");
     if (wedge) keep_wedge_tables(groups, root, findings);
     unknown_tables(groups, root, findings);
-    for (const char* table : fragility_tables) root.erase(table); // read by read_fragility_input() alone
+    for (const char* table : fragility_tables) root.erase(table); // they are no part of a Scene
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);
     read_expectations(root, scene, findings);
 

@@ -19,6 +19,9 @@ struct SceneText::Tables {
     toml::table root;
     SectionInput section;
     std::vector<KeyGroup> groups = key_groups(section);
+
+    /// The tables with values set. @param of  the text that these are of
+    toml::table with(std::span<const KeyChange> changes, const SceneText& of) const;
 };
 
 namespace {
@@ -171,22 +174,35 @@ const std::filesystem::path& SceneText::file() const
     return tables_->file;
 }
 
-Scene SceneText::with(std::span<const KeyChange> changes) const
+toml::table SceneText::Tables::with(std::span<const KeyChange> changes, const SceneText& of) const
 {
-    toml::table root = tables_->root;
+    toml::table changed = root;
     std::set<std::pair<const toml::table*, const Key*>> set; // of a list: key and entry
     for (const KeyChange& change : changes) {
-        const std::optional<Target> target = find(tables_->groups, change.key);
-        toml::table* table = target ? table_of(root, *target) : nullptr;
-        if (!table) refuse_key(tables_->file, change.key, keys());
+        const std::optional<Target> target = find(groups, change.key);
+        toml::table* table = target ? table_of(changed, *target) : nullptr;
+        if (!table) refuse_key(file, change.key, of.keys());
         if (!set.emplace(table, target->key).second)
-            throw InputError(Diagnostic{tables_->file.string(), 0, 0, fmt::format("{} is set twice.", change.key),
+            throw InputError(Diagnostic{file.string(), 0, 0, fmt::format("{} is set twice.", change.key),
                                         "one value and one unit for each key", "leave one out"});
         for (const std::string& spelling : target->key->spellings()) table->erase(spelling);
         put(*table, path_of(change.key).key, change.value, whole(slot_of(*target->group, *target->key)));
         if (change.key == "contact.friction") lower_residual(*table, change);
     }
-    return scene_of_table(std::move(root), tables_->file, FileCheck::must_exist);
+    return changed;
+}
+
+Scene SceneText::with(std::span<const KeyChange> changes) const
+{
+    return scene_of_table(tables_->with(changes, *this), tables_->file, FileCheck::must_exist);
+}
+
+SceneText SceneText::set(std::span<const KeyChange> changes) const
+{
+    auto tables = std::make_shared<Tables>();
+    tables->file = tables_->file;
+    tables->root = tables_->with(changes, *this);
+    return SceneText(std::shared_ptr<const Tables>(std::move(tables)));
 }
 
 double SceneText::written(const std::string& key) const

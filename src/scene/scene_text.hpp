@@ -32,6 +32,8 @@ public:
     /// @throws InputError with all that is wrong; an unknown key with the nearest one that can be set
     Scene with(std::span<const KeyChange> changes) const;
     Scene scene() const { return with({}); }
+    /// A text with the values in it. @throws InputError as with(), but does not check the scene
+    SceneText set(std::span<const KeyChange> changes) const;
 
     /// Keys that can be set: numbers, whole numbers, true or false, and choices, of tables that every scene has or this file names; in
     /// their first unit. In the order of the documentation.
@@ -49,6 +51,7 @@ public:
 
 private:
     struct Tables;
+    explicit SceneText(std::shared_ptr<const Tables> tables) : tables_(std::move(tables)) {}
     std::shared_ptr<const Tables> tables_;
 };
 

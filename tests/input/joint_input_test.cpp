@@ -34,7 +34,7 @@ TEST(JointInput, StiffnessAndPenaltyBelongTogether)
               "  fix:      add  tangential_stiffness_N_m3 = 1e11  to [contact]");
     EXPECT_EQ(joint_message("enforcement = \"penalty\"\ntangential_stiffness_N_m3 = 0\n"),
               "dam.toml:9:29: error: contact.tangential_stiffness_N_m3 = 0 is not allowed.\n"
-              "  expected: a number > 0 [N_m3]: enforcement penalty: shear stress per elastic slip\n"
+              "  expected: a number >= 1 [N_m3]: enforcement penalty: shear stress per elastic slip\n"
               "  fix:      for example  tangential_stiffness_N_m3 = 1e11");
 }
 

@@ -453,6 +453,7 @@ public:
         if (draw_.chance(0.1) && plain && without({"slammer", "model = \"acoustic\""}))
             key("contact", "restitution", draw_.word({"0.1", "0.5", "0.9", "1"}));
         if (draw_.chance(0.12) && without({"slammer", "central-difference"})) add_sequence();
+        if (has("[[lift_joint]]\n") && draw_.chance(0.3) && plain) add_bond_of_joint();
     }
 
 private:
@@ -487,6 +488,21 @@ private:
             key("contact", "fracture_energy_tension_N_m", draw_.log_between(0.1, 1e4));
         }
         if (draw_.chance(0.3)) key("contact", "unloading", "\"plastic\"");
+    }
+
+    /// Of the first lift joint, by energies.
+    void add_bond_of_joint()
+    {
+        const std::size_t joint = files_.scene.find("[[lift_joint]]\n"), end = files_.scene.find("\n[", joint + 1);
+        const std::string table = files_.scene.substr(joint, end - joint);
+        if (table.find("cohesion_lost_at_slip = false") != std::string::npos) return;
+        if (table.find("cohesion_kPa") == std::string::npos)
+            key("[lift_joint]", "cohesion_kPa", draw_.log_between(1, 3000));
+        key("[lift_joint]", "bond", "\"fracture\"");
+        key("[lift_joint]", "fracture_energy_shear_N_m", draw_.log_between(1, 1e5));
+        if (!draw_.chance(0.6)) return;
+        key("[lift_joint]", "tensile_strength_kPa", draw_.log_between(1, 3000));
+        key("[lift_joint]", "fracture_energy_tension_N_m", draw_.log_between(0.1, 1e4));
     }
 
     void add_water()

@@ -4,6 +4,7 @@
 #include "scene/read.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -101,6 +102,65 @@ TEST(Assess, RecordThatDidNotFitTakesThePassBack)
     a.fe->pairs = std::make_shared<const std::vector<RecordPair>>(std::move(two));
     judge_assessment(a);
     EXPECT_EQ(a.verdict, damslip::Verdict::undecided);
+}
+
+/// Ends the computation when the n-th model of finite elements is begun.
+class StopsAtModel final : public Watch {
+public:
+    explicit StopsAtModel(int n) : last_(n) {}
+    bool stop_asked() const override { return begun_ >= last_; }
+    void begin(const std::string& label, double) override
+    {
+        if (label == "fe") ++begun_;
+    }
+
+private:
+    int last_;
+    std::atomic<int> begun_ = 0;
+};
+
+TEST(Assess, PolarityThatDidNotFitTakesThePassBack)
+{
+    Assessment a = with_finite_elements(50);
+    a.runs.pop_back();
+    a.spread.clear();
+    judge_assessment(a);
+    EXPECT_EQ(a.verdict, damslip::Verdict::undecided);
+    EXPECT_NE(a.verdict_reason.find("polarity"), std::string::npos);
+}
+
+TEST(Assess, RangeOfARunWithoutErrorHoldsTheOtherPolarityWithIts)
+{
+    Assessment a = with_finite_elements(50);
+    a.spread.clear();
+    a.runs[0].mesh.check = MeshCheck::no_answer; // 23 mm, on a coarser mesh
+    judge_assessment(a);
+    EXPECT_FALSE(a.recommended->error_known);
+    EXPECT_DOUBLE_EQ(a.recommended->slip, 23.0 * one_mm);
+    EXPECT_NEAR(a.recommended->low, 18.5 * one_mm, 1e-9);
+    EXPECT_NEAR(a.recommended->high, 23.0 * one_mm, 1e-9);
+    EXPECT_EQ(a.verdict, damslip::Verdict::undecided);
+}
+
+TEST(Assess, TimeForElementsOfTwiceTheSizeAloneGivesTheirSlipWithoutAnError)
+{
+    Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam_profile.toml");
+    scene.mesh.size = 4.0;
+    scene.mesh.contact_size = 2.5;
+    scene.criteria.allowable_slip = 5.0;
+    StopsAtModel watch(2); // the first is the coarser one
+    const Assessment a = assess(scene, {1e6, 1}, watch);
+    ASSERT_TRUE(a.recommended);
+    EXPECT_EQ(a.recommended->level, SlipLevel::finite_elements);
+    EXPECT_EQ(a.runs.size(), 2u); // both polarities
+    EXPECT_FALSE(a.recommended->error_known);
+    EXPECT_LT(a.recommended->low, a.recommended->slip); // the other polarity
+    EXPECT_EQ(a.verdict, damslip::Verdict::undecided);  // far below 5 m, but the error is not known
+    EXPECT_TRUE(std::any_of(a.left_out.begin(), a.left_out.end(),
+                            [](const LeftOut& l) { return l.what.find("twice the size") != std::string::npos; }));
+    StopsAtModel sooner(1);
+    const Assessment none = assess(scene, {1e6, 1}, sooner);
+    EXPECT_TRUE(none.runs.empty());
 }
 
 TEST(Assess, LevelsThreeTimesApartNameAnAssumptionInWhichTheyDiffer)

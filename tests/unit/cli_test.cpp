@@ -1,5 +1,7 @@
 #include "analysis/screen/screening.hpp"
+#include "cli/arguments.hpp"
 #include "core/statistics.hpp"
+#include "core/usage_error.hpp"
 #include "program_answer.hpp"
 
 #include <gtest/gtest.h>
@@ -204,6 +206,35 @@ TEST_F(CliScene, FeTiedWritesStagesAndHistory)
     EXPECT_TRUE(std::filesystem::exists(folder / "tied" / "history_pulse.csv"));
 }
 
+// The same level from both commands, of the same flags and beside the same records.
+TEST_F(CliScene, FeAndScreenHaveTheSameResponseSpectrum)
+{
+    std::ofstream(folder / "elastic.toml")
+        << "[section]\nheight_m = 10\nbase_m = 8\n[dam]\ndensity_kg_m3 = 2500\nyoung_modulus_GPa = 25\npoisson_ratio = "
+           "0.2\n[contact]\nfriction = 0.8\n[mesh]\nsize_m = 2\n[[motion.record]]\nhorizontal = "
+           "\"pulse.csv\"\nvertical = "
+           "\"pulse.csv\"\n";
+    std::ofstream(folder / "shape.csv") << "period_s,s_a\n0,1\n0.1,2.5\n0.4,2.5\n2,0.5\n";
+    const std::string scene = (folder / "elastic.toml").string(), shape = (folder / "shape.csv").string();
+    const auto answer = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+        words.insert(words.end(), {"--response-spectrum", "--json", "-q"});
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramAnswer a = answer_of(words);
+        EXPECT_EQ(a.code, 0) << a.talk;
+        return nlohmann::json::parse(a.out)["response_spectrum"];
+    };
+    for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                                 {"--spectrum", shape, "--spectrum-pga", "1"},
+                                                 {"--spectrum", shape, "--spectrum-pga", "1", "--spectrum-vertical",
+                                                  shape, "--spectrum-vertical-pga", "0.5"}}) {
+        const auto screen = answer({"screen", scene}, more), fe = answer({"fe", scene, "--base", "tied"}, more);
+        EXPECT_EQ(screen, fe);
+        EXPECT_GT(fe["rows"][0]["base_shear_kN_m"].get<double>(), 0.0);
+        EXPECT_EQ(fe.contains("components"),
+                  more.size() != 4); // the record's and the given vertical, not of one spectrum
+    }
+}
+
 TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
 {
     // The example with added mass by name: "auto" makes it acoustic for modes, while contact runs keep added mass. On
@@ -379,6 +410,44 @@ TEST(Cli, CompletionKnowsCommandsAndFlags)
         EXPECT_NE(text.find("screen"), std::string::npos);
         EXPECT_NE(text.find(std::string(shell) == "fish" ? "-l record" : "--record"), std::string::npos);
     }
+}
+
+TEST(Cli, NoFlagTakesWhatIsNoNumber)
+{
+    int flags = 0;
+    for (const cli::CommandSummary& command : cli::command_summaries())
+        for (const cli::OptionSummary& option : command.options) {
+            if (!option.value.starts_with("FLOAT")) continue;
+            ++flags;
+            for (const std::string value : {"nan", "-nan", "inf", "-inf", "1e999"}) {
+                std::vector<std::string> words;
+                std::istringstream names(command.name);
+                for (std::string word; names >> word;) words.push_back(word);
+                words.push_back(option.name + "=" + value);
+                try {
+                    cli::parse_arguments(words);
+                    ADD_FAILURE() << command.name << " takes " << words.back();
+                } catch (const UsageError& error) {
+                    const std::string said = error.what();
+                    EXPECT_NE(said.find(option.name + ": " + value + " is not allowed"), std::string::npos) << said;
+                    EXPECT_NE(said.find("number"), std::string::npos) << said;
+                }
+            }
+        }
+    EXPECT_GT(flags, 50); // screen, fe, sweep, regress, record ...: the loop has met them
+}
+
+TEST(Cli, BoundsOfADecimalFlagAreSaid)
+{
+    for (const std::string value : {"0.9", "1001", "tall"}) try {
+            cli::parse_arguments({"init", "dam.toml", "--height", value});
+            ADD_FAILURE() << value;
+        } catch (const UsageError& error) {
+            EXPECT_NE(std::string(error.what()).find("--height: " + value + " is not allowed: a number from 1 to 1000"),
+                      std::string::npos)
+                << error.what();
+        }
+    EXPECT_NO_THROW(cli::parse_arguments({"init", "dam.toml", "--height", "1000"}));
 }
 
 TEST(Cli, PercentilesInterpolateBetweenOrderStatistics)

@@ -3,6 +3,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "pages/fe/contact_tables.hpp"
 #include "records/transform/sequence.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/hard/hard_scenes.hpp"
@@ -258,6 +259,18 @@ TEST(StaticJump, ADamWhoseBondBreaksComesToRestOnItsBars)
     EXPECT_LE(std::abs(shear - along), scene.contact.friction * (normal + across) * (1.0 + 1e-3));
     EXPECT_GT(jumped->bond->lost, 0.0);
     EXPECT_LT(jumped->bond->lost, (shear - scene.contact.friction * normal) * jumped->slip);
+
+    // The ledger names it beside its own terms.
+    ContactRun shown;
+    shown.fe = run;
+    const Table ledger = pages::contact_energy_table({shown});
+    const auto column = std::find_if(ledger.columns.begin(), ledger.columns.end(),
+                                     [](const Column& c) { return c.key == "jump_loss_J_m"; });
+    ASSERT_NE(column, ledger.columns.end());
+    double lost = 0.0;
+    for (const fe2d::StageResult& stage : run.stages)
+        if (stage.bond) lost += stage.bond->lost;
+    EXPECT_EQ(std::get<double>(ledger.rows.front()[static_cast<std::size_t>(column - ledger.columns.begin())]), lost);
 }
 
 } // namespace

@@ -1,10 +1,12 @@
 // The report of FE contact runs: its charts say what the runs say.
 #include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
+#include "pages/fe/fe_charts.hpp"
 #include "pages/fe/fe_report.hpp"
 #include "pages/report/page_html.hpp"
 #include "scene/read.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -227,6 +229,56 @@ TEST(StoredStates, AreThoseOfTheLargestLeansAndSlipRate)
     EXPECT_EQ(time_of(fe2d::Instant::slides_fastest), 4.0);
     EXPECT_EQ(time_of(fe2d::Instant::end), 4.0);
     for (const auto& s : states) EXPECT_EQ(s.dam[0], s.time);
+}
+
+// The damage that the run left, the base's pairs alone, and the length that is broken by their areas.
+TEST(FeReportPage, BondOfTheBaseIsDrawnAsTheRunLeftIt)
+{
+    ContactRun run = fe_run().runs.front();
+    const RunView view{run, nullptr, {}, "record1"};
+    Scene bonded = fe_run().scene;
+    EXPECT_FALSE(bond_chart(view, bonded)) << "no bond";
+    bonded.contact.cohesion = 1e6;
+    bonded.contact.bond.shear_energy = 1500.0;
+    EXPECT_FALSE(bond_chart(view, bonded)) << "no bond in the run";
+    const auto pairs = static_cast<std::size_t>(run.fe.pair_distance.size());
+    ASSERT_GE(pairs, 3u);
+    std::vector<double> damage(pairs + 2, 0.25); // two pairs more, of a lift joint
+    damage[0] = damage[1] = 1.0;
+    run.fe.state.laws["bond_damage"] = damage;
+    const std::optional<Chart> chart = bond_chart(view, bonded);
+    ASSERT_TRUE(chart);
+    ASSERT_EQ(chart->curves.size(), 1u);
+    damage.resize(pairs);
+    EXPECT_EQ(chart->curves.front().y, damage);
+    EXPECT_EQ(chart->curves.front().x.back(), run.fe.pair_distance[run.fe.pair_distance.size() - 1]);
+    const std::string length =
+        fmt::format("{:.3g} m of {:.3g} m", run.fe.pair_area.head(2).sum(), run.fe.pair_area.sum());
+    EXPECT_NE(chart->note.find(length), std::string::npos) << chart->note;
+}
+
+// A lift joint's elements are those of the dam: a bond too strong for them is lowered, and that is said with the length to use.
+TEST(FeReportPage, BondsThatElementsCannotCarryAreSaid)
+{
+    const auto messages_with = [](double energy_N_m) {
+        const Scene scene =
+            parse_scene("[section]\npolygon_m = [[0, 0], [8, 0], [8, 4], [0, 4]]\n[dam]\ndensity_kg_m3 = "
+                        "2500\nyoung_modulus_GPa = 25\n"
+                        "poisson_ratio = 0\n[contact]\nfriction = 0.7\n[mesh]\nsize_m = 1\ncontact_size_m = "
+                        "1\n[[lift_joint]]\nname = "
+                        "\"lift\"\nelevation_m = 2\nfriction = 0.8\ncohesion_kPa = 2000\nfracture_energy_shear_N_m = " +
+                            fmt::format("{}\n", energy_N_m),
+                        "block.toml");
+        const fe2d::EarthquakeRun model(scene, {});
+        return bond_messages(scene, model);
+    };
+    // E G/(4 c²): 25e9 * 1000/(4 * 4e12) = 1.56 m carry it, and 100 J/m² make it 0.156 m, sqrt(25e9 * 100/4) = 790.6 kPa.
+    EXPECT_TRUE(messages_with(1000.0).empty());
+    const std::vector<std::string> said = messages_with(100.0);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("lift: elements of 1 m"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("cohesion 790.6 kPa"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("at most 0.156 m"), std::string::npos) << said[0];
 }
 
 TEST(FeReportPage, SameBytesEachTime)

@@ -78,11 +78,11 @@ TEST(ReportPage, TheTitleBlockHasRoomForASignatureOfEach)
     Page page;
     page.title = "Dam";
     EXPECT_EQ(page_html(page).find("<section class=\"title-block\""), std::string::npos) << "nothing given, no block";
-    page.title_block.entries = {{"client", "Valley Power"}};
-    page.title_block.signers = {{"prepared by", "A. Meier"}, {"checked by", "B. Rossi"}};
+    page.title_block.entries = {{"client", "Owner of the dam"}};
+    page.title_block.signers = {{"prepared by", "Name of the engineer"}, {"checked by", "Name of the checker"}};
     page.title_block.notes = "level of 2024";
     const std::string html = page_html(page);
-    EXPECT_NE(html.find("<dt>client</dt><dd>Valley Power</dd>"), std::string::npos);
+    EXPECT_NE(html.find("<dt>client</dt><dd>Owner of the dam</dd>"), std::string::npos);
     EXPECT_EQ(occurrences(html, "<dd class=\"signature\">"), 2u);
     EXPECT_NE(html.find("<p>level of 2024</p>"), std::string::npos);
 }

@@ -102,9 +102,9 @@ TEST(Scene, HashChangesWithTheModelOnly)
 
 const char* const of_project = R"([project]
 name = "Review"
-client = "Valley Power"
-author = "A. Meier"
-checker = "B. \"R\" Rossi"
+client = "Owner of the dam"
+author = "Name of the engineer"
+checker = "Name of the \"second\" checker"
 date = "2026-01-31"
 revision = "B"
 notes = "first line\nsecond"
@@ -113,8 +113,8 @@ notes = "first line\nsecond"
 TEST(Scene, AProjectIsReadAndWrittenAndIsNoPartOfTheHash)
 {
     const Scene with = parse(of_project + std::string(minimal));
-    EXPECT_EQ(with.project.client, "Valley Power");
-    EXPECT_EQ(with.project.checker, "B. \"R\" Rossi");
+    EXPECT_EQ(with.project.client, "Owner of the dam");
+    EXPECT_EQ(with.project.checker, "Name of the \"second\" checker");
     EXPECT_EQ(with.project.revision, "B");
     const Scene again = parse(resolved_toml(with));
     EXPECT_EQ(again.project.notes, with.project.notes);

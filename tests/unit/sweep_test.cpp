@@ -331,6 +331,62 @@ TEST_F(SweepScene, InterruptedAndResumedGivesTheSameBytes)
     EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
 }
 
+// A sequence and anchors have columns of their own: the figures of `fe`, kept by journal, parts and merging.
+TEST_F(SweepScene, EventsAndAnchorsHaveColumns)
+{
+    const std::string block = content("block.toml"), motion = "[[motion.record]]";
+    const std::string anchor = "[[anchor]]\nname = \"bar, long\"\ndistance_m = 4\nfree_length_m = 10\narea_mm2_m = 20\n"
+                               "yield_strength_MPa = 500\nrupture_strain = @\n";
+    std::string named = block.substr(0, block.find(motion)) +
+                        "[motion]\nsequence = [\"first\", \"second\"]\nsequence_pause_s = 1\n" + anchor +
+                        "[[motion.record]]\nname = \"first\"\nhorizontal = \"pulse.csv\"\n[[motion.record]]\nname = "
+                        "\"second\"\nhorizontal = \"late.csv\"\n";
+    const auto with_rupture = [&](const std::string& strain) {
+        std::string text = named;
+        return text.replace(text.find('@'), 1, strain);
+    };
+    write("block.toml", with_rupture("0.5"));
+    const std::vector<std::string> grid{"--friction", "0.1,0.12", "--method", "rigid,fe"};
+    const Answer a = sweep(with(grid, {"--json"}));
+    ASSERT_EQ(a.code, 0) << a.talk;
+    const auto rows = nlohmann::json::parse(a.out)["rows"];
+    ASSERT_EQ(rows.size(), 4u);
+    const Answer fe = answer_of({"fe", path("block.toml"), "--json", "--no-mesh-error"});
+    ASSERT_EQ(fe.code, 0) << fe.talk;
+    const auto run = nlohmann::json::parse(fe.out);
+    for (const auto& row : rows) {
+        EXPECT_GT(row["slip_after_event_1_m"].get<double>(), 1e-3);
+        EXPECT_GT(row["slip_after_event_2_m"].get<double>(), row["slip_after_event_1_m"].get<double>());
+        EXPECT_EQ(row["slip_after_event_2_m"], row["slip_m"]) << "at rest after the last event";
+        EXPECT_EQ(row["anchor_1_largest_force_N_m"].get<double>(), 1e4) << "A f_y, exactly: it yields";
+        EXPECT_EQ(row["anchor_1_state"], "yielded");
+        if (row["method"] != "fe" || row["friction"] != 0.1) continue;
+        for (std::size_t k = 0; k < 2; ++k)
+            EXPECT_EQ(1e3 * row["slip_after_event_" + std::to_string(k + 1) + "_m"].get<double>(),
+                      run["events"][k]["slip_so_far_mm"].get<double>());
+    }
+
+    ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);
+    const std::string journal = content("whole.csv.journal");
+    std::filesystem::copy_file(folder / "whole.csv", folder / "kept.csv");
+    std::filesystem::remove(folder / "whole.csv");
+    write("whole.csv.journal",
+          journal.substr(0, journal.rfind("done"))); // all rows finished, the table not yet written
+    const Answer again = sweep(with(grid, {"--out", path("whole.csv"), "--resume"}));
+    ASSERT_EQ(again.code, 0) << again.talk;
+    EXPECT_NE(again.talk.find("4 rows were finished before"), std::string::npos) << again.talk;
+    EXPECT_EQ(content("whole.csv"), content("kept.csv"));
+    std::filesystem::create_directories(folder / "parts");
+    for (const char* shard : {"0/2", "1/2"})
+        ASSERT_EQ(sweep(with(grid, {"--out", path("parts/p.csv"), "--shard", shard})).code, 0);
+    EXPECT_EQ(answer_of({"sweep", "--merge", path("parts")}).out, content("kept.csv"));
+
+    write("block.toml", with_rupture("0.004"));
+    const Answer snapped = sweep(with(grid, {"--json"}));
+    ASSERT_EQ(snapped.code, 0) << snapped.talk;
+    for (const auto& row : nlohmann::json::parse(snapped.out)["rows"]) EXPECT_EQ(row["anchor_1_state"], "snapped");
+}
+
 } // namespace
 
 } // namespace damslip::sweep_tests

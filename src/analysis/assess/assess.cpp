@@ -1,6 +1,7 @@
 #include "analysis/assess/assess.hpp"
 
 #include "analysis/assess/budget_watch.hpp"
+#include "analysis/fe/mesh_scale.hpp"
 #include "core/input_error.hpp"
 #include "scene/rock_mass.hpp"
 
@@ -162,25 +163,75 @@ Records worst_first(const Records& records, const Assessment& a)
     return std::make_shared<const std::vector<RecordPair>>(std::move(sorted));
 }
 
+/// The worst record on elements of twice the size, an eighth of the time or so: the slip where the time does not hold the scene's own.
+/// Empty: there is no such mesh. @throws Interrupted
+std::vector<ContactRun> runs_on_coarser_mesh(const Ready& fe, Watch& watch)
+{
+    constexpr double twice = 2.0;
+    if (fe.scene.mesh.file || elements_on_base(fe.scene) < twice * least_elements) return {};
+    Scene scene = fe.given;
+    scale_mesh(twice, scene);
+    const auto worst = std::make_shared<const std::vector<RecordPair>>(1, fe.records().front());
+    const Ready coarse = prepare(scene, Method::finite_elements, worst, {.stop = watch.stop()});
+    FeOptions options;
+    options.mesh_error = false;
+    ContactRuns all(coarse, options, watch);
+    std::vector<ContactRun> runs = all.run([](ContactRun& r, const GroundMotion&) { r.fe.history = {}; });
+    std::erase_if(runs, [](const ContactRun& r) { return r.fe.status == Status::interrupted; });
+    for (ContactRun& r : runs) {
+        r.mesh.check = MeshCheck::no_answer;
+        r.mesh.reason = "the mesh's part of the error is not known: the time held elements of twice the size alone";
+    }
+    return runs;
+}
+
+bool has_run(const std::vector<ContactRun>& runs, const std::string& record, int polarity)
+{
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const ContactRun& r) { return r.record == record && r.polarity == polarity; });
+}
+
+/// Records and polarities that the time did not hold.
+void name_missing_runs(Assessment& a)
+{
+    for (const RecordPair& pair : a.fe->records()) {
+        const std::string& name = pair.files.name;
+        std::vector<std::string> missing;
+        for (const int polarity : polarities_of({}, a.fe->scene))
+            if (const int shown = shown_polarity(a.fe->scene, polarity); !has_run(a.runs, name, shown))
+                missing.push_back(fmt::format(", polarity {:+d}", shown));
+        const bool whole = missing.size() == polarities_of({}, a.fe->scene).size();
+        for (const std::string& of : whole ? std::vector<std::string>{""} : missing)
+            a.left_out.push_back({"finite elements, record " + name + of, "the time was over"});
+    }
+}
+
 void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
 {
     if (watch.stop_asked()) {
         a.left_out.push_back({"finite elements", "the time was over"});
         return;
     }
+    std::vector<ContactRun> coarse;
     try_part("finite elements", a.left_out, [&] {
         const Records records = worst_first(load_records(given, Method::finite_elements), a);
         a.fe = prepare(scene_of_finite_elements(given, a.rock_change), Method::finite_elements, records,
                        {.stop = watch.stop()});
+        coarse = runs_on_coarser_mesh(*a.fe, watch);
         ContactRuns all(*a.fe, {}, watch);
         std::vector<ContactRun> runs = all.run([](ContactRun& r, const GroundMotion&) { r.fe.history = {}; });
         std::erase_if(runs, [](const ContactRun& r) { return r.fe.status == Status::interrupted; });
-        for (const RecordPair& pair : a.fe->records())
-            if (std::none_of(runs.begin(), runs.end(),
-                             [&](const ContactRun& r) { return r.record == pair.files.name; }))
-                a.left_out.push_back({"finite elements, record " + pair.files.name, "the time was over"});
         a.runs = std::move(runs);
     });
+    if (!watch.stop_asked()) return;
+    for (ContactRun& r : coarse) {
+        if (has_run(a.runs, r.record, r.polarity)) continue;
+        a.left_out.push_back({"finite elements, " + r.label() +
+                                  ", on the scene's own elements (those of twice the size stand in their place)",
+                              "the time was over"});
+        a.runs.push_back(std::move(r));
+    }
+    if (!a.runs.empty()) name_missing_runs(a);
 }
 
 /// Variants on the worst record, each if its time, judged by those before it, is there.

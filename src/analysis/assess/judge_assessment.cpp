@@ -138,6 +138,13 @@ std::optional<Recommendation> by_finite_elements(const Assessment& a)
         r.from = "numerical error (" + error.parts() + ")";
     } else {
         r.from = "models alone, the numerical error is not known";
+        for (const ContactRun& run : a.runs) { // the other polarity's may be
+            const SlipError other = slip_error(run);
+            if (run.record != worst.record || !has_slip(run) || !std::isfinite(other.total)) continue;
+            r.low = std::min(r.low, std::max(0.0, std::abs(run.fe.max_slip) - other.total));
+            r.high = std::max(r.high, std::abs(run.fe.max_slip) + other.total);
+            r.from = "the other polarity with its numerical error; that of this run is not known";
+        }
     }
     for (const ModelChoice& choice : a.spread) {
         // Massless rock is no other opinion of the same rock: it keeps every wave. It is shown, not counted.
@@ -175,13 +182,17 @@ std::optional<Recommendation> by_blocks(const Assessment& a)
     return std::nullopt;
 }
 
+/// All records, each in both polarities where both are run.
 bool all_records_ran(const Assessment& a)
 {
-    const std::size_t whole = a.fe ? a.fe->records().size() : 0;
-    std::vector<std::string> names;
-    for (const ContactRun& r : a.runs)
-        if (std::find(names.begin(), names.end(), r.record) == names.end()) names.push_back(r.record);
-    return whole > 0 && names.size() == whole;
+    if (!a.fe || a.fe->records().empty()) return false;
+    for (const RecordPair& pair : a.fe->records()) {
+        std::ptrdiff_t runs = 0, wanted = 1;
+        for (const ContactRun& r : a.runs)
+            if (r.record == pair.files.name) ++runs, wanted = r.both ? 2 : 1;
+        if (runs < wanted) return false;
+    }
+    return true;
 }
 
 /// The first limit-equilibrium check that is not met.
@@ -238,7 +249,7 @@ void judge_slip(Assessment& a)
             a.verdict_reason += " But not every run of the finite elements can be judged.";
         } else if (a.verdict == Verdict::pass && !all_records_ran(a)) {
             a.verdict = Verdict::undecided;
-            a.verdict_reason += " But not every record was run by finite elements.";
+            a.verdict_reason += " But not every record and polarity was run by finite elements.";
         }
     }
 }

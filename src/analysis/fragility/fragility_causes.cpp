@@ -2,6 +2,7 @@
 
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "probability/laws/copula.hpp"
 #include "probability/laws/distribution.hpp"
 #include "probability/sampling/unit_points.hpp"
 #include "sliding/block/fixed_yield.hpp"
@@ -44,6 +45,60 @@ std::vector<double> probabilities(const FragilityPlan& p, const FragilityRuns& r
     for (std::size_t d = 0; d < all.size(); ++d) failing[d] = all[d] > 0.0 ? failing[d] / all[d] : 0.0;
     return failing;
 }
+
+/// The copula of all variables, of both kinds: correlations are within one.
+probability::GaussianCopula copula_of_all(const FragilityPlan& plan)
+{
+    std::vector<probability::RankCorrelation> pairs;
+    const auto place = [&](const std::string& name) {
+        std::size_t v = 0;
+        while (v < plan.variables().size() && plan.variables()[v].name != name) ++v;
+        return v;
+    };
+    for (const RankCorrelation& c : plan.input.probability.correlations)
+        pairs.push_back({place(c.first), place(c.second), c.spearman});
+    return {plan.variables().size(), pairs};
+}
+
+/// The shares of correlated variables. `answer` is asked for one draw at a time: once to list the draws, and once more, in the same order, with
+/// their answers.
+class ShapleyDraws {
+public:
+    ShapleyDraws(const FragilityPlan& plan, std::size_t rows)
+        : copula_(copula_of_all(plan)), seed_(plan.input.probability.seed)
+    {
+        constexpr std::size_t least = 16, plain = 4; // draws of a subset; variables up to which all rows are drawn
+        const std::size_t k = copula_.dimension();
+        outer_ = static_cast<std::uint32_t>(k > plain ? std::max(least, (rows << plain) >> k) : std::max(least, rows));
+    }
+    std::vector<std::vector<double>> points() const
+    {
+        std::vector<std::vector<double>> points;
+        effects(
+            [&](std::span<const double> u) {
+                points.emplace_back(u.begin(), u.end());
+                return 0.0;
+            },
+            0);
+        return points;
+    }
+    probability::ShapleyEffects of(std::span<const double> answers) const
+    {
+        std::size_t next = 0;
+        return effects([&](std::span<const double>) { return answers[next++]; }, 500);
+    }
+
+private:
+    template <class Answer>
+    probability::ShapleyEffects effects(Answer answer, std::uint32_t bootstrap) const
+    {
+        return probability::shapley_effects(copula_, answer, outer_, 3, 0.0, seed_, bootstrap);
+    }
+
+    probability::GaussianCopula copula_;
+    std::uint64_t seed_;
+    std::uint32_t outer_ = 16;
+};
 
 std::size_t level_near_one_half(const LimitEstimate& limit)
 {
@@ -107,6 +162,9 @@ std::optional<FragilityCauses> fragility_causes(const FragilityPlan& plan, const
                 draws.push_back(draw_at(u));
             }
     }
+    std::optional<ShapleyDraws> shapley;
+    if (!independent && k <= most_shapley)
+        for (const std::vector<double>& u : shapley.emplace(plan, rows).points()) draws.push_back(draw_at(u));
     const FragilityPlan p = whole_suite_at(plan, causes.level, std::move(draws));
     const FragilityRuns runs = run_fragility(p, text, rigid, wanted_samples(p), nullptr, jobs, watch);
     if (!runs.complete()) return std::nullopt;
@@ -119,6 +177,10 @@ std::optional<FragilityCauses> fragility_causes(const FragilityPlan& plan, const
         causes.bars.back().y.push_back(y[b]);
     }
     probability::order_tornado(causes.bars);
+    if (shapley) {
+        probability::ShapleyEffects effects = shapley->of(std::span(y).subspan(bar_draws.size()));
+        if (effects.variance > 0.0) causes.shapley = std::move(effects);
+    }
     if (independent) {
         const auto part = [&](std::size_t column) {
             const auto first = y.begin() + static_cast<std::ptrdiff_t>(bar_draws.size() + column * rows);

@@ -1,5 +1,6 @@
 #include "analysis/fragility/fragility_estimate.hpp"
 
+#include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/statistics.hpp"
 #include "probability/estimate/two_level.hpp"
@@ -12,37 +13,14 @@ namespace damslip {
 
 namespace {
 
-/// Counts of one cell: weights of counted, failing and missing runs.
-struct RunCount {
-    double n = 0.0, z = 0.0, missing = 0.0;
-    void add(LimitAnswer answer, double weight, StaticFailure rule)
-    {
-        if (answer == LimitAnswer::static_failure && rule == StaticFailure::given_standing) return;
-        n += weight;
-        if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure) z += weight;
-        if (answer == LimitAnswer::missing) missing += weight;
-    }
-    void add(const RunCount& c, double times = 1.0)
-    {
-        n += times * c.n;
-        z += times * c.z;
-        missing += times * c.missing;
-    }
-    double low() const { return n > 0.0 ? z / n : 0.0; }
-    double high() const { return n > 0.0 ? (z + missing) / n : 0.0; }
-    double middle() const { return 0.5 * (low() + high()); }
-};
-
-/// Counts of one limit: by level and then by replicate, event and epistemic draw.
-struct LimitCounts {
-    std::vector<RunCount> all;
-    std::vector<std::vector<RunCount>> replicate, cluster, outer;
-    LimitCounts(std::size_t levels, std::size_t replicates, std::size_t clusters, std::size_t outers)
-        : all(levels), replicate(levels, std::vector<RunCount>(replicates)),
-          cluster(levels, std::vector<RunCount>(clusters)), outer(levels, std::vector<RunCount>(outers))
-    {
-    }
-};
+/// Adds a run to its counts.
+void add_run(RunCount& c, LimitAnswer answer, double weight, StaticFailure rule)
+{
+    if (answer == LimitAnswer::static_failure && rule == StaticFailure::given_standing) return;
+    c.n += weight;
+    if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure) c.z += weight;
+    if (answer == LimitAnswer::missing) c.missing += weight;
+}
 
 /// Which events there are, and of which one each record is.
 struct Events {
@@ -75,7 +53,7 @@ LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, co
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
         const FragilitySample& s = plan.samples[id];
         const LimitAnswer answer = answer_to(limit, row_of_sample(runs, id));
-        const auto put = [&](RunCount& c) { c.add(answer, s.weight, plan.input.probability.static_failure); };
+        const auto put = [&](RunCount& c) { add_run(c, answer, s.weight, plan.input.probability.static_failure); };
         put(counts.all[s.level]);
         put(counts.replicate[s.level][s.replicate]);
         put(counts.cluster[s.level][events.of_record[s.record]]);
@@ -94,12 +72,12 @@ bool nothing_drawn(const FragilityPlan& plan)
 /// @param share  of a count: low() or high()
 template <class Share>
 probability::Interval sampling_interval(const FragilityPlan& plan, const RunCount& all,
-                                        const std::vector<RunCount>& replicates, Share share)
+                                        const std::vector<RunCount>& replicates, bool weighted, Share share)
 {
-    const double p = share(all);
+    const double p = std::clamp(share(all), 0.0, 1.0);
     if (all.n <= 0.0) return {};
     if (nothing_drawn(plan)) return {p, p};
-    const bool independent = plan.input.probability.sampling == SamplingInput::random && !plan.epistemic;
+    const bool independent = !weighted && plan.input.probability.sampling == SamplingInput::random && !plan.epistemic;
     double sum = 0.0;
     const auto r = static_cast<double>(replicates.size());
     for (const RunCount& c : replicates) sum += (share(c) - p) * (share(c) - p);
@@ -108,7 +86,18 @@ probability::Interval sampling_interval(const FragilityPlan& plan, const RunCoun
     return probability::wilson_of_estimate(p, std::sqrt(sum / (r * (r - 1.0))), all.n, r - 1.0);
 }
 
-LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& counts, std::size_t level, double x)
+/// Standard error of P by the replicates; of one: 0.
+double error_of_replicates(const std::vector<RunCount>& replicates, double p)
+{
+    const auto r = static_cast<double>(replicates.size());
+    if (replicates.size() < 2) return 0.0;
+    double sum = 0.0;
+    for (const RunCount& c : replicates) sum += (c.middle() - p) * (c.middle() - p);
+    return std::sqrt(sum / (r * (r - 1.0)));
+}
+
+LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& counts, std::size_t level, double x,
+                             bool weighted)
 {
     const RunCount& all = counts.all[level];
     LevelEstimate e;
@@ -116,12 +105,16 @@ LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& count
     e.n = all.n;
     e.z = all.z;
     e.missing = all.missing;
-    e.p_low = all.low();
-    e.p_high = all.high();
-    e.p = all.middle();
+    e.p_low = std::clamp(all.low(), 0.0, 1.0); // of weighted differences it may lie outside
+    e.p_high = std::clamp(all.high(), 0.0, 1.0);
+    e.p = 0.5 * (e.p_low + e.p_high);
+    e.se = error_of_replicates(counts.replicate[level], all.middle());
     e.sampling = {
-        sampling_interval(plan, all, counts.replicate[level], [](const RunCount& c) { return c.low(); }).lower,
-        sampling_interval(plan, all, counts.replicate[level], [](const RunCount& c) { return c.high(); }).upper};
+        sampling_interval(plan, all, counts.replicate[level], weighted, [](const RunCount& c) { return c.low(); })
+            .lower,
+        sampling_interval(plan, all, counts.replicate[level], weighted, [](const RunCount& c) {
+            return c.high();
+        }).upper};
     const std::vector<RunCount>& clusters = counts.cluster[level];
     const auto by_clusters = [&](auto share) {
         return probability::cluster_bootstrap(
@@ -155,28 +148,16 @@ LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& count
     return e;
 }
 
-/// First level of each draw and record above which D > d: samples of one outer draw, inner draw and replicate.
+/// First level of each draw and record above which D > d.
 void find_capacities(const FragilityPlan& plan, const FragilityRuns& runs, LimitEstimate& limit)
 {
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<LimitAnswer>> curves;
-    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        const FragilitySample& s = plan.samples[id];
-        auto& curve = curves[{s.outer, s.inner}];
-        curve.resize(plan.levels, LimitAnswer::missing);
-        curve[s.level] = answer_to(limit.limit, row_of_sample(runs, id));
-    }
     std::vector<double> reached, censored;
-    for (const auto& [key, curve] : curves) {
-        if (curve.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
-        std::size_t first = 0;
-        while (first < curve.size() && curve[first] != LimitAnswer::fails) ++first;
-        if (first == curve.size()) {
+    for (const CapacityBracket& bracket : capacity_brackets(plan, runs, limit.limit)) {
+        if (bracket.first)
+            reached.push_back(plan.samples[*bracket.first].x);
+        else
             censored.push_back(plan.input.intensity.levels.back());
-            continue;
-        }
-        reached.push_back(plan.input.intensity.levels[first]);
-        limit.came_back += std::find(curve.begin() + static_cast<std::ptrdiff_t>(first), curve.end(),
-                                     LimitAnswer::survives) != curve.end();
+        limit.came_back += bracket.came_back;
     }
     limit.capacities = probability::fit_capacities(reached, censored);
 }
@@ -229,7 +210,7 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
                                                x.back(), all_events);
     const auto rate_with = [&](auto count) {
         std::vector<double> q;
-        for (std::size_t level = 0; level < x.size(); ++level) q.push_back(count(level).middle());
+        for (std::size_t level = 0; level < x.size(); ++level) q.push_back(std::clamp(count(level).middle(), 0.0, 1.0));
         return raw_rate(hazard, x, q);
     };
     const double whole = raw_rate(hazard, x, p);
@@ -273,20 +254,32 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
 
 } // namespace
 
+bool is_of_slip(const LimitInput& limit)
+{
+    return limit.quantity == LimitQuantity::slip || limit.quantity == LimitQuantity::largest_slip;
+}
+
 LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
 {
     const std::optional<Status> status = row ? status_of(*row) : std::nullopt;
     if (!status) return LimitAnswer::missing;
     if (fails_statically(*status)) return LimitAnswer::static_failure;
     const RowResults& r = row->results;
+    const bool of_slip = is_of_slip(limit);
     switch (*status) {
     case Status::runs_away:
     case Status::overturned:
     case Status::left_plane:
         return LimitAnswer::fails;
     case Status::sliding_at_end: // the slip so far is a lower bound
-        return r.max_slip && *r.max_slip > limit.value ? LimitAnswer::fails : LimitAnswer::missing;
+        return of_slip && r.max_slip && *r.max_slip > limit.value ? LimitAnswer::fails : LimitAnswer::missing;
     case Status::at_rest: {
+        if (!of_slip) {
+            const bool factor = limit.quantity == LimitQuantity::post_seismic_fs;
+            const std::optional<double>& value = factor ? r.factor_after : r.opening;
+            if (!value) return LimitAnswer::missing;
+            return (factor ? *value < limit.value : *value > limit.value) ? LimitAnswer::fails : LimitAnswer::survives;
+        }
         const std::optional<double>& slip = limit.quantity == LimitQuantity::slip ? r.slip : r.max_slip;
         if (!slip) return LimitAnswer::missing;
         return std::abs(*slip) > limit.value ? LimitAnswer::fails : LimitAnswer::survives;
@@ -294,6 +287,34 @@ LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
     default:
         return LimitAnswer::missing;
     }
+}
+
+std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const FragilityRuns& runs,
+                                               const LimitInput& limit)
+{
+    // Samples of one outer draw, inner draw and replicate, by level.
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::optional<std::size_t>>> curves;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample& s = plan.samples[id];
+        auto& curve = curves[{s.outer, s.inner}];
+        curve.resize(plan.levels);
+        curve[s.level] = id;
+    }
+    std::vector<CapacityBracket> brackets;
+    for (const auto& [key, curve] : curves) {
+        std::vector<LimitAnswer> answers;
+        for (const auto& id : curve)
+            answers.push_back(id ? answer_to(limit, row_of_sample(runs, *id)) : LimitAnswer::missing);
+        if (answers.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
+        CapacityBracket& bracket = brackets.emplace_back();
+        const auto first = std::find(answers.begin(), answers.end(), LimitAnswer::fails);
+        if (first == answers.end()) continue;
+        const auto place = static_cast<std::size_t>(first - answers.begin());
+        bracket.first = curve[place];
+        if (place > 0) bracket.below = curve[place - 1];
+        bracket.came_back = std::find(first, answers.end(), LimitAnswer::survives) != answers.end();
+    }
+    return brackets;
 }
 
 double LimitEstimate::missing_share() const
@@ -307,7 +328,8 @@ double LimitEstimate::missing_share() const
 }
 
 FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,
-                                     const probability::HazardCurve* hazard, std::optional<double> all_events)
+                                     const probability::HazardCurve* hazard, std::optional<double> all_events,
+                                     const ConditionedPlan* conditioned)
 {
     FragilityEstimate estimate;
     const Events events = events_of(plan.suite);
@@ -322,12 +344,15 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
         ++draws;
         fallen += fails_statically(*status);
     }
-    estimate.p_static = draws ? static_cast<double>(fallen) / static_cast<double>(draws) : 0.0;
+    estimate.p_static = conditioned ? static_share(*conditioned, runs)
+                        : draws     ? static_cast<double>(fallen) / static_cast<double>(draws)
+                                    : 0.0;
     const FragilityDesign design = plan.input.intensity.design;
     for (const LimitInput& wanted : plan.input.limits) {
         LimitEstimate& limit = estimate.limits.emplace_back();
         limit.limit = wanted;
-        const LimitCounts counts = count_limit(plan, runs, wanted, events);
+        const LimitCounts counts = conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1)
+                                               : count_limit(plan, runs, wanted, events);
         if (design == FragilityDesign::cloud) {
             fit_cloud_of(plan, runs, limit);
             for (const double x : plan.input.intensity.levels) {
@@ -340,7 +365,8 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
         }
         std::vector<probability::StripeCount> stripes;
         for (std::size_t level = 0; level < plan.levels; ++level) {
-            limit.levels.push_back(estimate_level(plan, counts, level, plan.input.intensity.levels[level]));
+            limit.levels.push_back(
+                estimate_level(plan, counts, level, plan.input.intensity.levels[level], conditioned != nullptr));
             const LevelEstimate& e = limit.levels.back();
             // All runs of one epistemic draw hang together: they count as one.
             const double n = plan.epistemic ? std::min(e.n, static_cast<double>(plan.replicates * plan.outer)) : e.n;

@@ -9,6 +9,8 @@
 
 namespace damslip {
 
+struct ConditionedPlan;
+
 /// What one run says of one limit.
 enum class LimitAnswer {
     survives,
@@ -16,6 +18,9 @@ enum class LimitAnswer {
     missing, ///< nothing is known: not converged, self-excited, still sliding below the limit, not run
     static_failure
 };
+
+/// Of slip, not of the opening of the base or of what it holds after the earthquake: those are of full finite-element runs.
+bool is_of_slip(const LimitInput& limit);
 
 /// A run still sliding whose largest slip exceeds the limit is a failure; what slid off its base, too. @param row  nullptr: not run
 LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row);
@@ -28,6 +33,7 @@ struct LevelEstimate {
     double n = 0.0, z = 0.0, missing = 0.0;
     double p_low = 0.0, p_high = 0.0; ///< missing runs as survivals, as failures; equal where none is missing
     double p = 0.0;                   ///< midway
+    double se = 0.0;                  ///< standard error of p by the draws, from the replicates; of one replicate 0
     /// 95 %: error of the draws, the suite taken as the population. Of random draws Wilson's; of others from the replicates (Student's t);
     /// from the lower end of p_low to the upper end of p_high.
     probability::Interval sampling;
@@ -52,6 +58,8 @@ struct LimitEstimate {
     probability::LognormalFit fit;                      ///< by the counts of the stripes
     std::optional<probability::CapacityFit> capacities; ///< of an incremental dynamic analysis
     std::size_t came_back = 0;                          ///< capacities whose record survives a level above again
+    /// Capacities between two levels, by the slip's root (capacities_by_roots()); none: all are the first level above the limit.
+    std::optional<std::size_t> capacity_roots;
     std::optional<probability::CloudFit> cloud;
     std::optional<LimitRate> rate;
     double missing_share() const; ///< of all counted runs
@@ -64,8 +72,19 @@ struct FragilityEstimate {
     std::size_t clusters = 0;                    ///< events
 };
 
+/// One draw under one record over the levels of an incremental dynamic analysis, by ids of samples. One that fails statically has none.
+struct CapacityBracket {
+    std::optional<std::size_t> below; ///< the level before `first`; none: `first` is the lowest
+    std::optional<std::size_t> first; ///< first level at which the limit is passed; none: it never is
+    bool came_back = false;           ///< survives a higher level again
+};
+std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const FragilityRuns& runs,
+                                               const LimitInput& limit);
+
 /// @param hazard  nullptr: no rates. Its intensities in SI @param all_events  rate of all its earthquakes, if known
+/// @param conditioned  how the runs were drawn where friction was conditioned on (its plan is `plan`); nullptr: every run counts as its weight
 FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,
-                                     const probability::HazardCurve* hazard, std::optional<double> all_events);
+                                     const probability::HazardCurve* hazard, std::optional<double> all_events,
+                                     const ConditionedPlan* conditioned = nullptr);
 
 } // namespace damslip

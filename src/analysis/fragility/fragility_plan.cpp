@@ -291,6 +291,11 @@ void check_supports(const FragilityInput& input, const SceneText& text, const Nu
     }
 }
 
+Distribution law_of(const RandomVariable& variable, const std::filesystem::path& scene_file)
+{
+    return distribution_of(variable.law, scene_file);
+}
+
 FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, const FragilitySizes& sizes,
                              const std::filesystem::path& scene_file, const NumberInFile& written)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/ready.hpp"
+#include "probability/laws/distribution.hpp"
 #include "scene/fragility_input.hpp"
 
 #include <functional>
@@ -73,6 +74,9 @@ FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, co
 /// Reads the scene with both ends of every law, 2^-40 of its probability left beyond each, so that no run stops half-way at a value
 /// that its key does not allow. @throws InputError with the law's line, the value, what the key allows and the fix
 void check_supports(const FragilityInput& input, const SceneText& text, const NumberInFile& written);
+
+/// The law of a variable, without the factor's base. @throws InputError with the law's line
+probability::Distribution law_of(const RandomVariable& variable, const std::filesystem::path& scene_file);
 
 /// The draw of given uniform numbers, one a variable, dependent already where they are correlated.
 FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, const std::filesystem::path& scene_file,

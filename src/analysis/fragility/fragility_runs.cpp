@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/processor_clock.hpp"
 #include "core/version.hpp"
+#include "fe2d/reduction/reduced_run.hpp"
 #include "scene/with_friction.hpp"
 #include "scene/write.hpp"
 
@@ -117,7 +118,8 @@ private:
 class RigidSamples {
 public:
     RigidSamples(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method)
-        : plan_(plan), text_(text), with_vertical_(method.kind == SweepKind::rigid_vertical),
+        : plan_(plan), text_(text), rocks_(method.kind == SweepKind::rocking),
+          with_vertical_(rocks_ || method.kind == SweepKind::rigid_vertical),
           base_(prepare(text.scene(), Method::rigid_block, plan.suite.pairs)), own_motion_(draws_motion(plan))
     {
     }
@@ -162,12 +164,21 @@ private:
         GroundMotion motion = ready.motion((*plan_.suite.pairs)[record], factor);
         return with_vertical_ ? motion : horizontal_only(std::move(motion));
     }
+    sliding::SlideResult slide(const Ready& ready, const RigidModel& model, const FragilitySample& s) const
+    {
+        if (own_motion_) {
+            const GroundMotion own = motion(ready, s.record, s.factor);
+            return rocks_ ? rock_model(ready.scene, model, own, s.polarity).slide
+                          : slide_model(ready.scene, model, own, s.polarity);
+        }
+        const sliding::SkippingMotion& shared = *motions_.at(key(s));
+        return rocks_ ? rock_model(ready.scene, model, shared.motion(), s.polarity).slide
+                      : slide_model(ready.scene, model, shared, s.polarity);
+    }
     FinishedRow run_one(const Ready& ready, const RigidModel& model, std::size_t id) const
     {
         const FragilitySample& s = plan_.samples[id];
-        const sliding::SlideResult r =
-            own_motion_ ? slide_model(ready.scene, model, motion(ready, s.record, s.factor), s.polarity)
-                        : slide_model(ready.scene, model, *motions_.at(key(s)), s.polarity);
+        const sliding::SlideResult r = slide(ready, model, s);
         FinishedRow row;
         row.id = id;
         row.results.slip = reported(r.status, r.slip);
@@ -181,7 +192,7 @@ private:
 
     const FragilityPlan& plan_;
     const SceneText& text_;
-    bool with_vertical_;
+    bool rocks_, with_vertical_;
     Ready base_;
     bool own_motion_;
     SharedStatics shared_;
@@ -259,7 +270,8 @@ struct DrawnModel {
     std::size_t groups_left = 0;
     std::optional<Ready> ready;
     std::unique_ptr<const fe2d::EarthquakeRun> run;
-    std::string why_not; ///< it could not be made; empty: it could
+    std::unique_ptr<const fe2d::ReducedRun> reduced; ///< on `run`; none: not asked for
+    std::string why_not;                             ///< it could not be made; empty: it could
 };
 
 class FiniteElementSamples {
@@ -289,7 +301,10 @@ public:
             meter_.end();
             {
                 const std::lock_guard lock(model.mutex);
-                if (--model.groups_left == 0) model.run.reset();
+                if (--model.groups_left == 0) {
+                    model.reduced.reset();
+                    model.run.reset();
+                }
             }
             const std::lock_guard lock(mutex);
             runs.seconds += clock.seconds();
@@ -315,20 +330,40 @@ private:
         std::vector<Contact> contacts;
         for (const std::size_t id : group.ids)
             contacts.push_back(contact_of(*model.ready, plan_.draws[plan_.samples[id].draw]));
-        const std::vector<fe2d::RunResult> results = model.run->run_all(motion, contacts);
-        for (std::size_t i = 0; i < results.size(); ++i) {
-            const fe2d::RunResult& r = results[i];
+        const auto put = [&](const auto& r, double slip_error) { // full runs and those on few modes
             FeSlip slip;
             slip.status = r.status;
             slip.slip = reported(r.status, r.slip);
             slip.max_slip = reported(r.status, r.max_slip);
-            slip.slip_error = reported(r.status, r.slip_error);
+            slip.slip_error = reported(r.status, slip_error);
             if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
                 slip.critical_friction = r.stages.back().critical_friction;
-            rows.push_back(fe_row(group.ids[i], slip));
+            rows.push_back(fe_row(group.ids[rows.size()], slip));
+            put_base(r, rows.back().results);
+        };
+        if (model.reduced) {
+            for (const Contact& contact : contacts) {
+                if (watch_.stop_asked()) break;
+                const fe2d::ReducedResult r = model.reduced->run(motion, contact);
+                put(r, r.step_error);
+            }
+            return rows;
         }
+        for (const fe2d::RunResult& r : model.run->run_all(motion, contacts)) put(r, r.slip_error);
         return rows;
     }
+
+    /// Opening of the base and what it holds after the earthquake: of full runs alone.
+    static constexpr double most_factor = 1e6;
+    static void put_base(const fe2d::RunResult& r, RowResults& results)
+    {
+        if (!is_answer(r.status) || fails_statically(r.status)) return;
+        const std::vector<double>& opening = r.history.largest_opening;
+        if (!opening.empty()) results.opening = *std::max_element(opening.begin(), opening.end());
+        if (r.after.status != fe2d::StageStatus::not_resolved && !r.after.name.empty())
+            results.factor_after = std::min(r.after.sliding_factor, most_factor); // infinite without shear
+    }
+    static void put_base(const fe2d::ReducedResult&, RowResults&) {}
 
     static Contact contact_of(const Ready& ready, const FragilityDraw& draw)
     {
@@ -348,13 +383,17 @@ private:
             std::vector<KeyChange> changes = draw.changes; // the friction is each run's own
             std::erase_if(changes, [](const KeyChange& change) { return change.key == friction_key; });
             const Scene scene = with_law(text_.with(changes), method_.law, {});
-            model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs, {.stop = watch_.stop()}));
+            model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs,
+                                        {.reduced = method_.reduced, .stop = watch_.stop()}));
             fe2d::RunOptions options = model.ready->run_options(watch_);
             options.progress = [this](const fe2d::RunProgress& p) {
                 meter_.step(p);
                 return watch_.stop_asked() ? fe2d::RunAnswer::stop : fe2d::RunAnswer::go_on;
             };
             model.run = std::make_unique<fe2d::EarthquakeRun>(model.ready->scene, options);
+            if (method_.reduced)
+                model.reduced =
+                    std::make_unique<fe2d::ReducedRun>(*model.run, model.ready->scene, options, fe2d::default_modes);
         } catch (const NotConverged& error) {
             model.why_not = error.diagnostic().problem;
         }

@@ -23,11 +23,11 @@ struct FragilityRuns {
 /// All that the samples depend on: the scene, the records, the plan.
 SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& text, const std::string& method);
 
-/// Runs samples by the rigid block or by finite elements (SweepMethod of kind rigid, rigid_vertical, finite_elements).
+/// Runs samples by the rigid block or by finite elements (SweepMethod of kind rigid, rigid_vertical, rocking, finite_elements).
 ///
 /// Rigid: the seepage of draws that differ in strength and density alone is solved once, and so is what stands below draws that differ in
 /// friction alone. Finite elements: mesh and matrices of draws that differ in friction alone are made once; all frictions that meet the
-/// same motion go through the earthquake together. The answers do not depend on the number of threads, nor on which samples are wanted.
+/// same motion go through the earthquake together; on few modes (fe-reduced) one after the other. The answers do not depend on the number of threads, nor on which samples are wanted.
 /// @param wanted  ids, ascending
 /// @param journal  nullptr: none
 /// @throws InputError where the values of a draw make no scene

@@ -1,11 +1,11 @@
 #include "analysis/prepare/rigid_model.hpp"
 
+#include "analysis/prepare/rigid_rests.hpp"
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/section.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
-#include "sliding/equilibrium/opening_crack.hpp"
 #include "sliding/equilibrium/shaken_base.hpp"
 
 #include <algorithm>
@@ -34,25 +34,6 @@ RigidModel make_wedge_model(const Scene& scene)
     model.critical_friction = critical_first_friction(w.wedge, w.still);
     model.length = sliding_length(*scene.wedge, w.yields.at_rest.state.mode);
     return model;
-}
-
-} // namespace
-
-namespace {
-
-/// The block with the uplift of the crack that it opens, by its friction.
-sliding::RigidBlock with_opening(const Scene& scene, const sliding::BlockOptions& options, sliding::RigidBlock block)
-{
-    if (!scene.uplift || scene.uplift->water.opening == OpeningWater::unchanged) return block;
-    sliding::StaticCase static_case = sliding::scene_static_case(scene);
-    if (options.crack) static_case.crack = *options.crack;
-    static_case.uplift.drains = options.drains;
-    const sliding::BaseState before = sliding::base_state(scene, static_case, options.seepage);
-    const bool vertical =
-        scene.motion.vertical && std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
-                                             [](const RecordFiles& record) { return record.vertical.has_value(); });
-    block.opening = sliding::opening_uplift(scene, static_case, before, block, vertical, options.seepage);
-    return block;
 }
 
 } // namespace
@@ -87,25 +68,19 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
     KeptStatics own;
     const auto& [state, later, water] = (kept ? kept : &own)->get(find);
     RigidModel model;
-    model.block = with_opening(scene, options, sliding::make_rigid_block(scene, state, level, options));
-    model.stages = sliding::strength_stages(model.block, scene.contact);
+    RigidStages on_base = rigid_stages(scene, static_case, state, later ? &*later : nullptr, options);
+    model.block = on_base.block;
     model.anchors = sliding::base_anchors(scene);
-    if (later)
-        model.stages = sliding::with_block_from(model.stages, *scene.drains->lost_at_slip,
-                                                sliding::make_rigid_block(scene, *later, level, options));
     sliding::RockingBlock rocking =
-        sliding::make_rocking_block(scene, state, water, model.stages, later ? &*later : nullptr);
+        sliding::make_rocking_block(scene, state, water, on_base.stages, later ? &*later : nullptr);
     rocking.uplift_on_toe = uplift_of_open_joint(scene, static_case, state, sliding::Side::heel, seepage);
     rocking.uplift_on_heel = uplift_of_open_joint(scene, static_case, state, sliding::Side::toe, seepage);
     model.rocking = std::make_shared<sliding::RockingBlock>(std::move(rocking));
-    model.tips = sliding::tipping_acceleration(scene, water, state, 0.0, sliding::Towards::downstream);
-    if (model.block.opening)
-        for (sliding::SlipStage& stage : model.stages) {
-            const bool drains_lost = stage.block.uplift != model.block.uplift;
-            sliding::BlockOptions now = options;
-            if (drains_lost) now.drains = DrainState::ineffective;
-            stage.block = with_opening(scene, now, stage.block);
-        }
+    model.tips = sliding::tipping_acceleration(
+        scene, water, sliding::with_open_joint(scene, static_case, state, sliding::Side::heel, seepage), 0.0,
+        sliding::Towards::downstream);
+    model.stages = std::move(on_base.opening_stages);
+    model.rests = rests_of(scene, static_case, state, model.block, options);
     model.downstream = sliding::yield_downstream(model.block);
     model.upstream = sliding::yield_upstream(model.block);
     model.state = sliding::static_state(model.block);
@@ -173,6 +148,8 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
                                  int polarity, sliding::HistoryOutput history)
 {
     if (model.wedge) return slide_model(scene, model, motion.motion(), polarity, history);
+    if (model.rests && motion.motion().is_sequence())
+        return slide_model(scene, model, motion.motion(), polarity, history);
     sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
     check_length(model, result);
     check_tipping(model, polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, result);
@@ -184,7 +161,7 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
 {
     const sliding::SlideOptions options = slide_options(scene, model, polarity, history);
     sliding::SlideResult result = model.wedge ? sliding::slide_wedge(motion, model.wedge->yields, options)
-                                              : sliding::slide(motion, model.stages, options);
+                                              : sliding::slide(motion, model.stages, options, model.rests.get());
     if (model.wedge && fails_statically(result.status)) result.status = sliding::status_of(model.state);
     check_length(model, result);
     const auto [least, most] = std::minmax_element(motion.accel_h.begin(), motion.accel_h.end());

@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 #include "sliding/block/skipping_motion.hpp"
 #include "sliding/block/slide.hpp"
+#include "sliding/block/slide_rests.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/empirical/regression.hpp"
 #include "sliding/equilibrium/base_state.hpp"
@@ -29,6 +30,8 @@ struct RigidModel {
     std::shared_ptr<const sliding::RockingBlock> rocking; ///< the same block, free to rock; none: a wedge
     /// Ground acceleration that tips it about its toe (sliding::tipping_acceleration) [m/s^2]
     double tips = std::numeric_limits<double>::infinity();
+    /// The static state between the records of a sequence (uplift.after); null: none
+    std::shared_ptr<const sliding::RestBetweenEvents> rests;
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
 };
 

@@ -279,6 +279,9 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
         for (const auto* r : {&row.horizontal, row.with_vertical ? &*row.with_vertical : nullptr,
                               row.rocking ? &row.rocking->slide : nullptr}) {
             if (!r) continue;
+            for (const std::string& note : r->notes) // of the water between two records, and of water on its way
+                if (note.starts_with("After \"") || note.starts_with("Water "))
+                    warnings.push_back(fmt::format("{}, polarity {:+d}: {}", row.record, row.polarity, note));
             if (r->status == Status::overturned)
                 warnings.push_back(
                     fmt::format("{}, polarity {:+d}: overturned. {}", row.record, row.polarity, r->notes.front()));

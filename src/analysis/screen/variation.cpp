@@ -158,6 +158,13 @@ RecordHistories record_histories(const Scene& scene, const Screening& s, const G
         const int polarity = worse_judged(s, number).polarity;
         found.flexible = {polarity, slide_flexible(scene, *s.flexible, model, motion, polarity, samples)};
     }
+    const SlipRow& first = s.slips[2 * number];
+    const SlipRow& second = s.slips[2 * number + 1];
+    if (first.rocking && second.rocking) {
+        const bool other = second.rocking->slide.max_slip > first.rocking->slide.max_slip;
+        const int polarity = (other ? second : first).polarity;
+        found.rocking = {polarity, rock_model(scene, model, motion, polarity, samples)};
+    }
     return found;
 }
 

@@ -42,9 +42,14 @@ struct RecordHistories {
         int polarity = 1; ///< worse by the analysis that is judged
         FlexibleSlips slips;
     };
+    struct Rocking {
+        int polarity = 1; ///< the one that slips further
+        sliding::RockingResult motion;
+    };
     Slide horizontal;                   ///< without the vertical component
     std::optional<Slide> with_vertical; ///< where the record has one
     std::optional<Flexible> flexible;   ///< where the sliding mass is flexible
+    std::optional<Rocking> rocking;     ///< where the block was free to rock, with the vertical component
 };
 /// @param motion  of record `number`
 RecordHistories record_histories(const Scene& scene, const Screening& s, const GroundMotion& motion,

@@ -208,6 +208,29 @@ SecondResult relative(std::string what, std::string unit, const Eigen::VectorXd&
             traction_allowed};
 }
 
+/// Length of the base that carries nothing: pairs with less than a thousandth of the mean normal force [m]; what springs and
+/// the digits of a file leave of nothing is less than that. @param normal  nodal forces [N/m]
+double open_length(const Eigen::VectorXd& normal, const fe2d::Plane& plane)
+{
+    constexpr double nothing = 1e-3;
+    const double mean = normal.sum() / plane.area.sum();
+    double open = 0.0;
+    for (Eigen::Index i = 0; i < plane.pairs(); ++i)
+        if (normal[i] < nothing * mean * plane.area[i]) open += plane.area[i];
+    return open;
+}
+
+/// The length open, over the base; allowed: the part of one pair. @returns nothing where both are shut
+std::vector<SecondResult> opening_beside(const Eigen::VectorXd& ours, const Eigen::VectorXd& theirs,
+                                         const fe2d::Plane& plane)
+{
+    const double our_length = open_length(ours, plane), their_length = open_length(theirs, plane);
+    if (our_length == 0.0 && their_length == 0.0) return {};
+    const double base = plane.area.sum();
+    return {{"open length of the base, difference over the base", "m", our_length, their_length,
+             std::abs(our_length - their_length) / base, plane.area.maxCoeff() / base}};
+}
+
 std::vector<SecondResult> stages_beside(const Ready& ready, const CalculixOutput& dat, const std::string& file,
                                         const Watch& watch)
 {
@@ -234,10 +257,14 @@ std::vector<SecondResult> stages_beside(const Ready& ready, const CalculixOutput
     const Eigen::VectorXd force = base_forces(run, stages.last(), theirs.back());
     const StageOutput& last = theirs.back();
     const double normal = memory.force.head(m).sum(), shear = -memory.force.tail(m).sum();
-    return {relative("normal force on the base", "N/m", normal, last.normal_force, resultant_allowed),
-            relative("shear force on the base", "N/m", shear, last.shear_force, resultant_allowed),
-            relative("normal tractions, difference in L2", "Pa", memory.force.head(m), force.head(m), plane),
-            relative("shear tractions, difference in L2", "Pa", -memory.force.tail(m), -force.tail(m), plane)};
+    std::vector<SecondResult> results{
+        relative("normal force on the base", "N/m", normal, last.normal_force, resultant_allowed),
+        relative("shear force on the base", "N/m", shear, last.shear_force, resultant_allowed),
+        relative("normal tractions, difference in L2", "Pa", memory.force.head(m), force.head(m), plane),
+        relative("shear tractions, difference in L2", "Pa", -memory.force.tail(m), -force.tail(m), plane)};
+    for (SecondResult& opening : opening_beside(memory.force.head(m), force.head(m), plane))
+        results.push_back(std::move(opening));
+    return results;
 }
 
 } // namespace

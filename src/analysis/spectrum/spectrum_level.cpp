@@ -98,7 +98,7 @@ struct UnitResponses {
     Eigen::VectorXd crest;                       ///< [m per m/s^2]; none of the residual, which is stiff
 };
 
-UnitResponses unit_responses(const ModesResult& modes, const ModalForces& forces)
+UnitResponses unit_responses(const ModesResult& modes, const ModalForces& forces, ModalDirection direction)
 {
     UnitResponses u;
     u.planes = planes_of(modes.scene.section);
@@ -110,8 +110,9 @@ UnitResponses unit_responses(const ModesResult& modes, const ModalForces& forces
     for (Eigen::Index i = 0; i < forces.force.cols(); ++i) add(forces.force.col(i));
     add(forces.residual);
     // Mass at fixed nodes (a dam without rock) is in no unknown: it acts in the base itself.
-    u.of_mode.back().front().along +=
-        (forces.residual_mass - u.of_mode.back().front().along) * (modes.model.mesh.has_rock() ? 0.0 : 1.0);
+    double& of_base =
+        direction == ModalDirection::horizontal ? u.of_mode.back().front().along : u.of_mode.back().front().across;
+    of_base += (forces.residual_mass - of_base) * (modes.model.mesh.has_rock() ? 0.0 : 1.0);
     const int dof = modes.model.dofs(modes.model.mesh.crest.back(), 0);
     u.crest = Eigen::VectorXd::Zero(forces.force.cols() + 1);
     if (dof != fe2d::no_dof) u.crest.head(forces.force.cols()) = forces.displacement.row(dof).transpose();
@@ -123,15 +124,16 @@ struct Combining {
     Eigen::VectorXd scale; ///< S_a of each mode, then PGA [m/s^2]
     Eigen::MatrixXd srss, cqc;
 
-    Combining(const ModalForces& forces, const LevelSpectrum& spectrum)
+    /// @param acceleration  S_a(T), PGA at 0
+    Combining(const ModalForces& forces, const std::function<double(double)>& acceleration, double ratio)
     {
         const Eigen::Index n = forces.frequency.size();
         scale.resize(n + 1);
-        for (Eigen::Index i = 0; i < n; ++i) scale[i] = spectrum.acceleration(1.0 / forces.frequency[i]);
-        scale[n] = spectrum.acceleration(0.0);
+        for (Eigen::Index i = 0; i < n; ++i) scale[i] = acceleration(1.0 / forces.frequency[i]);
+        scale[n] = acceleration(0.0);
         srss = Eigen::MatrixXd::Identity(n + 1, n + 1);
         cqc = srss;
-        cqc.topLeftCorner(n, n) = fe2d::modal_correlations(forces.frequency, spectrum.ratio, fe2d::ModalRule::cqc);
+        cqc.topLeftCorner(n, n) = fe2d::modal_correlations(forces.frequency, ratio, fe2d::ModalRule::cqc);
     }
     double peak(const Eigen::VectorXd& v) const { return fe2d::combined_peak(v, cqc); }
 };
@@ -203,12 +205,15 @@ sliding::Equilibrium static_equilibrium(const Ready& ready)
     return sliding::evaluate(ready.scene, usual, {}, options);
 }
 
-void add_modes(const UnitResponses& unit, const ModalForces& forces, const Combining& combining, SpectrumDemand& row)
+/// Each mode's share of the force on the base. @param force  which part of it
+std::vector<ModeShare> mode_shares(const UnitResponses& unit, const ModalForces& forces, const Combining& combining,
+                                   double Resultant::*force)
 {
+    std::vector<ModeShare> shares;
     for (Eigen::Index i = 0; i < forces.frequency.size(); ++i)
-        row.modes.push_back({forces.frequency[i], forces.effective_mass[i], combining.scale[i],
-                             combining.scale[i] * unit.of_mode[static_cast<std::size_t>(i)].front().along});
-    row.residual_mass = forces.residual_mass;
+        shares.push_back({forces.frequency[i], forces.effective_mass[i], combining.scale[i],
+                          combining.scale[i] * (unit.of_mode[static_cast<std::size_t>(i)].front().*force)});
+    return shares;
 }
 
 void add_base(const UnitResponses& unit, const Combining& combining, double mass, double gravity, SpectrumDemand& row)
@@ -228,6 +233,99 @@ void add_base(const UnitResponses& unit, const Combining& combining, double mass
     for (std::size_t k = 0; k < unit.planes.size(); ++k) row.levels.push_back(level_force(unit, combining, k));
     for (std::size_t k = 0; k < row.levels.size(); ++k)
         row.levels[k].lateral = row.levels[k].shear - (k + 1 < row.levels.size() ? row.levels[k + 1].shear : 0.0);
+}
+
+/// What moves a joint, of one component of the earthquake: mean squares of T and N', and of what both share.
+struct SlidingMoments {
+    double tt = 0.0, tn = 0.0, nn = 0.0; ///< T downstream, N' compression [N^2/m^2]
+
+    SlidingMoments operator+(const SlidingMoments& b) const { return {tt + b.tt, tn + b.tn, nn + b.nn}; }
+};
+
+/// The static joint: strength at no earthquake and what drives it.
+struct Joint {
+    double cohesive = 0.0; ///< c A' and dowels [N/m]
+    double friction = 0.0, normal = 0.0, shear = 0.0;
+
+    /// @param dn, dt  of the earthquake [N/m]
+    double factor(double dn, double dt) const
+    {
+        const double drives = shear + dt;
+        const double resists = cohesive + friction * std::max(0.0, normal + dn);
+        return drives > 0.0 ? resists / drives : std::numeric_limits<double>::infinity();
+    }
+
+    /// The least factor on the ellipse of (N', T): the F > 0 at which R - F T is just the peak of F T - mu N',
+    /// (R - F T)^2 = F^2 tt - 2 F mu tn + mu^2 nn, R = c A' + mu N'. 0 where mu N' alone may take all of R.
+    double least_factor(const SlidingMoments& m) const
+    {
+        const double r = cohesive + friction * normal;
+        const double c = r * r - friction * friction * m.nn;
+        if (r <= 0.0 || c <= 0.0) return 0.0;
+        const double a = shear * shear - m.tt, b = r * shear - friction * m.tn;
+        const double below = b + std::sqrt(std::max(0.0, b * b - a * c));
+        return below > 0.0 ? c / below : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// One component on its own.
+struct ComponentPeaks {
+    double shear = 0.0, normal = 0.0, moment = 0.0, heel = 0.0, toe = 0.0, about_toe = 0.0;
+    SlidingMoments sliding;
+};
+
+ComponentPeaks component_peaks(const UnitResponses& unit, const Combining& combining)
+{
+    const double length = unit.planes.front().length;
+    const auto base = [&](auto value) { return modal_values(unit, combining, 0, value); };
+    const Eigen::VectorXd along = base([](const Resultant& r) { return r.along; });
+    const Eigen::VectorXd down = base([](const Resultant& r) { return -r.across; });
+    ComponentPeaks p;
+    p.shear = combining.peak(along);
+    p.normal = combining.peak(down);
+    p.moment = combining.peak(base([](const Resultant& r) { return r.moment; }));
+    p.heel = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, -1.0); }));
+    p.toe = combining.peak(base([&](const Resultant& r) { return edge_stress(r, length, 1.0); }));
+    p.about_toe = combining.peak(base([&](const Resultant& r) { return r.moment - 0.5 * length * r.across; }));
+    p.sliding = {p.shear * p.shear, fe2d::combined_product(down, along, combining.cqc), p.normal * p.normal};
+    return p;
+}
+
+constexpr double percent_rule = 0.3; ///< of the other component
+
+/// Sliding factor under shares of both components: the horizontal one's peak shear with the normal force that comes with it,
+/// the vertical one's peak normal force, either way, with the shear that comes with it.
+double sliding_factor_of(const Joint& joint, const ComponentPeaks& h, double of_h, const ComponentPeaks& v, double of_v)
+{
+    const double n_h = h.shear > 0.0 ? h.sliding.tn / h.shear : 0.0;
+    const double t_v = v.normal > 0.0 ? v.sliding.tn / v.normal : 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double way : {-1.0, 1.0})
+        least = std::min(least, joint.factor(of_h * n_h + way * of_v * v.normal, of_h * h.shear + way * of_v * t_v));
+    return least;
+}
+
+/// Rows of both components and of both rules.
+std::vector<ComponentDemand> component_demands(const ComponentPeaks& h, const ComponentPeaks& v, const Joint& joint,
+                                               const ToeMoments& still, const SpectrumLevel& level)
+{
+    std::vector<ComponentDemand> rows;
+    const auto add = [&](const char* motion, auto combine, double sliding) {
+        const auto of = [&](double ComponentPeaks::*peak) { return combine(h.*peak, v.*peak); };
+        rows.push_back({motion, of(&ComponentPeaks::shear), of(&ComponentPeaks::normal), of(&ComponentPeaks::moment),
+                        level.static_heel - of(&ComponentPeaks::heel), level.static_toe + of(&ComponentPeaks::toe),
+                        sliding, ratio_of(still.stabilising, still.overturning + of(&ComponentPeaks::about_toe))});
+    };
+    add(
+        "horizontal", [](double x, double) { return x; }, sliding_factor_of(joint, h, 1.0, v, 0.0));
+    add(
+        "vertical", [](double, double y) { return y; }, sliding_factor_of(joint, h, 0.0, v, 1.0));
+    add(
+        "both, SRSS", [](double x, double y) { return std::hypot(x, y); }, joint.least_factor(h.sliding + v.sliding));
+    add(
+        "both, 100/30", [](double x, double y) { return std::max(x + percent_rule * y, percent_rule * x + y); },
+        std::min(sliding_factor_of(joint, h, 1.0, v, percent_rule), sliding_factor_of(joint, h, percent_rule, v, 1.0)));
+    return rows;
 }
 
 void add_factors(const UnitResponses& unit, const Combining& combining, const sliding::Equilibrium& e,
@@ -274,17 +372,46 @@ std::vector<std::string> notes_of(const SpectrumLevel& s)
     return notes;
 }
 
+/// S_a of one component of a record.
+std::function<double(double)> spectrum_of_samples(const std::vector<double>& samples, double dt, double ratio)
+{
+    const auto acceleration = [samples, dt, ratio](double period) {
+        const std::vector<double> one{period};
+        return records::response_spectrum(samples, dt, one, ratio).points.front().pseudo_acceleration;
+    };
+    double pga = 0.0;
+    for (const double a : samples) pga = std::max(pga, std::abs(a));
+    return [acceleration, pga](double period) { return period > 0.0 ? acceleration(period) : pga; };
+}
+
+/// The vertical component, and both together, of the spectra that have one. @param s  its rows are there
+void add_vertical(const ModesResult& modes, const ModalForces& forces, const UnitResponses& unit,
+                  const std::vector<LevelSpectrum>& spectra, const sliding::Equilibrium& e, const ToeMoments& still,
+                  SpectrumLevel& s)
+{
+    const ModalForces up = modal_forces(modes, ModalDirection::vertical);
+    const UnitResponses unit_up = unit_responses(modes, up, ModalDirection::vertical);
+    const Joint joint{e.cohesion * e.cohesive_length + e.dowel_force, e.friction, e.base.effective_normal, e.shear};
+    s.vertical_mass = up.total_mass;
+    for (std::size_t i = 0; i < spectra.size(); ++i) {
+        const LevelSpectrum& spectrum = spectra[i];
+        if (!spectrum.vertical) continue;
+        const Combining h(forces, spectrum.acceleration, spectrum.ratio), v(up, spectrum.vertical, spectrum.ratio);
+        SpectrumDemand& row = s.rows[i];
+        row.vertical_pga = spectrum.vertical(0.0);
+        row.vertical_modes = mode_shares(unit_up, up, v, &Resultant::across);
+        row.vertical_residual_mass = up.residual_mass;
+        row.components = component_demands(component_peaks(unit, h), component_peaks(unit_up, v), joint, still, s);
+    }
+}
+
 } // namespace
 
 LevelSpectrum spectrum_of(const std::string& name, const GroundMotion& motion, double ratio)
 {
-    const auto acceleration = [accel = motion.accel_h, dt = motion.dt, ratio](double period) {
-        const std::vector<double> one{period};
-        return records::response_spectrum(accel, dt, one, ratio).points.front().pseudo_acceleration;
-    };
-    double pga = 0.0;
-    for (const double a : motion.accel_h) pga = std::max(pga, std::abs(a));
-    return {name, ratio, [acceleration, pga](double period) { return period > 0.0 ? acceleration(period) : pga; }};
+    LevelSpectrum spectrum{name, ratio, spectrum_of_samples(motion.accel_h, motion.dt, ratio)};
+    if (!motion.accel_v.empty()) spectrum.vertical = spectrum_of_samples(motion.accel_v, motion.dt, ratio);
+    return spectrum;
 }
 
 std::vector<LevelSpectrum> record_spectra(const Ready& ready)
@@ -301,7 +428,7 @@ SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum
     const std::vector<LevelSpectrum> spectra = given.empty() ? record_spectra(ready) : given;
     const ModesResult modes = compute_modes(ready, {spectrum_modes, false});
     const ModalForces forces = modal_forces(modes);
-    const UnitResponses unit = unit_responses(modes, forces);
+    const UnitResponses unit = unit_responses(modes, forces, ModalDirection::horizontal);
     const sliding::Equilibrium e = static_equilibrium(ready);
     const ToeMoments still = toe_moments(e, toe(ready.scene.section));
 
@@ -312,15 +439,19 @@ SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum
               : modes.model.added_mass.nonZeros() ? "added mass"
                                                   : "no water that moves";
     for (const LevelSpectrum& spectrum : spectra) {
-        const Combining combining(forces, spectrum);
+        const Combining combining(forces, spectrum.acceleration, spectrum.ratio);
         SpectrumDemand row;
         row.record = spectrum.name;
         row.pga = spectrum.acceleration(0.0);
-        add_modes(unit, forces, combining, row);
+        row.modes = mode_shares(unit, forces, combining, &Resultant::along);
+        row.residual_mass = forces.residual_mass;
         add_base(unit, combining, s.total_mass, ready.scene.gravity, row);
         add_factors(unit, combining, e, still, s, row);
         s.rows.push_back(std::move(row));
     }
+    const bool vertical =
+        std::any_of(spectra.begin(), spectra.end(), [](const LevelSpectrum& g) { return !!g.vertical; });
+    if (vertical) add_vertical(modes, forces, unit, spectra, e, still, s);
     s.notes = notes_of(s);
     return s;
 }

@@ -13,12 +13,13 @@ namespace damslip {
 
 /// S_a of one earthquake.
 struct LevelSpectrum {
-    std::string name;                                  ///< of the record or of the file
-    double ratio = 0.05;                               ///< damping it is for [-]
-    std::function<double(double period)> acceleration; ///< S_a(T), T >= 0 [s], PGA at T = 0 [m/s^2]
+    std::string name;                                   ///< of the record or of the file
+    double ratio = 0.05;                                ///< damping it is for [-]
+    std::function<double(double period)> acceleration;  ///< S_a(T), T >= 0 [s], PGA at T = 0 [m/s^2]
+    std::function<double(double period)> vertical = {}; ///< the same of the vertical component; empty: without one
 };
 
-/// The horizontal component's spectrum at a damping ratio. @param motion  outlives what is returned
+/// The spectra of a record's components at a damping ratio; a vertical one where it has that component. @param motion  outlives what is returned
 LevelSpectrum spectrum_of(const std::string& name, const GroundMotion& motion, double ratio);
 
 /// One mode under one spectrum.
@@ -36,6 +37,18 @@ struct LevelForce {
     double shear = 0.0;   ///< [N/m]
     double moment = 0.0;  ///< about the middle of the section [N m/m]
     double stress = 0.0;  ///< vertical, of the beam, at both faces: +- M c/I and N/A together; the larger [Pa]
+};
+
+/// What one component of the earthquake does, or both together: peaks about the base, and with the static loads. Each
+/// on its own, whichever way it goes; what is with the static loads is its worst.
+struct ComponentDemand {
+    std::string motion;                      ///< "horizontal", "vertical", "both, SRSS", "both, 100/30"
+    double shear = 0.0;                      ///< along the base [N/m]
+    double normal = 0.0;                     ///< across it [N/m]
+    double moment = 0.0;                     ///< about the middle of the base [N m/m]
+    double heel_least = 0.0, toe_most = 0.0; ///< with the static one, compression positive [Pa]
+    double sliding_factor = 0.0;             ///< (c A' + mu N')/T downstream; 0: no strength is left at the worst [-]
+    double overturning_factor = 0.0;         ///< about the toe [-]
 };
 
 /// One spectrum: peaks of modes combined, beside and on top of the static loads. All about the base, its directions.
@@ -56,10 +69,17 @@ struct SpectrumDemand {
     double sliding_factor = 0.0;     ///< (c A' + mu N')/T downstream, both with the earthquake [-]
     double overturning_factor = 0.0; ///< about the toe [-]
     double coefficient = 0.0;        ///< base shear over the weight of the moving mass [-]
+
+    // Where the spectrum has a vertical component; empty without. All above is of the horizontal one.
+    double vertical_pga = 0.0;               ///< [m/s^2]
+    std::vector<ModeShare> vertical_modes;   ///< masses and forces up, across the base
+    double vertical_residual_mass = 0.0;     ///< [kg/m]
+    std::vector<ComponentDemand> components; ///< horizontal, vertical, SRSS, 100/30
 };
 
 struct SpectrumLevel {
     double total_mass = 0.0;                               ///< of dam and added mass, horizontal [kg/m]
+    double vertical_mass = 0.0;                            ///< the same, vertical; 0: no vertical spectrum [kg/m]
     double ratio = 0.05;                                   ///< damping [-]
     std::string water;                                     ///< "acoustic water", "added mass", "no water that moves"
     double static_shear = 0.0, static_normal = 0.0;        ///< T, N' [N/m]
@@ -71,8 +91,10 @@ struct SpectrumLevel {
 
 /// Modes of dam and massless rock on a tied base, with the water of the scene; the mass that they leave moves rigidly with
 /// the ground and is combined by the root of squares. Equivalent static forces of mode n: Gamma_n K phi_n S_a / omega_n^2.
-/// Horizontal earthquake only; the static state has no crack, N' linear over the base. Factors take the peak shear with
-/// the normal force that comes with it.
+/// The static state has no crack, N' linear over the base. Factors of the horizontal earthquake take the peak shear with the
+/// normal force that comes with it. Components are independent of each other. "SRSS": the root of the sum of their squares;
+/// the sliding factor is the least on the ellipse of T and N' that goes with it (Menun & Der Kiureghian 2000). "100/30": all
+/// of one and 0.3 of the other, the worst of the four (two ways of the vertical one).
 /// @param ready  for finite elements @param given  in place of the records' spectra; empty: the records'
 /// @throws InputError, NotConverged, Interrupted
 SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum>& given = {});

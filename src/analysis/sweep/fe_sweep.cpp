@@ -189,6 +189,8 @@ private:
         std::vector<FeSlip> slips;
         for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
             slips.push_back(slip_of(r, r.slip_error));
+            slips.back().events = r.events;
+            slips.back().anchors = r.anchors;
             for (const fe2d::LiftResult& lift : r.lifts)
                 if (slips.back().slip)
                     slips.back().lift_slip = std::max(slips.back().lift_slip.value_or(0.0), lift.largest_slip);

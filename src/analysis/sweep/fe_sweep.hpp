@@ -23,6 +23,8 @@ struct FeSlip {
     std::optional<double> lift_slip;            ///< largest |slip| of the lift joints on the way [m]; none: no joint
     std::optional<double> walked;               ///< of a dam that goes on by itself, at least [m]
     std::optional<fe2d::RunOutFigures> run_out; ///< none: it was not shaken
+    std::vector<EventSlip> events;              ///< fe2d::RunResult::events
+    std::vector<AnchorOutcome> anchors;         ///< fe2d::RunResult::anchors
     SlipHistory history;                        ///< of sweeps of few rows
 };
 

@@ -51,9 +51,12 @@ Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, con
     for (std::size_t i = 0; i < tasks.variants(); ++i) grid.statics.push_back(std::make_shared<KeptStatics>());
     hold_models(grid, scene, records, 0, 0, 1);
     for (const SweepMethod& method : axes.method) grid.rocks.push_back(rock_of(scene, method));
+    for (const Anchor& anchor : scene.anchors) grid.anchors.push_back(anchor.name);
     if (axes.flexible()) find_modes(grid, scene);
     for (const RecordPair& pair : *records) {
         grid.records.push_back(pair.files.name);
+        if (!pair.parts.empty()) grid.events.clear();
+        for (const RecordPair& part : pair.parts) grid.events.push_back(part.files.name);
         for (const double scale : axes.scale) {
             const GroundMotion motion = ground_motion(scene, pair, scale);
             grid.measured.push_back(regression_inputs(pair, motion, grid.models.front(), scene.regressions.period));

@@ -22,6 +22,8 @@ struct Grid {
         horizontal_motions;                          ///< of each record and scale, with and without the vertical
     std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
     std::vector<std::string> records;                ///< names
+    std::vector<std::string> events;                 ///< of the sequence; empty: none
+    std::vector<std::string> anchors;                ///< names; empty: none
     std::vector<std::string> rocks; ///< below the dam (rock_words), of each method; empty: no finite elements
 
     const RigidModel& model(const GridIndex& at) const

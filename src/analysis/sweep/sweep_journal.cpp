@@ -20,7 +20,7 @@ namespace damslip {
 
 namespace {
 
-constexpr std::string_view first_line = "damslip sweep journal 4";
+constexpr std::string_view first_line = "damslip sweep journal 5";
 constexpr std::string_view done_line = "done\n", begun_word = "begun";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
 
@@ -65,7 +65,9 @@ constexpr std::optional<double> R::*numbers[] = {&R::slip,
                                                  &R::unloaded_share,
                                                  &R::end_rate,
                                                  &R::slip_shaking,
-                                                 &R::slip_at_rest};
+                                                 &R::slip_at_rest,
+                                                 &R::opening,
+                                                 &R::factor_after};
 constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
 
 RowResults results_of(nlohmann::json cells)
@@ -76,6 +78,33 @@ RowResults results_of(nlohmann::json cells)
     for (std::size_t i = 0; i < std::size(numbers); ++i)
         if (cells[i].is_number()) results.*numbers[i] = cells[i].get<double>();
     return results;
+}
+
+/// Slips after the events and anchors, as the last element of a line; empty where there are none.
+std::string extras(const RowResults& results)
+{
+    if (results.event_slips.empty() && results.anchors.empty()) return "";
+    std::string text = ",{\"events\":[";
+    for (std::size_t k = 0; k < results.event_slips.size(); ++k) {
+        if (k) text += ",";
+        add_number(text, results.event_slips[k]);
+    }
+    text += "],\"anchors\":[";
+    for (std::size_t k = 0; k < results.anchors.size(); ++k) {
+        text += (k ? ",[" : "[") + nlohmann::json(results.anchors[k].name).dump() + ",";
+        add_number(text, results.anchors[k].largest_force);
+        text += "," + nlohmann::json(results.anchors[k].state).dump() + "]";
+    }
+    return text + "]}";
+}
+
+/// @throws nlohmann::json::exception  for what extras() would not write
+void read_extras(const nlohmann::json& json, RowResults& results)
+{
+    results.event_slips = json.at("events").get<std::vector<double>>();
+    for (const nlohmann::json& anchor : json.at("anchors"))
+        results.anchors.push_back(
+            {anchor.at(0).get<std::string>(), anchor.at(1).get<double>(), anchor.at(2).get<std::string>()});
 }
 
 std::string line_of(const FinishedRow& row)
@@ -99,7 +128,7 @@ std::string line_of(const FinishedRow& row)
         }
         text += "]";
     }
-    text += "]";
+    text += extras(row.results) + "]";
     return checksum(text) + " " + text + "\n";
 }
 
@@ -109,15 +138,25 @@ std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
     if (line.size() < checksum_digits + 2 || line[checksum_digits] != ' ') return std::nullopt;
     const std::string_view text = line.substr(checksum_digits + 1);
     if (checksum(text) != line.substr(0, checksum_digits)) return std::nullopt;
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_array() || (json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() ||
-        !json[1].is_boolean() || !json[2].is_array() || json[2].size() != result_count ||
-        json[0].get<std::size_t>() >= rows)
+    auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_array() || json.empty()) return std::nullopt;
+    nlohmann::json more;
+    if (json.back().is_object()) {
+        more = std::move(json.back());
+        json.erase(json.size() - 1);
+    }
+    if ((json.size() != 3 && json.size() != 5) || !json[0].is_number_unsigned() || !json[1].is_boolean() ||
+        !json[2].is_array() || json[2].size() != result_count || json[0].get<std::size_t>() >= rows)
         return std::nullopt;
     FinishedRow row{json[0].get<std::size_t>(), json[1].get<bool>(), results_of(json[2]), {}};
     if (json.size() == 5) {
         if (!json[3].is_number() || !json[4].is_array()) return std::nullopt;
         row.history = {json[3].get<double>(), json[4].get<std::vector<double>>()};
+    }
+    try {
+        if (!more.is_null()) read_extras(more, row.results);
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
     }
     return row;
 }

@@ -7,8 +7,19 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace damslip {
+
+/// What one row made of an anchor.
+struct RowAnchor {
+    std::string name;
+    double largest_force = 0.0; ///< [N/m]
+    std::string state;          ///< anchor_end()
+
+    friend bool operator==(const RowAnchor&, const RowAnchor&) = default;
+};
 
 /// What a method gave for one row; what it does not give is empty.
 struct RowResults {
@@ -25,6 +36,12 @@ struct RowResults {
     std::optional<double> unloaded_share;             ///< [-]
     std::optional<double> end_rate;                   ///< [m/s]
     std::optional<double> slip_shaking, slip_at_rest; ///< [m]
+    std::optional<double> opening;                    ///< largest of the base on the way [m]; of fragility
+    std::optional<double> factor_after;               ///< sliding factor after the earthquake [-]; of fragility
+    // Of the rigid block and of finite elements.
+    std::vector<double>
+        event_slips;                ///< of a sequence: slip when the next event begins, as far as they were reached [m]
+    std::vector<RowAnchor> anchors; ///< those that the method has; empty: none, or no slip
 
     friend bool operator==(const RowResults&, const RowResults&) = default;
 };

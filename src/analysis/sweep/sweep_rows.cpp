@@ -41,6 +41,16 @@ sliding::SlideResult slide(const Scene& scene, const Grid& grid, const GridIndex
     return slide_model(scene, grid.model(at), motion, polarity, output);
 }
 
+/// Slip after each event of a sequence, and the anchors; of a row that has a slip.
+void add_events_and_anchors(const std::vector<EventSlip>& events, const std::vector<AnchorOutcome>& anchors,
+                            RowResults& results)
+{
+    if (!results.slip) return;
+    for (const EventSlip& event : events) results.event_slips.push_back(event.slip);
+    for (const AnchorOutcome& anchor : anchors)
+        results.anchors.push_back({anchor.name, anchor.history.largest_force, anchor_end(anchor.history)});
+}
+
 RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
                          const sliding::SkippingMotion& motion, SlipHistory& history)
 {
@@ -53,10 +63,17 @@ RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& 
     results.max_slip = reported(r.status, r.max_slip);
     results.upstream_slip = reported(r.status, r.upstream_slip);
     results.status = word(r.status);
+    add_events_and_anchors(r.events, r.anchors, results);
     return results;
 }
 
 } // namespace
+
+std::string anchor_end(const AnchorHistory& history)
+{
+    if (history.state == AnchorState::snapped) return "snapped";
+    return history.plastic_strain > 0.0 ? "yielded" : "elastic";
+}
 
 FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
 {
@@ -92,6 +109,7 @@ FinishedRow fe_row(std::size_t id, const FeSlip& slip)
     results.status = word(slip.status);
     results.lift_slip = slip.lift_slip;
     results.walked = slip.walked;
+    add_events_and_anchors(slip.events, slip.anchors, results);
     if (const std::optional<fe2d::RunOutFigures>& f = slip.run_out) {
         if (std::isfinite(f->thrust_over_friction)) results.thrust_over_friction = f->thrust_over_friction;
         results.hops = f->hops;

@@ -12,6 +12,9 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id);
 /// The row of an FE run.
 FinishedRow fe_row(std::size_t id, const FeSlip& slip);
 
+/// What has become of an anchor by the end: "snapped", "yielded" (at any time), else "elastic".
+std::string anchor_end(const AnchorHistory& history);
+
 /// Results of a row that an interrupted sweep did not reach.
 RowResults not_run();
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace damslip::cli {
 
@@ -181,10 +182,10 @@ std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene
 template <class Value>
 void refuse_repeats(const char* flag, const std::vector<Value>& values)
 {
-    for (std::size_t i = 1; i < values.size(); ++i)
-        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
-            values.begin() + static_cast<std::ptrdiff_t>(i))
-            refuse_usage(fmt::format("{}: {} is given twice.", flag, values[i]), "each value once",
+    std::set<Value> seen;
+    for (const Value& value : values)
+        if (!seen.insert(value).second)
+            refuse_usage(fmt::format("{}: {} is given twice.", flag, value), "each value once",
                          "delete the second one");
 }
 

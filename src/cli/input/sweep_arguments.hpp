@@ -25,6 +25,7 @@ struct SweepArguments {
     bool plan = false;                        ///< print the commands of all parts instead
     std::filesystem::path slurm_array;        ///< write a job script for all parts here instead; empty: no
     std::optional<int> parts;                 ///< of plan and job script; none: one for each scene variant and motion
+    bool mean_polarity = false;               ///< a column with the mean slip of both polarities
     std::vector<std::filesystem::path> merge; ///< part files, or folders of them, to put together instead
 };
 

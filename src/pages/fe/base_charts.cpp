@@ -1,5 +1,7 @@
 #include "pages/fe/fe_charts.hpp"
 
+#include "scene/joint_bond.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -94,6 +96,32 @@ std::vector<Chart> base_charts(const RunView& view)
         "Effective pressure, compression positive: water in the joint is not part of it. The slider moves both "
         "charts.";
     return charts;
+}
+
+std::optional<Chart> bond_chart(const RunView& view, const Scene& scene)
+{
+    const fe2d::RunResult& fe = view.run.fe;
+    const auto damage = fe.state.laws.find("bond_damage");
+    if (damage == fe.state.laws.end() || !breaks_by_energy(scene.contact)) return std::nullopt;
+    const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
+    const std::vector<double>& all = damage->second; // the base's pairs first
+    if (all.size() < distance.size()) return std::nullopt;
+    const std::vector<double> values(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(distance.size()));
+    double broken = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i] >= 1.0) broken += fe.pair_area[static_cast<Eigen::Index>(i)];
+    Chart chart;
+    chart.title = view.run.label() + ": bond along the base";
+    chart.x = {"distance from the heel", "m"};
+    chart.y = {"damage κ", "–"};
+    chart.y.low = 0.0;
+    chart.y.high = 1.05;
+    chart.height = 240;
+    chart.together = view.together + "base";
+    chart.curves.push_back({"at the end", distance, values, {}, {}, Mark::line, Weight::strong, 1});
+    chart.note = fmt::format("0: intact, 1: broken for good. At the end {:.3g} m of {:.3g} m are broken.", broken,
+                             fe.pair_area.sum());
+    return chart;
 }
 
 StateMap base_states(const RunView& view)

@@ -10,6 +10,7 @@
 #include "pages/fe/water_notes.hpp"
 #include "pages/report/table_text.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -112,6 +113,32 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
         for (std::string& warning : reservoir_warnings(scene, 20.0)) messages.push_back(std::move(warning));
     for (std::string& note : base_water_notes(scene, runs)) messages.push_back(std::move(note));
     add_run_messages(runs, messages);
+    return messages;
+}
+
+std::vector<std::string> bond_messages(const Scene& scene, const fe2d::EarthquakeRun& model)
+{
+    std::vector<std::string> messages;
+    const fe2d::ContactPlanes& planes = model.structure().planes();
+    for (Eigen::Index k = scene.mesh.file ? 0 : 1; k < planes.count(); ++k) {
+        const bool base = k == 0;
+        const LiftJoint* lift = base ? nullptr : &scene.lift_joints[static_cast<std::size_t>(k - 1)];
+        const Contact& strength = base ? scene.contact : lift->strength;
+        const auto modulus = joint_modulus(scene, base);
+        if (!modulus || !breaks_by_energy(strength) || planes[k].pairs() < 2) continue;
+        const double length = planes[k].length() / static_cast<double>(planes[k].pairs() - 1);
+        const CarriedBond carried = carried_bond(strength, *modulus, length);
+        if (!carried.lowered) continue;
+        messages.push_back(fmt::format(
+            "{}: elements of {:.3g} m are longer than a quarter of the bond's process zone; it ran with tensile "
+            "strength "
+            "{:.4g} kPa and cohesion {:.4g} kPa, fracture energies kept. Elements of at most {:.3g} m carry the whole "
+            "bond (E' G/(4 f^2), Bazant & Oh 1983).",
+            base                 ? std::string("base")
+            : lift->name.empty() ? fmt::format("lift joint {}", k)
+                                 : lift->name,
+            length, 1e-3 * carried.tensile_strength, 1e-3 * carried.cohesion, bond_element_length(strength, *modulus)));
+    }
     return messages;
 }
 

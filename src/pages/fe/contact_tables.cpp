@@ -415,6 +415,20 @@ Table contact_count_table(const std::vector<ContactRun>& runs)
                         "problem."});
 }
 
+namespace {
+
+/// What the jumps of the static stages took, those between the events of a sequence included [J/m].
+double jump_loss(const ContactRun& run)
+{
+    double lost = 0.0;
+    for (const auto* stages : {&run.fe.stages, &run.fe.between})
+        for (const fe2d::StageResult& stage : *stages)
+            if (stage.bond) lost += stage.bond->lost;
+    return lost;
+}
+
+} // namespace
+
 Table contact_energy_table(const std::vector<ContactRun>& runs)
 {
     using R = ContactRun;
@@ -428,13 +442,18 @@ Table contact_energy_table(const std::vector<ContactRun>& runs)
     columns.push_back(
         {{"imbalance_J_m", "imbalance", "J/m", 3}, [](const R& r) { return r.fe.history.imbalance.back(); }});
     columns.push_back({{"imbalance_share", "of the largest", "–", 2}, [](const R& r) { return r.fe.energy_error; }});
+    const bool jumped = std::any_of(runs.begin(), runs.end(), [](const R& r) { return jump_loss(r) > 0.0; });
+    if (jumped) columns.push_back({{"jump_loss_J_m", "static jumps, apart", "J/m", 6}, jump_loss});
     const bool of_joints = terms.size() > energy_columns().size();
     return table_of("Energy at the end", columns,
                     runs | std::views::filter([](const R& r) { return !r.fe.history.energy.empty(); }),
                     {std::string("kinetic + strain + damping + numerical + friction + radiated") +
                      (of_joints ? " + those of the joints but water's" : "") + " = external + contact normal" +
                      (of_joints ? " + water in joints" : "") +
-                     ", since the static state; what is left is the imbalance."});
+                     ", since the static state; what is left is the imbalance." +
+                     (jumped ? " Static jumps: kinetic energy that damping and waves took where a bond lost its "
+                               "equilibrium in a static stage; no part of the balance."
+                             : "")});
 }
 
 Table run_out_table(const std::vector<ContactRun>& runs)

@@ -140,20 +140,28 @@ public:
         term("scheme, dissipated", &fe2d::Energy::numerical, 3);
         if (!h_.energy.empty() && h_.energy.back().radiated != 0.0)
             term("radiated by water and rock", &fe2d::Energy::radiated, 6);
+        const std::size_t before_joints = chart.curves.size();
         const auto of_joints = [&](const char* name, double fe2d::Energy::*member, int colour) {
             const auto there = [=](const fe2d::Energy& e) { return e.*member != 0.0; };
             if (std::any_of(h_.energy.begin(), h_.energy.end(), there)) term(name, member, colour, Mark::dashed);
         };
         of_joints("stored in joints", &fe2d::Energy::joint_stored, 5);
+        of_joints("bond, fracture", &fe2d::Energy::bond_fracture, 1);
         of_joints("anchors, plastic", &fe2d::Energy::anchor_plastic, 3);
         of_joints("anchors, snapped", &fe2d::Energy::anchor_loss, 2);
+        of_joints("landings", &fe2d::Energy::impact, 4);
+        of_joints("water in joints", &fe2d::Energy::joint_water, 6);
+        const std::size_t plain = before_joints + 2; // this one and the imbalance
         term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
         add(chart, "imbalance", h_.imbalance, 1e3, 7);
         chart.note =
             fmt::format("kinetic + strain + damping + scheme + friction + radiated = external + contact normal work; "
                         "what is left is the imbalance, at the end {:.1e} of the largest term.",
                         view_.run.fe.energy_error);
-        if (!h_.anchors.empty()) chart.note += " What anchors store and spend counts on the left.";
+        if (chart.curves.size() > plain)
+            chart.note +=
+                " What bonds, anchors and landings store and spend counts on the left, the work of water in joints "
+                "on the right.";
         return chart;
     }
 

@@ -26,6 +26,10 @@ std::optional<std::size_t> fastest_row(const fe2d::RunHistory& history);
 /// 150 instants by a slider.
 std::vector<Chart> base_charts(const RunView& view);
 
+/// Damage of the base's bond from heel to toe at the end, 0 intact, 1 broken; nothing where the base has no bond that breaks by
+/// energy.
+std::optional<Chart> bond_chart(const RunView& view, const Scene& scene);
+
 /// Which part of the base sticks, slips and opens at every row of the history.
 StateMap base_states(const RunView& view);
 

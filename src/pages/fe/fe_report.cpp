@@ -211,6 +211,7 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
     for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
     section.parts.emplace_back(base_states(view));
     for (Chart& chart : base_charts(view)) section.parts.emplace_back(std::move(chart));
+    if (auto chart = bond_chart(view, in_.scene)) section.parts.emplace_back(std::move(*chart));
     if (auto chart = base_water_chart(view)) section.parts.emplace_back(std::move(*chart));
     sections_.push_back(std::move(section));
     if (stress_records_ < stress_records) {

@@ -65,6 +65,10 @@ void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::stri
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
                                           const std::vector<std::string>& of_rock);
 
+/// Bonds whose strength was lowered because the elements are too long for them, where the scene does not know the elements: a
+/// base on an imported mesh, lift joints.
+std::vector<std::string> bond_messages(const Scene& scene, const fe2d::EarthquakeRun& model);
+
 /// All runs of one call as the answer of `fe`. @param spread  spread_line()
 FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,
                         const std::vector<std::string>& messages, const std::string& spread = {});

@@ -1,5 +1,7 @@
 #include "pages/fe/rock_lines.hpp"
 
+#include "analysis/prepare/rock_warnings.hpp"
+#include "pages/fe/fe_report.hpp"
 #include "scene/curtain.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
@@ -106,6 +108,19 @@ std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::Eart
     if (curtain_changes_stiffness(scene))
         messages.push_back("the curtain's stiffness is in the statics; waves see rock without it");
     return messages;
+}
+
+ModelNotes::ModelNotes(const Scene& scene, const fe2d::EarthquakeRun& model)
+    : scene_(scene), model_(model), lines_(radiating_messages(scene, model))
+{
+    for (std::string& note : bond_messages(scene, model)) lines_.push_back(std::move(note));
+}
+
+void ModelNotes::add(const std::string& record, const GroundMotion& motion)
+{
+    for (const std::string& warning : rock_warnings(scene_, model_.model().mesh, motion))
+        if (std::string line = record + ": " + warning; lines_.empty() || lines_.back() != line)
+            lines_.push_back(std::move(line));
 }
 
 } // namespace damslip::pages

@@ -19,4 +19,20 @@ nlohmann::ordered_json rock_json(const Scene& scene, const fe2d::EarthquakeRun& 
 /// What is to be known of radiating rock: a gate that was failed, what an inclined base and a curtain leave out.
 std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::EarthquakeRun& model);
 
+/// The same, what the bond asks of the mesh, and what the waves of each record ask of box and mesh (rock_warnings()): the lines of all runs of one
+/// model.
+class ModelNotes {
+public:
+    /// @param scene, model  outlive this
+    ModelNotes(const Scene& scene, const fe2d::EarthquakeRun& model);
+    /// A line that both polarities of a record ask for is there once.
+    void add(const std::string& record, const GroundMotion& motion);
+    const std::vector<std::string>& lines() const { return lines_; }
+
+private:
+    const Scene& scene_;
+    const fe2d::EarthquakeRun& model_;
+    std::vector<std::string> lines_;
+};
+
 } // namespace damslip::pages

@@ -1,6 +1,9 @@
 #include "pages/fragility/fragility_report.hpp"
 
+#include "analysis/fragility/stage_fragility.hpp"
+
 #include "pages/fragility/fragility_tables.hpp"
+#include "pages/fragility/interval_cost_report.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
@@ -11,6 +14,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace damslip::pages {
 
@@ -28,8 +32,9 @@ std::string status_words(const FragilityView& view)
 std::vector<Table> tables_of(const FragilityView& view)
 {
     std::vector<Table> tables;
-    for (Table table : {fragility_table(view), two_level_table(view), curve_table(view), rate_table(view),
-                        rate_part_table(view), cause_table(view), needed_yield_table(view)})
+    for (Table table :
+         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view),
+          rate_table(view), rate_part_table(view), cause_table(view), needed_yield_table(view)})
         if (!table.rows.empty()) tables.push_back(std::move(table));
     return tables;
 }
@@ -174,6 +179,8 @@ nlohmann::ordered_json fragility_json(const FragilityView& view)
     j["curves"] = json_of(curve_table(view));
     j["rates"] = json_of(rate_table(view));
     if (view.two_level) j["two_models"] = json_of(two_level_table(view));
+    if (view.conditioned) j["conditioned_on_friction"] = json_of(conditioned_table(view));
+    if (view.mfmc) j["multi_fidelity"] = json_of(mfmc_table(view));
     if (view.causes) j["causes"] = json_of(cause_table(view));
     j["needed_yield"] = json_of(needed_yield_table(view));
     j["notes"] = view.notes;
@@ -204,7 +211,8 @@ Page fragility_page(const FragilityView& view)
     page.warnings = view.notes;
     Section curves{"Fragility", {curve_chart(view)}, Fold::open};
     Section rates{"Rates", {}, Fold::open}, causes{"What it comes from", {}, Fold::open};
-    for (Table table : {fragility_table(view), two_level_table(view), curve_table(view)})
+    for (Table table :
+         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view)})
         if (!table.rows.empty()) curves.parts.push_back(rows_part(std::move(table)));
     page.sections.push_back(std::move(curves));
     if (const Table table = rate_table(view); !table.rows.empty()) {
@@ -215,6 +223,13 @@ Page fragility_page(const FragilityView& view)
     for (Table table : {cause_table(view), needed_yield_table(view)})
         if (!table.rows.empty()) causes.parts.push_back(rows_part(std::move(table)));
     if (!causes.parts.empty()) page.sections.push_back(std::move(causes));
+    if (view.own_cost.size() > 1)
+        page.sections.push_back(
+            {"What the interval costs",
+             {interval_cost_chart(view.own_cost, CostAxis::runs, "Half-width of the interval of the draws over runs",
+                                  "By the first draws of this run, where P is nearest to 0.1. damslip accuracy "
+                                  "--probability sets other ways to draw beside it, with their seconds.")},
+             Fold::open});
     page.sections.push_back(
         {"Runs", {Paragraph{status_words(view) + ". Each run is a row of samples.csv."}}, Fold::open});
     page.sections.push_back({"Scene", {scene_listing(view.scene)}, Fold::open});
@@ -230,17 +245,39 @@ std::string fragility_nrml(const FragilityView& view)
     model.description = view.scene.title;
     model.imt = view.plan.input.intensity.text;
     for (const double x : view.plan.input.intensity.levels) model.levels.push_back(x / view.unit);
+    if (view.plan.input.intensity.design == FragilityDesign::cloud) return "";
+    // Curves that do not hold, or cross, have the discrete form: P at the levels. Of a limit without a curve that of the stripes, made
+    // non-decreasing, for the file alone.
+    const bool discrete = std::any_of(view.estimate.limits.begin(), view.estimate.limits.end(),
+                                      [](const LimitEstimate& limit) { return !limit.fit.lognormal(); });
     for (const LimitEstimate& limit : view.estimate.limits) {
-        if (!limit.fit.lognormal()) continue; // the file knows no other curve of them
         probability::NrmlLimit& of = model.limits.emplace_back();
         of.name = name_of_limit(limit.limit.text);
-        of.median = limit.fit.curve.median / view.unit;
+        of.median = discrete ? 0.0 : limit.fit.curve.median / view.unit; // 0: the discrete form
         of.beta = limit.fit.curve.beta;
+        std::vector<double> stripes, runs;
+        for (const LevelEstimate& level : limit.levels) {
+            stripes.push_back(level.p);
+            runs.push_back(std::max(level.n, 1e-9));
+        }
+        of.poes = non_decreasing(std::move(stripes), runs);
+        if (!limit.fit.lognormal()) continue;
+        of.poes.clear();
         for (const double x : view.plan.input.intensity.levels) of.poes.push_back(limit.fit.curve.probability(x));
     }
-    std::sort(model.limits.begin(), model.limits.end(),
-              [](const auto& a, const auto& b) { return a.median < b.median; });
+    const auto weight_of = [](const probability::NrmlLimit& of) {
+        return std::accumulate(of.poes.begin(), of.poes.end(), 0.0);
+    };
+    std::sort(model.limits.begin(), model.limits.end(), [&](const auto& a, const auto& b) { // the mildest first
+        return discrete ? weight_of(a) > weight_of(b) : a.median < b.median;
+    });
     return model.limits.empty() ? std::string() : probability::nrml_fragility(model);
+}
+
+std::string fragility_usace(const FragilityView& view)
+{
+    const std::vector<probability::UsaceLocation> locations = stage_fragility(view.plan, view.runs);
+    return locations.empty() ? std::string() : probability::usace_fragility(view.scene.title, locations);
 }
 
 } // namespace damslip::pages

@@ -2,6 +2,7 @@
 
 #include "core/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,6 +85,11 @@ Table sample_table(const FragilityView& view)
          {{"error_mm", "error", "mm"}, result(&RowResults::slip_error, mm)},
          {{"critical_friction", "critical friction", "–"}, result(&RowResults::critical_friction, 1.0)},
          {{"status", "status"}, [](const SampleRow& r) { return r.row ? Cell(r.row->results.status) : Cell(); }}});
+    const std::vector<LimitInput>& limits = view.plan.input.limits;
+    if (!std::all_of(limits.begin(), limits.end(), is_of_slip)) {
+        columns.push_back({{"opening_mm", "opening", "mm"}, result(&RowResults::opening, mm)});
+        columns.push_back({{"factor_after", "factor after", "–"}, result(&RowResults::factor_after, 1.0)});
+    }
     return table_of("Runs", columns, rows);
 }
 
@@ -180,7 +186,13 @@ Table curve_table(const FragilityView& view)
                            [](const L& l) { return l.capacities ? count_cell(l.capacities->censored) : Cell(); }});
         columns.push_back({{"came_back", "survive again above"}, [](const L& l) { return count_cell(l.came_back); }});
     }
-    return table_of("Curves", columns, view.estimate.limits);
+    Table t = table_of("Curves", columns, view.estimate.limits);
+    for (const LimitEstimate& limit : view.estimate.limits)
+        if (limit.capacity_roots && limit.capacities)
+            t.notes.push_back(fmt::format("{}: {} of {} capacities are the slip's own roots between two levels, the "
+                                          "others the first level above.",
+                                          limit.limit.text, *limit.capacity_roots, limit.capacities->reached));
+    return t;
 }
 
 Table rate_table(const FragilityView& view)
@@ -288,43 +300,129 @@ Table two_level_table(const FragilityView& view)
     return t;
 }
 
+namespace {
+
+/// Variance of plain Monte Carlo with the same runs and seconds over that of the conditioned runs; all that was spent is charged by the level's runs.
+std::optional<double> speed_up_of(const FragilityView& view, const LevelEstimate& level, std::size_t at)
+{
+    const ConditionedPlan& c = *view.conditioned;
+    const std::size_t computed = view.runs.finished() - view.runs.found;
+    if (c.exact() || !(level.se > 0.0) || !(level.p > 0.0) || !(level.p < 1.0) || computed == 0) return std::nullopt;
+    const double spent = view.runs.seconds + c.pilot.seconds + c.rigid_seconds;
+    const double plain_runs = static_cast<double>(c.runs_at[at]) * spent / view.runs.seconds;
+    return level.p * (1.0 - level.p) / plain_runs / (level.se * level.se);
+}
+
+std::string pilot_sentence(const FragilityView& view)
+{
+    const ConditionedPlan& c = *view.conditioned;
+    std::string words =
+        fmt::format("pilot: {} runs, thrown away, {:.3g} processor seconds;", c.pilot.runs, c.pilot.seconds);
+    for (std::size_t l = 0; l < c.pilot.correlation.size(); ++l)
+        words +=
+            fmt::format("{} {}: prediction and answer correlate by {:.2f}, scale of ln μ about the prediction {:.3f}",
+                        l ? "," : "", view.estimate.limits[l].limit.text, c.pilot.correlation[l], c.pilot.spread[l]);
+    return words + fmt::format(". Rigid block: {} motions, {:.3g} s. Runs that count: {}, {:.3g} s.", c.motions,
+                               c.rigid_seconds, view.runs.finished(), view.runs.seconds);
+}
+
+} // namespace
+
+Table conditioned_table(const FragilityView& view)
+{
+    struct Row {
+        std::string limit;
+        const LevelEstimate& level;
+        std::size_t at;
+    };
+    std::vector<Row> rows;
+    if (view.conditioned)
+        for (const LimitEstimate& limit : view.estimate.limits)
+            for (std::size_t k = 0; k < limit.levels.size(); ++k)
+                rows.push_back({limit.limit.text, limit.levels[k], k});
+    Table t =
+        table_of<Row>("Conditioned on friction",
+                      {{{"limit", "limit"}, &Row::limit},
+                       {intensity_column(view), [&](const Row& r) { return r.level.x / view.unit; }},
+                       {{"probability", "P", "–"}, [](const Row& r) { return r.level.p; }},
+                       {{"standard_error", "standard error", "–", 3}, [](const Row& r) { return r.level.se; }},
+                       {{"variation", "c.o.v.", "–", 3},
+                        [](const Row& r) { return r.level.p > 0.0 ? Cell(r.level.se / r.level.p) : Cell(); }},
+                       {{"runs", "FE runs"}, [&](const Row& r) { return count_cell(view.conditioned->runs_at[r.at]); }},
+                       {{"speed_up", "speed-up", "–", 3},
+                        [&](const Row& r) { return optional_cell(speed_up_of(view, r.level, r.at)); }}},
+                      rows);
+    if (!view.conditioned) return t;
+    if (view.conditioned->exact())
+        t.notes = {fmt::format("P = F(μ*) of each of {} motions: no friction is drawn. {:.3g} processor seconds.",
+                               view.conditioned->motions, view.conditioned->rigid_seconds)};
+    else
+        t.notes = {"Friction is drawn only where the rigid block, corrected by a pilot, does not know whether the dam "
+                   "slides too far; standard error "
+                   "by the replicates.",
+                   pilot_sentence(view),
+                   "speed-up: variance of plain Monte Carlo for the same processor seconds, all of the above in it, "
+                   "over that of this estimate."};
+    t.notes.push_back(fmt::format("p_static = {:.4g}: share of the draws that do not stand without an earthquake.",
+                                  view.estimate.p_static));
+    return t;
+}
+
 Table cause_table(const FragilityView& view)
 {
     struct Row {
         std::string variable;
         const probability::TornadoBar* bar;
         const probability::SobolIndex* index;
+        const probability::Estimated* shapley;
     };
     std::vector<Row> rows;
     if (view.causes)
         for (const probability::TornadoBar& bar : view.causes->bars) {
-            Row row{bar.variable, &bar, nullptr};
-            for (std::size_t v = 0; view.causes->shares && v < view.plan.variables().size(); ++v)
-                if (view.plan.variables()[v].name == bar.variable) row.index = &view.causes->shares->variables[v];
+            Row row{bar.variable, &bar, nullptr, nullptr};
+            for (std::size_t v = 0; v < view.plan.variables().size(); ++v) {
+                if (view.plan.variables()[v].name != bar.variable) continue;
+                if (view.causes->shares) row.index = &view.causes->shares->variables[v];
+                if (view.causes->shapley) row.shapley = &view.causes->shapley->shares[v];
+            }
             rows.push_back(row);
         }
     const auto index = [](auto get) { return [=](const Row& r) { return r.index ? Cell(get(*r.index)) : Cell(); }; };
     using I = probability::SobolIndex;
-    Table t = table_of<Row>(
-        "What P comes from",
-        {{{"variable", "variable"}, &Row::variable},
-         {{"at", "at"}, [](const Row& r) { return fmt::format("{}", fmt::join(r.bar->at, ", ")); }},
-         {{"probability", "P there"}, [](const Row& r) { return fmt::format("{:.3g}", fmt::join(r.bar->y, ", ")); }},
-         {{"swing", "swing", "–", 3}, [](const Row& r) { return r.bar->swing(); }},
-         {{"first", "share alone", "–", 3}, index([](const I& i) { return i.first.value; })},
-         {{"first_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.first.lower; })},
-         {{"first_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.first.upper; })},
-         {{"total", "share in all", "–", 3}, index([](const I& i) { return i.total.value; })},
-         {{"total_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.total.lower; })},
-         {{"total_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.total.upper; })}},
-        rows);
+    const auto shapley = [](auto get) {
+        return [=](const Row& r) { return r.shapley ? Cell(get(*r.shapley)) : Cell(); };
+    };
+    using S = probability::Estimated;
+    std::vector<ColumnOf<Row>> columns = {
+        {{"variable", "variable"}, &Row::variable},
+        {{"at", "at"}, [](const Row& r) { return fmt::format("{}", fmt::join(r.bar->at, ", ")); }},
+        {{"probability", "P there"}, [](const Row& r) { return fmt::format("{:.3g}", fmt::join(r.bar->y, ", ")); }},
+        {{"swing", "swing", "–", 3}, [](const Row& r) { return r.bar->swing(); }}};
+    const std::vector<ColumnOf<Row>> of_sobol = {
+        {{"first", "share alone", "–", 3}, index([](const I& i) { return i.first.value; })},
+        {{"first_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.first.lower; })},
+        {{"first_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.first.upper; })},
+        {{"total", "share in all", "–", 3}, index([](const I& i) { return i.total.value; })},
+        {{"total_lower", "2.5 %", "–", 3}, index([](const I& i) { return i.total.lower; })},
+        {{"total_upper", "97.5 %", "–", 3}, index([](const I& i) { return i.total.upper; })}};
+    const std::vector<ColumnOf<Row>> of_shapley = {
+        {{"shapley", "share (Shapley)", "–", 3}, shapley([](const S& s) { return s.value; })},
+        {{"shapley_lower", "2.5 %", "–", 3}, shapley([](const S& s) { return s.lower; })},
+        {{"shapley_upper", "97.5 %", "–", 3}, shapley([](const S& s) { return s.upper; })}};
+    const bool correlated = view.causes && view.causes->shapley;
+    for (const ColumnOf<Row>& column : correlated ? of_shapley : of_sobol) columns.push_back(column);
+    Table t = table_of<Row>("What P comes from", columns, rows);
     if (view.causes) {
         t.notes = {fmt::format("P({}) at {:.4g} {} by the rigid block under the whole suite; others at their medians. "
                                "share: of the variance of P "
-                               "(Sobol'), alone and with all others.",
+                               "{}.",
                                view.causes->limit.text,
-                               view.plan.input.intensity.levels[view.causes->level] / view.unit, view.unit_text)};
-        if (!view.causes->shares) t.notes.push_back("No shares: the variables are correlated, or P does not vary.");
+                               view.plan.input.intensity.levels[view.causes->level] / view.unit, view.unit_text,
+                               correlated ? "(Shapley) among correlated variables; the shares sum up to 1"
+                                          : "(Sobol'), alone and with all others")};
+        if (!view.causes->shares && !correlated)
+            t.notes.push_back(fmt::format("No shares: P does not vary, or there are more than {} correlated variables.",
+                                          most_shapley));
     }
     return t;
 }

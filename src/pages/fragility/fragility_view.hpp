@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/fragility/fragility_causes.hpp"
-#include "analysis/fragility/two_level_runs.hpp"
+#include "analysis/fragility/fragility_study.hpp"
 
 namespace damslip::pages {
 
@@ -16,8 +15,33 @@ struct FragilityView {
     std::string unit_text = "m/s2";               ///< "g"
     const TwoLevelFragility* two_level = nullptr; ///< nullptr: one model
     const FragilityCauses* causes = nullptr;      ///< nullptr: none
+    const ConditionedPlan* conditioned = nullptr; ///< nullptr: friction is drawn
     std::vector<std::pair<LimitInput, std::vector<NeededYield>>> needed_yields = {}; ///< of limits of slip
     std::vector<std::string> notes = {};
+    const MfmcFragility* mfmc = nullptr; ///< nullptr: not asked for
+    /// Half-width over runs of this run's own first draws at the level with P nearest to 0.1, one estimator a limit; empty: not known.
+    std::vector<IntervalPoint> own_cost = {};
 };
+
+/// Of a study that was answered; all of it outlives the view.
+inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
+                             const FragilityAnswer& answer)
+{
+    const IntensityInput& intensity = study.input.intensity;
+    return {study.scene,
+            plan,
+            runs,
+            answer.estimate,
+            study.method.id,
+            intensity.level_unit,
+            intensity.level_unit_text,
+            answer.two_level ? &*answer.two_level : nullptr,
+            answer.causes ? &*answer.causes : nullptr,
+            answer.conditioned,
+            answer.needed_yields,
+            answer.notes,
+            answer.mfmc ? &*answer.mfmc : nullptr,
+            answer.own_cost};
+}
 
 } // namespace damslip::pages

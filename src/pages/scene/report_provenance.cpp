@@ -72,9 +72,10 @@ void add_record_provenance(const std::vector<RecordPair>& records,
             add_record_provenance(pair.parts, list);
             continue;
         }
-        list.emplace_back("record " + pair.files.name, component_text(pair.horizontal));
+        const std::string scaled = pair.files.scale == 1.0 ? "" : fmt::format(", times {:.6g}", pair.files.scale);
+        list.emplace_back("record " + pair.files.name, component_text(pair.horizontal) + scaled);
         if (pair.vertical)
-            list.emplace_back("record " + pair.files.name + ", vertical", component_text(*pair.vertical));
+            list.emplace_back("record " + pair.files.name + ", vertical", component_text(*pair.vertical) + scaled);
     }
 }
 

@@ -73,9 +73,9 @@ std::string scene_text(const SceneTemplate& dam)
            "\n\n# Title block of the reports; take the # away and fill in.\n"
            "# [project]\n"
            "# name = \"Safety review\"\n"
-           "# client = \"Valley Power\"\n"
-           "# author = \"A. Meier\"\n"
-           "# checker = \"B. Rossi\"\n"
+           "# client = \"Owner of the dam\"\n"
+           "# author = \"Name of the engineer\"\n"
+           "# checker = \"Name of the checker\"\n"
            "# date = \"2026-01-31\"\n"
            "# revision = \"A\"\n"
            "\n[section]\n";

@@ -104,6 +104,57 @@ Chart flexible_chart(const Scene& scene, const Screening& s, const RecordHistori
     return chart;
 }
 
+/// Slip of the block that rocks.
+Chart rocking_chart(const GroundMotion& motion, const RecordHistories::Rocking& found)
+{
+    Chart chart;
+    chart.title = motion.name + fmt::format(": block that rocks and slides, polarity {:+d}", found.polarity);
+    chart.x = time_axis();
+    chart.y = {"slip, downstream", "mm"};
+    chart.curves.push_back(slip_curve(found.motion.slide.history, "slip", 2));
+    if (found.motion.slide.status == Status::overturned) chart.note = "It overturns.";
+    return chart;
+}
+
+/// How far its heel and its toe are open.
+Chart rotation_chart(const GroundMotion& motion, const RecordHistories::Rocking& found, double length)
+{
+    std::vector<double> heel, toe;
+    for (const double rotation : found.motion.rotation) {
+        heel.push_back(length * std::sin(std::max(0.0, rotation)) / units::mm);
+        toe.push_back(length * std::sin(std::max(0.0, -rotation)) / units::mm);
+    }
+    const std::vector<double>& time = found.motion.slide.history.time;
+    Chart chart;
+    chart.title = motion.name + ": opening of the block that rocks";
+    chart.x = time_axis();
+    chart.y = {"opening", "mm"};
+    chart.height = 260;
+    chart.curves.push_back(line("heel open", time, std::move(heel), 0));
+    chart.curves.push_back(line("toe open", time, std::move(toe), 1));
+    chart.note = "At the samples; shorter ones between them are in the table's largest values.";
+    return chart;
+}
+
+/// What carries it: uplift and effective normal force over the weight.
+Chart carried_chart(const GroundMotion& motion, const RecordHistories::Rocking& found, double weight)
+{
+    const auto share = [&](std::vector<double> force) {
+        for (double& f : force) f /= weight;
+        return force;
+    };
+    const sliding::SlideHistory& history = found.motion.slide.history;
+    Chart chart;
+    chart.title = motion.name + ": what carries the block that rocks";
+    chart.x = time_axis();
+    chart.y = {"force over weight", "–"};
+    chart.height = 260;
+    chart.curves.push_back(line("uplift U", history.time, share(found.motion.uplift), 1));
+    chart.curves.push_back(line("normal force N′", history.time, share(history.normal_force), 0));
+    chart.note = "Uplift on heel or toe by uplift.opening; N′ jumps where a corner leaves the rock or comes down.";
+    return chart;
+}
+
 /// A slide that has no slip is named instead.
 void add_slip_curve(const sliding::SlideResult& slide, const std::string& name, int colour, Chart& chart)
 {
@@ -154,6 +205,12 @@ std::vector<Part> record_parts(const Scene& scene, const Screening& s, const Gro
         add_slip_curve(both, fmt::format("with vertical, polarity {:+d}", hv->polarity), 1, slip);
         add(std::move(slip));
         add(demand_chart(played(motion, both), both.history, hv->polarity));
+    }
+    if (found.rocking) {
+        const RigidModel& model = s.bases.front().model;
+        add(rocking_chart(motion, *found.rocking));
+        add(rotation_chart(motion, *found.rocking, model.length.value_or(0.0)));
+        add(carried_chart(motion, *found.rocking, model.block.mass * model.block.gravity));
     }
     if (found.flexible) parts.emplace_back(flexible_chart(scene, s, *found.flexible, motion, number, records));
     if (auto regressions = regressions_beside(s, number)) {

@@ -95,6 +95,7 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
         j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     }
     j["displacements"] = json_of(slip_table(s, allowable));
+    if (in.mean_polarity) j["mean_of_polarities"] = json_of(mean_slip_table(s));
     if (has_rocking(s)) j["rocking_block"] = json_of(rocking_table(s, allowable));
     if (!s.slips_without_bond.empty()) j["without_bond"] = json_of(bond_table(s, allowable));
     if (!in.scene.anchors.empty()) j["anchor_forces"] = json_of(screened_anchor_table(s));
@@ -138,6 +139,7 @@ std::string screen_text(const ScreenReportInput& in)
     if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
     show(regression_summary(s.regressions));
     show(slip_table(s, allowable));
+    if (in.mean_polarity) show(mean_slip_table(s));
     if (has_rocking(s)) show(rocking_table(s, allowable));
     if (!s.slips_without_bond.empty()) show(bond_table(s, allowable));
     show(screened_anchor_table(s));

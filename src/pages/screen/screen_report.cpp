@@ -205,6 +205,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
     section.parts.push_back(rows_part(slip_table(s, in.scene.criteria.allowable_slip)));
+    if (in.mean_polarity) section.parts.push_back(rows_part(mean_slip_table(s)));
     if (has_rocking(s)) section.parts.push_back(rows_part(rocking_table(s, in.scene.criteria.allowable_slip)));
     if (!s.slips_without_bond.empty())
         section.parts.push_back(rows_part(bond_table(s, in.scene.criteria.allowable_slip)));

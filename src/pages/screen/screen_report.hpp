@@ -22,6 +22,7 @@ struct ScreenReportInput {
     const std::vector<RecordPair>& records;
     int jobs = 0;                            ///< threads, 0: all cores
     const SpectrumLevel* spectrum = nullptr; ///< --response-spectrum; null: not asked for
+    bool mean_polarity = false;              ///< a table with the mean of both polarities
 };
 
 /// The whole answer in one sentence with its verdict: FAIL for a block that slides or floats without any earthquake, a

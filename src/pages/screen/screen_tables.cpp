@@ -143,7 +143,8 @@ Table yield_table(const Screening& s)
          "earthquake.",
          "a_y with crack: the same with the crack that this acceleration opens (by uplift.crack) and the bond of the "
          "rest.",
-         "a tips: constant ground acceleration at which the dam tips about its toe, uplift unchanged; a opens base: at "
+         "a tips: constant ground acceleration at which the dam tips about its toe, uplift by uplift.opening; a opens "
+         "base: at "
          "which its joint is open from heel to toe (by uplift.crack) and its bond lost."});
 }
 
@@ -167,6 +168,42 @@ Table lift_joint_table(const Scene& scene)
         t.notes.push_back("a_y: acceleration of the joint at which the block above starts to slide; the dam below "
                           "amplifies that of the ground, which `damslip fe` computes.");
     return t;
+}
+
+Table mean_slip_table(const Screening& s)
+{
+    struct Row {
+        std::string record;
+        std::vector<const sliding::SlideResult*> horizontal, vertical, governing;
+    };
+    std::vector<Row> rows;
+    for (const SlipRow& r : s.slips) {
+        if (rows.empty() || rows.back().record != r.record) rows.push_back({r.record, {}, {}, {}});
+        Row& row = rows.back();
+        row.horizontal.push_back(&r.horizontal);
+        if (r.with_vertical) row.vertical.push_back(&*r.with_vertical);
+        if (r.flexible) row.governing.push_back(&r.judged());
+    }
+    const auto mean = [](auto member) {
+        return [member](const Row& r) {
+            double sum = 0.0;
+            for (const sliding::SlideResult* slide : r.*member) {
+                const std::optional<double> slip = reported(slide->status, slide->slip / mm);
+                if (!slip) return Cell();
+                sum += *slip;
+            }
+            return (r.*member).size() == 2 ? Cell(0.5 * sum) : Cell();
+        };
+    };
+    std::vector<ColumnOf<Row>> columns{{{"record", "record"}, &Row::record},
+                                       {{"mean_slip_h_mm", "slip h", "mm", 5}, mean(&Row::horizontal)},
+                                       {{"mean_slip_hv_mm", "slip h+v", "mm", 5}, mean(&Row::vertical)}};
+    if (std::any_of(rows.begin(), rows.end(), [](const Row& r) { return !r.governing.empty(); }))
+        columns.push_back({{"mean_slip_flexible_mm", "flexible block", "mm", 5}, mean(&Row::governing)});
+    return table_of<Row>(
+        "Mean of both polarities", columns, rows,
+        {"slip at the end, positive downstream; the rigid block, and the flexible one's governing analysis. "
+         "A verdict rests on the larger of both, not on their mean."});
 }
 
 Table slip_table(const Screening& s, const std::optional<double>& allowable)

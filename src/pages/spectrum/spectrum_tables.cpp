@@ -24,8 +24,8 @@ Table spectrum_table(const SpectrumLevel& level)
     using units::MPa;
     std::vector<std::string> notes{
         fmt::format("modes of dam and massless rock on a bonded base with {}, {:.3g} % damping; CQC of Der Kiureghian "
-                    "(1981), the mass that the modes leave moves with the ground; horizontal component alone.",
-                    level.water, 100.0 * level.ratio),
+                    "(1981), the mass that the modes leave moves with the ground; horizontal component alone{}.",
+                    level.water, 100.0 * level.ratio, level.vertical_mass > 0.0 ? ", both in the next table" : ""),
         fmt::format("without earthquake: T {:.4g} kN/m, N' {:.4g} kN/m, sliding factor {:.3g}, overturning factor "
                     "{:.3g}, heel {:.3g} MPa, toe {:.3g} MPa (compression positive, no crack).",
                     level.static_shear / kilo, level.static_normal / kilo, level.static_sliding,
@@ -65,6 +65,56 @@ Table spectrum_mode_table(const SpectrumLevel& level, const SpectrumDemand& row)
                      100.0 * row.residual_mass / level.total_mass)});
 }
 
+Table spectrum_component_table(const SpectrumLevel& level)
+{
+    struct Row {
+        std::string record;
+        double pga;
+        const ComponentDemand* demand;
+    };
+    std::vector<Row> rows;
+    for (const SpectrumDemand& d : level.rows)
+        for (const ComponentDemand& c : d.components)
+            rows.push_back({d.record, c.motion == "vertical" ? d.vertical_pga : d.pga, &c});
+    using R = Row;
+    return table_of<R>(
+        "Response spectrum, both components",
+        {{{"record", "record"}, &R::record},
+         {{"motion", "motion"}, [](const R& r) { return r.demand->motion; }},
+         {{"pga_m_s2", "PGA", "m/s²"}, &R::pga},
+         {{"base_shear_kN_m", "base shear", "kN/m", 5}, [](const R& r) { return r.demand->shear / kilo; }},
+         {{"normal_force_kN_m", "normal force", "kN/m", 5}, [](const R& r) { return r.demand->normal / kilo; }},
+         {{"base_moment_kN", "moment", "kN m/m", 5}, [](const R& r) { return r.demand->moment / kilo; }},
+         {{"heel_least_MPa", "heel, least", "MPa", 3}, [](const R& r) { return r.demand->heel_least / units::MPa; }},
+         {{"toe_most_MPa", "toe, most", "MPa", 3}, [](const R& r) { return r.demand->toe_most / units::MPa; }},
+         {{"sliding_factor", "sliding factor", "–", 3}, [](const R& r) { return r.demand->sliding_factor; }},
+         {{"overturning_factor", "overturning factor", "–", 3},
+          [](const R& r) { return r.demand->overturning_factor; }}},
+        rows,
+        {"each component alone: its modes by CQC; SRSS: root of the sum of the squares "
+         "of both, "
+         "the sliding factor the least on the ellipse of shear and normal force; 100/30: all of one and 0.3 of the "
+         "other, "
+         "the worst, the vertical component up or down.",
+         "forces and moment: peaks of the earthquake alone, either way; stresses and factors: with the static loads."});
+}
+
+Table spectrum_vertical_mode_table(const SpectrumLevel& level, const SpectrumDemand& row)
+{
+    using M = ModeShare;
+    return table_of<M>(
+        row.record + ": modes, vertical",
+        {{{"frequency_Hz", "frequency", "Hz", 5}, &M::frequency},
+         {{"effective_mass_kg_m", "effective mass", "kg/m", 5}, &M::effective_mass},
+         {{"share_percent", "share", "%", 3},
+          [&](const M& m) { return 100.0 * m.effective_mass / level.vertical_mass; }},
+         {{"spectral_acceleration_m_s2", "S_a", "m/s²", 4}, &M::acceleration},
+         {{"normal_force_kN_m", "normal force", "kN/m", 5}, [](const M& m) { return m.base_shear / kilo; }}},
+        row.vertical_modes,
+        {fmt::format("total mass {:.5g} kg/m; left by the modes: {:.3g} %, under the PGA.", level.vertical_mass,
+                     100.0 * row.vertical_residual_mass / level.vertical_mass)});
+}
+
 Table spectrum_height_table(const SpectrumDemand& row)
 {
     using L = LevelForce;
@@ -89,7 +139,10 @@ nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
     for (std::size_t i = 0; i < level.rows.size(); ++i) {
         j["rows"][i]["modes"] = json_of(spectrum_mode_table(level, level.rows[i]));
         j["rows"][i]["heights"] = json_of(spectrum_height_table(level.rows[i]));
+        if (!level.rows[i].vertical_modes.empty())
+            j["rows"][i]["vertical_modes"] = json_of(spectrum_vertical_mode_table(level, level.rows[i]));
     }
+    if (level.vertical_mass > 0.0) j["components"] = json_of(spectrum_component_table(level));
     j["notes"] = level.notes;
     return j;
 }
@@ -97,6 +150,7 @@ nlohmann::ordered_json spectrum_json(const SpectrumLevel& level)
 std::string spectrum_text(const SpectrumLevel& level)
 {
     std::vector<Table> tables{spectrum_table(level)};
+    if (level.vertical_mass > 0.0) tables.push_back(spectrum_component_table(level));
     for (std::size_t i = 0; i < level.rows.size() && i < detailed_spectra; ++i) {
         tables.push_back(spectrum_mode_table(level, level.rows[i]));
         tables.push_back(spectrum_height_table(level.rows[i]));
@@ -108,9 +162,12 @@ Section spectrum_section(const SpectrumLevel& level)
 {
     Section section{"Response spectrum", {}, Fold::open};
     section.parts.push_back(rows_part(spectrum_table(level)));
+    if (level.vertical_mass > 0.0) section.parts.push_back(rows_part(spectrum_component_table(level)));
     for (const SpectrumDemand& row : level.rows) {
         section.parts.push_back(TablePart{spectrum_mode_table(level, row), Layout::rows, 1, Fold::folded});
         section.parts.push_back(TablePart{spectrum_height_table(row), Layout::rows, 1, Fold::folded});
+        if (!row.vertical_modes.empty())
+            section.parts.push_back(TablePart{spectrum_vertical_mode_table(level, row), Layout::rows, 1, Fold::folded});
     }
     return section;
 }

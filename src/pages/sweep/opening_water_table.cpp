@@ -83,8 +83,8 @@ std::optional<Table> opening_water_table(const Table& rows)
     columns.push_back({{"apart_mm", "apart", "mm", 3}, &RuleLine::apart});
     return table_of("What the rules for water in the opening base are worth", columns, lines,
                     {"largest slip on the way under each rule of uplift.opening; apart: the largest less the smallest. "
-                     "Rigid block: mouth is taken as full, water of any speed, which is on the safe side; reynolds as "
-                     "unchanged, for a block has no width of the joint."});
+                     "Rigid block: reynolds is taken as unchanged, for a block has no width of the joint; mouth is its "
+                     "rule for water that needs time."});
 }
 
 std::optional<Section> opening_water_section(const Table& rows)

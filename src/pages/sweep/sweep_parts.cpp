@@ -193,7 +193,16 @@ Table sweep_rows_of(const std::string& csv)
         if (line.starts_with("#")) continue;
         const std::vector<std::string> fields = fields_of(line);
         const auto has = [&](const char* key) { return std::find(fields.begin(), fields.end(), key) != fields.end(); };
-        if (header) table.columns = sweep_columns({has("opening_water"), has("period_s"), has("damping")});
+        if (header) {
+            AxisColumns with{has("opening_water"), has("period_s"), has("damping"), {}, {}, has("mean_slip_m")};
+            const auto numbered = [&](const char* key, const char* what, std::vector<std::string>& names) {
+                while (has(fmt::format(fmt::runtime(key), names.size() + 1).c_str()))
+                    names.push_back(fmt::format("{} {}", what, names.size() + 1));
+            };
+            numbered("slip_after_event_{}_m", "event", with.events);
+            numbered("anchor_{}_state", "anchor", with.anchors);
+            table.columns = sweep_columns(with);
+        }
         bool fits = fields.size() == table.columns.size();
         for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
         if (!fits)

@@ -22,6 +22,7 @@ struct SweepLine {
     std::size_t id;
     GridIndex at;
     RowResults results;
+    std::optional<double> mean; ///< slip of both polarities [m]
 
     const Axes& axes() const { return grid.axes; }
     double yield() const { return grid.model(at).downstream.law.constant; }
@@ -41,7 +42,15 @@ Cell rock(const Grid& grid, const GridIndex& at)
     return words.empty() ? Cell() : Cell(words);
 }
 
-/// @param with  columns of axes that are there
+/// Null: the method does not have it, as the rigid block those through lift joints.
+const RowAnchor* anchor_of(const SweepLine& l, const std::string& name)
+{
+    const std::vector<RowAnchor>& all = l.results.anchors;
+    const auto at = std::find_if(all.begin(), all.end(), [&](const RowAnchor& a) { return a.name == name; });
+    return at == all.end() ? nullptr : &*at;
+}
+
+/// @param with  columns that are there
 std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
 {
     using L = SweepLine;
@@ -98,20 +107,61 @@ std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
     if (with.damping)
         all.insert(before_scale(),
                    {{"damping", "damping", "–", 4}, [](const L& l) { return l.axes().damping[l.at.damping]; }});
+    for (std::size_t k = 0; k < with.events.size(); ++k)
+        all.push_back(
+            {{fmt::format("slip_after_event_{}_m", k + 1), "after " + with.events[k], "m", 5}, [k](const L& l) {
+                 const std::vector<double>& slips = l.results.event_slips;
+                 return k < slips.size() ? Cell(slips[k]) : Cell();
+             }});
+    for (std::size_t k = 0; k < with.anchors.size(); ++k) {
+        const std::string& name = with.anchors[k];
+        all.push_back(
+            {{fmt::format("anchor_{}_largest_force_N_m", k + 1), "largest N, " + name, "N/m", 5}, [name](const L& l) {
+                 const RowAnchor* anchor = anchor_of(l, name);
+                 return anchor ? Cell(anchor->largest_force) : Cell();
+             }});
+        all.push_back({{fmt::format("anchor_{}_state", k + 1), name}, [name](const L& l) {
+                           const RowAnchor* anchor = anchor_of(l, name);
+                           return anchor ? Cell(anchor->state) : Cell();
+                       }});
+    }
+    if (with.mean)
+        all.push_back(
+            {{"mean_slip_m", "mean of both polarities", "m", 5}, [](const L& l) { return optional_cell(l.mean); }});
     return all;
+}
+
+/// Of the rows that differ in polarity alone; none where one of them is missing or has no slip.
+std::optional<double> mean_of_polarities(const Grid& grid, GridIndex at, const SweepOutcome& outcome)
+{
+    double sum = 0.0;
+    for (at.polarity = 0; at.polarity < grid.axes.polarity.size(); ++at.polarity) {
+        const FinishedRow* row = outcome.find(grid.tasks.id(at));
+        if (!row || !row->results.slip) return std::nullopt;
+        sum += *row->results.slip;
+    }
+    return sum / static_cast<double>(grid.axes.polarity.size());
+}
+
+/// What this sweep has columns for.
+AxisColumns columns_of(const Grid& grid, bool mean)
+{
+    const Axes& axes = grid.axes;
+    return {has_opening_axis(axes), !axes.period.empty(), !axes.damping.empty(), grid.events, grid.anchors, mean};
 }
 
 } // namespace
 
-Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome)
+Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean)
 {
     std::vector<SweepLine> lines;
     for (const std::size_t id : ids) {
         const FinishedRow* row = outcome.find(id);
-        lines.push_back({grid, id, grid.tasks.index(id), row ? row->results : not_run()});
+        const GridIndex at = grid.tasks.index(id);
+        lines.push_back({grid, id, at, row ? row->results : not_run(),
+                         mean ? mean_of_polarities(grid, at, outcome) : std::nullopt});
     }
-    const Axes& axes = grid.axes;
-    return table_of("", columns({has_opening_axis(axes), !axes.period.empty(), !axes.damping.empty()}), lines);
+    return table_of("", columns(columns_of(grid, mean)), lines);
 }
 
 std::vector<Column> sweep_columns(const AxisColumns& with)

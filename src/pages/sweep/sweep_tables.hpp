@@ -9,14 +9,18 @@
 namespace damslip::pages {
 
 /// Rows in the order of their ids; what an interrupted sweep did not reach says so. Axes, yield acceleration and PGA, then
-/// what the method gave.
-Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome);
+/// what the method gave. @param mean  with the mean slip of both polarities, empty where one of them has none
+Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome,
+                  bool mean = false);
 
-/// Axes whose columns are in the table only where the sweep has them.
+/// What has columns in the table only where the sweep has it.
 struct AxisColumns {
-    bool opening = false; ///< uplift.opening
-    bool period = false;  ///< flexible_block.period_s
-    bool damping = false; ///< flexible_block.damping
+    bool opening = false;                  ///< uplift.opening
+    bool period = false;                   ///< flexible_block.period_s
+    bool damping = false;                  ///< flexible_block.damping
+    std::vector<std::string> events = {};  ///< names of a sequence's events
+    std::vector<std::string> anchors = {}; ///< names of anchors
+    bool mean = false;                     ///< slip of both polarities, their mean; of no axis, asked for
 };
 
 /// Its columns.

@@ -1,6 +1,8 @@
 #include "probability/estimate/multi_fidelity.hpp"
 
 #include "core/number.hpp"
+#include "probability/estimate/calibration.hpp"
+#include "probability/estimate/two_level.hpp"
 #include "probability/laws/distribution.hpp"
 
 #include <algorithm>
@@ -121,6 +123,40 @@ double mfmc_estimate(const MfmcPlan& plan, std::span<const std::vector<double>> 
     for (std::size_t j = 1; j < plan.models.size(); ++j)
         estimate += plan.weights[j] * (mean(j, plan.sizes[j]) - mean(j, plan.sizes[j - 1]));
     return estimate;
+}
+
+MfmcEstimate mfmc_with_error(const MfmcPlan& plan, std::span<const std::vector<double>> answers, double confidence)
+{
+    const std::size_t models = plan.models.size();
+    MfmcEstimate e;
+    e.p = mfmc_estimate(plan, answers);
+    std::vector<double> of_dear; // what the samples of the dear model add
+    double variance = 0.0, variance_of_dear = 0.0;
+    for (std::size_t group = 0; group < models; ++group) { // samples m_(group-1) ... m_group - 1
+        const std::uint64_t first = group > 0 ? plan.sizes[group - 1] : 0, last = plan.sizes[group];
+        std::vector<double> added;
+        for (std::uint64_t s = first; s < last; ++s) {
+            double c = 0.0;
+            for (std::size_t i = group; i < models; ++i) {
+                const double own = plan.weights[i] * answers[i][s],
+                             next = i + 1 < models ? plan.weights[i + 1] * answers[i + 1][s] : 0.0;
+                c += (own - next) / static_cast<double>(plan.sizes[i]);
+            }
+            added.push_back(c);
+        }
+        const double part = static_cast<double>(added.size()) * variance_of(added);
+        variance += part;
+        if (group > 0) continue;
+        variance_of_dear = part;
+        of_dear = std::move(added);
+    }
+    const auto n = static_cast<double>(plan.sizes[0]);
+    e.se = std::sqrt(variance);
+    e.degrees = variance_of_dear > 0.0 ? degrees_of_variance(of_dear) * std::pow(variance / variance_of_dear, 2)
+                                       : std::max(1.0, n - 1.0);
+    e.printed = std::clamp(e.p, 0.0, 1.0);
+    e.interval = wilson_of_estimate(e.p, e.se, n, e.degrees, confidence);
+    return e;
 }
 
 } // namespace damslip::probability

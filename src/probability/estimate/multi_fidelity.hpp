@@ -1,5 +1,7 @@
 #pragma once
 
+#include "probability/fit/interval.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,5 +36,21 @@ double mfmc_variance(std::span<const ModelStatistics> models, const MfmcPlan& pl
 /// mean y^1 + sum alpha_i (mean of y^i over m_i - mean over the first m_(i-1)). answers[j][s]: model models[j], sample s; nested: sample s is the
 /// same draw for all. @throws ParameterError where one has fewer answers than its size
 double mfmc_estimate(const MfmcPlan& plan, std::span<const std::vector<double>> answers);
+
+/// An estimate of P with its error.
+struct MfmcEstimate {
+    double p = 0.0;       ///< as it is: may lie outside 0 ... 1
+    double printed = 0.0; ///< clipped to 0 ... 1
+    double se = 0.0;      ///< standard error
+    double degrees = 1.0; ///< of freedom of `se`
+    Interval interval;    ///< Wilson's with n_eff = p (1 - p) / se^2, at most 20 m_1, and the quantile of Student's t
+};
+
+/// The same estimate with its standard error from the samples. Sample s adds, with m_0 = 0 and the answers y^i of the models it was run with,
+///     c_s = sum over i with s <= m_i of (alpha_i y^i - alpha_(i+1) y^(i+1)) / m_i,   alpha_(K+1) = 0,   p = sum c_s,
+/// and is independent of all others: se^2 = sum over i of (m_i - m_(i-1)) s^2(c_s; m_(i-1) < s <= m_i). Weights are fixed before: a pilot's.
+/// @param answers  of f or of its predictions, 0 ... 1, as mfmc_estimate() takes them
+MfmcEstimate mfmc_with_error(const MfmcPlan& plan, std::span<const std::vector<double>> answers,
+                             double confidence = 0.95);
 
 } // namespace damslip::probability

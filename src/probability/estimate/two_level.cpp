@@ -2,7 +2,7 @@
 
 #include "core/number.hpp"
 #include "probability/estimate/allocation.hpp"
-#include "probability/fit/binary.hpp"
+#include "probability/estimate/calibration.hpp"
 #include "probability/laws/distribution.hpp"
 #include "probability/sampling/permutation.hpp"
 
@@ -16,71 +16,16 @@ namespace damslip::probability {
 
 namespace {
 
-bool missing(const std::vector<double>& cheap)
+/// h of the samples outside one fold.
+Calibration calibrate_on(const std::vector<const DearSample*>& training)
 {
-    return std::any_of(cheap.begin(), cheap.end(), [](double v) { return !std::isfinite(v); });
-}
-
-/// h, fitted on the samples outside one fold. Where the cheap run is missing, and where nothing can be fitted, the mean of f there.
-struct Calibration {
-    BinaryFit fit;
-    double constant = 0.5;
-    bool fitted = false;
-
-    double operator()(const std::vector<double>& cheap) const
-    {
-        return fitted && !missing(cheap) ? fit.probability(cheap) : constant;
-    }
-};
-
-Calibration calibrate(const std::vector<const DearSample*>& training)
-{
-    Calibration h;
-    std::vector<double> x, f, ones;
-    double sum = 0.0;
+    std::vector<const std::vector<double>*> cheap;
+    std::vector<double> f;
     for (const DearSample* s : training) {
-        sum += s->f;
-        if (missing(s->cheap)) continue;
-        x.insert(x.end(), s->cheap.begin(), s->cheap.end());
+        cheap.push_back(&s->cheap);
         f.push_back(s->f);
-        ones.push_back(1.0);
     }
-    if (!training.empty()) h.constant = sum / static_cast<double>(training.size());
-    if (f.size() < 3) return h;
-    h.fit = fit_binary(Link::logit, Penalty::firth, x, ones, f);
-    h.fitted =
-        std::all_of(h.fit.coefficients.begin(), h.fit.coefficients.end(), [](double c) { return std::isfinite(c); });
-    return h;
-}
-
-double mean_of(const std::vector<double>& values)
-{
-    double sum = 0.0;
-    for (const double v : values) sum += v;
-    return sum / static_cast<double>(values.size());
-}
-
-double variance_of(const std::vector<double>& values)
-{
-    if (values.size() < 2) return 0.0;
-    const double mean = mean_of(values);
-    double sum = 0.0;
-    for (const double v : values) sum += (v - mean) * (v - mean);
-    return sum / static_cast<double>(values.size() - 1);
-}
-
-/// Degrees of freedom of the sample variance of these values: var(s^2) = s^4 (kurtosis - 1) / n = 2 s^4 / degrees. Within 3 ... n - 1.
-double degrees_of_variance(const std::vector<double>& values)
-{
-    const double n = static_cast<double>(values.size()), mean = mean_of(values);
-    double second = 0.0, fourth = 0.0;
-    for (const double v : values) {
-        const double square = (v - mean) * (v - mean);
-        second += square / n;
-        fourth += square * square / n;
-    }
-    const double excess = fourth / (second * second) - 1.0;
-    return excess > 0.0 ? std::clamp(2.0 * n / excess, 3.0, std::max(3.0, n - 1.0)) : std::max(3.0, n - 1.0);
+    return calibrate(cheap, f);
 }
 
 /// Best weight of g for N further cheap samples, from samples outside the fold.
@@ -167,7 +112,7 @@ TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const Che
     std::vector<double> f, g, residuals;
     double of_cheap = 0.0, variance_of_cheap = 0.0;
     for (std::size_t k = 0; k < folds; ++k) {
-        const Calibration h = calibrate(outside[k]);
+        const Calibration h = calibrate_on(outside[k]);
         const double share = static_cast<double>(inside[k].size()) / n;
         TwoLevelFold& part = e.folds.emplace_back(TwoLevelFold{inside[k].size(), further[k].size(), 0.0});
         if (part.cheap > 0 && outside[k].size() > 2)

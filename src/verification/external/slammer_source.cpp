@@ -178,7 +178,7 @@ Source slammer_source()
         "16/15 of its change from the record's step to a 16th, and what a 4th and a 16th still differ by. Largest "
         "drive: "
         "the same of Newmark's steps, of second order. Velocity 0.5 %, damping 1 %: its iteration stops at "
-        "changes of 5 %.",
+        "changes of 5 %",
         slammer_file,
         compare};
 }

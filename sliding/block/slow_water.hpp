@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sliding/block/opening_uplift.hpp"
+
+namespace damslip::sliding {
+
+/// Where the water and the crack of one end of the base are, and what that makes of the uplift.
+struct WetCrack {
+    double wet = 0.0;    ///< x_w, how far water has come [m]
+    double tip = 0.0;    ///< x_t of the crack [m]
+    double change = 0.0; ///< of the uplift against that before any motion [N/m]
+};
+
+/// Water that comes into the crack of a rigid block with a finite speed: full head to x_w, nothing from there to the tip
+/// x_t, beyond it what a crack of length x_w leaves. x_w follows the tip with `speed` at most and is driven out by it.
+/// While the block slides its crack is that of its own acceleration, so the change of U is one number for each x_w.
+/// The heel's crack belongs to sliding downstream, the toe's to sliding upstream.
+class SlowWater {
+public:
+    virtual ~SlowWater() = default;
+    virtual double speed() const = 0;                        ///< v_w [m/s]
+    virtual double length() const = 0;                       ///< of the base [m]
+    virtual double first(SlipDirection direction) const = 0; ///< x_w before any motion [m]
+    /// While the block rests under (a_h, a_v) [m/s²]. @param wet  x_w if nothing stops it
+    virtual WetCrack at_rest(SlipDirection direction, double a_h, double a_v, double wet) const = 0;
+    /// While it slides.
+    virtual WetCrack sliding(SlipDirection direction, double a_v, double wet) const = 0;
+};
+
+} // namespace damslip::sliding

@@ -1,0 +1,236 @@
+#include "analysis/fragility/fragility_study.hpp"
+
+#include "analysis/fragility/capacity_roots.hpp"
+#include "analysis/fragility/shaking_suite.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "core/units.hpp"
+#include "core/usage_error.hpp"
+#include "scene/effect_plan.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace damslip {
+
+namespace {
+
+constexpr std::uint32_t cheap_stream = 1; // of FragilitySizes: draws of their own
+
+const SweepMethod& method_of_fragility(const std::string& given, const Records& records, const Scene& scene)
+{
+    const bool vertical =
+        scene.motion.vertical &&
+        std::any_of(records->begin(), records->end(), [](const RecordPair& p) { return p.vertical.has_value(); });
+    const std::string id = given.empty() ? vertical ? "rigid-v" : "rigid" : given;
+    const std::vector<std::string> known = sweep_methods();
+    const bool there = std::find(known.begin(), known.end(), id) != known.end();
+    const auto kind = there ? sweep_method(id).kind : SweepKind::regression;
+    if (kind == SweepKind::regression || is_flexible(kind) || id == "fe-penalty")
+        refuse_usage(fmt::format("--method {} is not one of a fragility.", id),
+                     "rigid, rigid-v, rocking, fe, fe-exact, fe-slip-tolerance, fe-whole-steps, fe-goldgruber-2015, "
+                     "fe-radiating, fe-massless, fe-reduced",
+                     "write  --method rigid-v  or  --method fe");
+    const SweepMethod& method = sweep_method(id);
+    if (kind == SweepKind::rocking && scene.wedge)
+        refuse_usage("--method rocking of a rock wedge.", "a block with a section",
+                     "write  --method rigid-v  or leave --method out");
+    if (method.reduced) check_reducible(called_for(make_effect_plan(scene, Method::finite_elements), scene));
+    return method;
+}
+
+/// Limits that a run of the method gives.
+void check_limits(const FragilityInput& input, const SweepMethod& method, const std::filesystem::path& file)
+{
+    const bool full = method.kind == SweepKind::finite_elements && !method.reduced;
+    for (const LimitInput& limit : input.limits) {
+        if (is_of_slip(limit)) continue;
+        if (!full)
+            throw InputError(Diagnostic{
+                file.string(), 0, 0, fmt::format("limit \"{}\" is not computed by {}.", limit.text, method.id),
+                "a method that follows the base point by point: a rigid block has no opening before "
+                "it lifts off whole, few modes keep no state after the earthquake",
+                "write  --method fe , or limit.quantity = \"slip\""});
+        if (input.intensity.design == FragilityDesign::cloud)
+            throw InputError(Diagnostic{file.string(), 0, 0,
+                                        fmt::format("limit \"{}\" with design = \"cloud\".", limit.text),
+                                        "slip: the cloud is a regression of slips",
+                                        "write  design = \"stripes\" , or limit.quantity = \"slip\""});
+    }
+}
+
+/// The hazard curve in SI. @throws InputError for one of another measure
+probability::HazardCurve hazard_of(const FragilityInput& input, double unit)
+{
+    const probability::HazardFile file = probability::read_hazard_curve(input.hazard->curve);
+    if (!file.measure.empty() && file.measure != input.intensity.text)
+        throw InputError(Diagnostic{
+            input.hazard->curve.string(), 0, 0,
+            fmt::format("the hazard curve is of {}, the levels are of {}.", file.measure, input.intensity.text),
+            "one measure for both", "change intensity.measure, or take the curve of that measure"});
+    const bool exported = file.investigation_time > 0.0; // OpenQuake's units
+    const bool velocity = input.intensity.measure == IntensityMeasure::pgv;
+    const double factor = !exported ? unit : velocity ? units::cm : units::standard_gravity;
+    std::vector<double> x = file.curve.x();
+    for (double& at : x) at *= factor;
+    return {std::move(x), file.curve.rate()};
+}
+
+/// Rigid runs beside the finite elements, and the estimate of both.
+TwoLevelFragility two_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
+                             const FragilityExtras& extras, Watch& watch)
+{
+    const FragilityRuns beside =
+        run_fragility(plan, study.text, study.rigid(), wanted_samples(plan), nullptr, extras.jobs, watch);
+    const FragilityPlan others = study.plan(extras.cheap_samples, cheap_stream);
+    const FragilityRuns cheap =
+        run_fragility(others, study.text, study.rigid(), wanted_samples(others), nullptr, extras.jobs, watch);
+    return estimate_two_level(plan, dear, beside, others, cheap);
+}
+
+/// Multifidelity Monte Carlo with few modes between finite elements and block where the scene allows them.
+MfmcFragility many_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
+                          const FragilityExtras& extras, Watch& watch)
+{
+    constexpr std::size_t least_pilot = 24;
+    MfmcOptions options;
+    options.dear = study.method.id;
+    try {
+        if (!study.method.reduced)
+            options.cheap.push_back(method_of_fragility("fe-reduced", study.suite.pairs, study.scene).id);
+    } catch (const InputError&) { // few modes cannot run it: two models are left
+    }
+    options.cheap.push_back(study.rigid().id);
+    options.pilot = std::max(least_pilot, plan.samples.size() / plan.levels / 10);
+    options.most_cheap = static_cast<std::size_t>(extras.cheap_samples);
+    options.jobs = extras.jobs;
+    return run_mfmc(
+        plan, dear, [&](std::size_t samples, std::uint32_t stream) { return study.plan(samples, stream); }, study.text,
+        options, watch);
+}
+
+/// The limit's level with P nearest to 0.1.
+std::size_t level_near_a_tenth(const LimitEstimate& limit)
+{
+    const auto nearest =
+        std::min_element(limit.levels.begin(), limit.levels.end(), [](const LevelEstimate& a, const LevelEstimate& b) {
+            return std::abs(a.p - 0.1) < std::abs(b.p - 0.1);
+        });
+    return static_cast<std::size_t>(nearest - limit.levels.begin());
+}
+
+} // namespace
+
+FragilityPlan FragilityStudy::plan(std::size_t samples, std::uint32_t stream) const
+{
+    return plan_fragility(input, suite, {samples, stream}, text.file(), written);
+}
+
+const SweepMethod& FragilityStudy::rigid() const
+{
+    return method_of_fragility("", suite.pairs, scene);
+}
+
+void check_fragility(const FragilityInput& input, const SceneText& text)
+{
+    check_supports(input, text, [&text](const std::string& key) { return text.written(key); });
+}
+
+FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method)
+{
+    ShakingSuite suite = suite_of_input(scene, input);
+    const SweepMethod& of = method_of_fragility(method, suite.pairs, scene);
+    check_limits(input, of, text.file());
+    const NumberInFile written = [text](const std::string& key) { return text.written(key); };
+    return {std::move(text), std::move(scene), std::move(input), std::move(suite), of, written};
+}
+
+void allow_any_scaling(FragilityInput& input)
+{
+    if (!input.suite) {
+        input.suite.emplace();
+        input.suite->polarity = SuitePolarity::as_recorded;
+    }
+    input.suite->allow_scaling = true;
+}
+
+std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study, Conditioning asked,
+                                                     std::size_t samples, int jobs, Watch& watch,
+                                                     std::optional<double> aim)
+{
+    const FragilityInput& input = study.input;
+    if (asked == Conditioning::off) return std::nullopt;
+    const std::string why_not = why_not_conditioned(input);
+    if (asked == Conditioning::on && !why_not.empty())
+        refuse_usage(fmt::format("--conditioning on: {}.", why_not),
+                     "contact.friction drawn by a continuous law of its own, and stripes", "leave out  --conditioning");
+    const auto& variables = input.probability.variables;
+    const bool bands = std::any_of(variables.begin(), variables.end(),
+                                   [](const RandomVariable& v) { return v.kind == VariableKind::epistemic; });
+    if (asked == Conditioning::automatic && (!why_not.empty() || !study.finite_elements() || bands))
+        return std::nullopt;
+
+    ConditioningSizes sizes;
+    sizes.jobs = jobs;
+    sizes.aim = aim;
+    if (!study.finite_elements()) {
+        const auto replicates = static_cast<std::size_t>(std::max(1, input.probability.replicates));
+        sizes.motions = (samples + replicates - 1) / replicates;
+        return condition_rigid(input, study.suite, study.text, study.written, study.method, sizes, watch);
+    }
+    const std::size_t all = samples * input.intensity.levels.size();
+    sizes.pilot = std::max<std::size_t>(48, all / 10);
+    sizes.runs = all > 2 * sizes.pilot ? all - sizes.pilot : all;
+    if (input.hazard)
+        sizes.weight_of_level = rate_of_levels(hazard_of(input, input.intensity.level_unit), input.intensity.levels);
+    return condition_finite_elements(input, study.suite, study.text, study.written, study.rigid(), study.method, sizes,
+                                     watch);
+}
+
+FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
+                                 const FragilityExtras& extras, Watch& watch, const ConditionedPlan* conditioned)
+{
+    const FragilityInput& input = study.input;
+    FragilityAnswer answer;
+    std::optional<probability::HazardCurve> hazard;
+    if (input.hazard) hazard = hazard_of(input, input.intensity.level_unit);
+    answer.estimate = estimate_fragility(plan, runs, hazard ? &*hazard : nullptr,
+                                         input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
+    answer.conditioned = conditioned;
+    if (conditioned) answer.notes = conditioned->notes;
+    if (runs.complete()) {
+        capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);
+        const bool cloud = input.intensity.design == FragilityDesign::cloud;
+        const bool two_kinds = !conditioned && study.finite_elements() && extras.cheap_samples > 0 && !cloud;
+        if (two_kinds && extras.multi_fidelity == "two-level")
+            answer.two_level = two_models(study, plan, runs, extras, watch);
+        if (two_kinds && extras.multi_fidelity == "mfmc") answer.mfmc = many_models(study, plan, runs, extras, watch);
+        if (!conditioned && !cloud)
+            for (const LimitEstimate& limit : answer.estimate.limits)
+                for (IntervalPoint& point : own_prefixes(plan, runs, limit.limit, level_near_a_tenth(limit)))
+                    answer.own_cost.push_back(std::move(point));
+        if (extras.rows > 0 && is_of_slip(input.limits.front()))
+            answer.causes = fragility_causes(plan, answer.estimate, study.text, study.written, study.rigid(),
+                                             extras.rows, extras.jobs, watch);
+        for (const LimitInput& limit : input.limits)
+            if (is_of_slip(limit))
+                answer.needed_yields.emplace_back(limit, needed_yield(plan, study.text, limit.value));
+    }
+    for (const std::string& far : plan.scaled_far) answer.notes.push_back("scaled beyond suite.max_scale: " + far);
+    for (const std::string& failure : runs.failures) answer.notes.push_back("not resolved: " + failure);
+    for (const LimitEstimate& limit : answer.estimate.limits)
+        for (const LevelEstimate& level : limit.levels)
+            if (level.z < 0.0 || level.z > level.n)
+                answer.notes.push_back(fmt::format("{} at {:.4g} {}: the estimate lies outside 0 ... 1 and is printed "
+                                                   "clipped; the runs there are too few.",
+                                                   limit.limit.text, level.x / input.intensity.level_unit,
+                                                   input.intensity.level_unit_text));
+    for (const LimitEstimate& limit : answer.estimate.limits)
+        if (limit.missing_share() > 0.05) {
+            answer.answered = false;
+            answer.notes.push_back(fmt::format("{}: {:.1f} % of the runs have no answer; P lies between both bounds.",
+                                               limit.limit.text, 100.0 * limit.missing_share()));
+        }
+    return answer;
+}
+
+} // namespace damslip

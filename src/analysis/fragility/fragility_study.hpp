@@ -1,0 +1,77 @@
+#pragma once
+
+#include "analysis/fragility/conditioned_plan.hpp"
+#include "analysis/fragility/fragility_causes.hpp"
+#include "analysis/fragility/interval_cost.hpp"
+#include "analysis/fragility/mfmc_runs.hpp"
+#include "analysis/fragility/two_level_runs.hpp"
+
+namespace damslip {
+
+/// A scene, what is asked of it, its records and the method: everything that is fixed before the first run.
+struct FragilityStudy {
+    SceneText text;
+    Scene scene;
+    FragilityInput input;
+    ShakingSuite suite;
+    const SweepMethod& method;
+    NumberInFile written; ///< SceneText::written()
+
+    bool finite_elements() const { return method.kind == SweepKind::finite_elements; }
+    /// Runs per level where nobody says how many.
+    std::size_t usual_samples() const { return finite_elements() ? 128 : 1024; }
+    FragilityPlan plan(std::size_t samples, std::uint32_t stream = 0) const;
+    const SweepMethod& rigid() const; ///< the rigid block that goes with the records
+};
+
+/// Laws within what their keys allow. @throws InputError with line, value and fix
+void check_fragility(const FragilityInput& input, const SceneText& text);
+
+/// Reads and measures the records. @param method  rigid, rigid-v, fe, fe-exact ...; empty: rigid-v where a record has a vertical component,
+/// else rigid @pre check_fragility() @throws InputError, also for a
+/// limit that the method does not give; UsageError for a method that is none of a fragility
+FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method);
+
+/// Records may be scaled beyond suite.max_scale; they are listed.
+void allow_any_scaling(FragilityInput& input);
+
+enum class Conditioning { automatic, on, off };
+
+/// A plan whose runs draw friction only where the rigid block, corrected by a pilot, does not know whether the dam slides too far; none where friction
+/// is drawn for each run: automatic conditions finite elements of scenes without epistemic variables, for which no bands are asked.
+/// @param aim  ConditioningSizes::aim
+/// @throws a refusal where it is asked for and cannot be
+std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study, Conditioning asked,
+                                                     std::size_t samples, int jobs, Watch& watch,
+                                                     std::optional<double> aim = std::nullopt);
+
+/// What is computed beside the runs.
+struct FragilityExtras {
+    std::size_t cheap_samples =
+        2048;               ///< of finite elements: further runs of the rigid block per level; 0: finite elements alone
+    std::size_t rows = 128; ///< of each sample of the shares; 0: none
+    int jobs = 0;           ///< threads; 0: all cores
+    std::string multi_fidelity = "two-level"; ///< of finite elements: "two-level", "mfmc", "none"
+};
+
+/// What the runs say.
+struct FragilityAnswer {
+    FragilityEstimate estimate;
+    std::optional<TwoLevelFragility> two_level;
+    std::optional<MfmcFragility> mfmc;
+    std::optional<FragilityCauses> causes;
+    const ConditionedPlan* conditioned = nullptr; ///< as given; nullptr: friction is drawn
+    std::vector<IntervalPoint> own_cost; ///< intervals of the run's own first draws at the level with P nearest to 0.1
+    std::vector<std::pair<LimitInput, std::vector<NeededYield>>> needed_yields; ///< of limits of slip
+    std::vector<std::string> notes;
+    bool answered = true; ///< false: more than 5 % of the runs of a limit have no answer
+};
+
+/// Probabilities and rates, the rigid block beside finite elements, what P comes from. Of runs that are not complete, the estimate alone:
+/// what was not run counts as missing.
+/// @throws InputError for a hazard curve that does not fit the levels
+FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
+                                 const FragilityExtras& extras, Watch& watch,
+                                 const ConditionedPlan* conditioned = nullptr);
+
+} // namespace damslip

@@ -1,0 +1,267 @@
+#include "cli/slide_command.hpp"
+
+#include "analysis/prepare/record_list.hpp"
+#include "analysis/screen/given_yield_runs.hpp"
+#include "cli/flags.hpp"
+#include "cli/input/number_list.hpp"
+#include "core/file.hpp"
+#include "core/number.hpp"
+#include "core/status_count.hpp"
+#include "core/units.hpp"
+#include "core/usage_error.hpp"
+#include "pages/report/json_object.hpp"
+#include "pages/report/table_text.hpp"
+#include "records/read/number_table.hpp"
+#include "records/read/read_record.hpp"
+#include "records/transform/ground_motion.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace damslip::cli {
+
+namespace {
+
+using units::standard_gravity;
+
+constexpr double largest_yield_g = 10.0;
+
+/// Rows of slip [mm] and yield [g], the first at 0 mm. @throws InputError with file, line and column
+std::vector<sliding::YieldPoint> read_yield_table(const std::filesystem::path& path)
+{
+    const std::string content = read_file(path), name = path.string();
+    const records::RecordText text = records::split_lines(content, name);
+    const records::NumberTable table = records::read_number_table(text);
+    std::vector<sliding::YieldPoint> points;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (table.width(row) != 2)
+            records::refuse(text, {table.row_line[row], 0},
+                            fmt::format("{} numbers in a line of a yield acceleration over slip.", table.width(row)),
+                            "two: slip [mm] and yield acceleration [g]", "correct the line");
+        const double slip = table.values[table.row_begin[row]], yield = table.values[table.row_begin[row] + 1];
+        if (!(yield >= 0.0 && yield <= largest_yield_g))
+            records::refuse(text, table.place(row, 1, text),
+                            fmt::format("a yield acceleration of {} g.", shortest(yield)),
+                            fmt::format("a number from 0 to {:g}", largest_yield_g), "write it in g");
+        if (points.empty() && slip != 0.0)
+            records::refuse(text, table.place(row, 0, text), fmt::format("the first slip is {} mm.", shortest(slip)),
+                            "0, the block that has not slipped", "begin the table with its yield at slip 0");
+        if (!points.empty() && slip * units::mm < points.back().path)
+            records::refuse(text, table.place(row, 0, text),
+                            fmt::format("a slip of {} mm after a larger one.", shortest(slip)), "slips that ascend",
+                            "sort the rows by slip");
+        points.push_back({slip * units::mm, yield * standard_gravity});
+    }
+    return points;
+}
+
+std::vector<sliding::YieldPoint> yield_of(const SlideArguments& a)
+{
+    if (static_cast<int>(a.yield_g.has_value()) + a.yield_m_s2.has_value() + !a.yield_table.empty() != 1)
+        refuse_usage("the yield acceleration is to be given once.", "one of --yield-g, --yield-m-s2, --yield-table",
+                     "for example  --yield-g 0.1");
+    if (!a.yield_table.empty()) return read_yield_table(a.yield_table);
+    return {{0.0, a.yield_g ? *a.yield_g * standard_gravity : *a.yield_m_s2}};
+}
+
+GivenYieldBlock block_of(const SlideArguments& a)
+{
+    GivenYieldBlock block;
+    block.yield = yield_of(a);
+    block.two_way = a.two_way;
+    if (!a.period_s && !a.height_m) {
+        if (a.damping || a.mass_ratio)
+            refuse_usage(fmt::format("{} without a period.", a.damping ? "--damping" : "--mass-ratio"),
+                         "a mode: --period-s, or --height and --shear-velocity", "add  --period-s 0.3");
+        return block;
+    }
+    if (a.period_s && a.height_m)
+        refuse_usage("--period-s and --height are both given.", "a period, or a column's height and velocity",
+                     "leave one out");
+    sliding::FlexibleBlock mode;
+    mode.period = a.period_s.value_or(0.0);
+    mode.damping_ratio = a.damping.value_or(mode.damping_ratio);
+    mode.mass_ratio = a.mass_ratio.value_or(mode.mass_ratio);
+    if (a.height_m)
+        block.column =
+            sliding::StrainColumn{*a.height_m, *a.velocity_m_s, mode.damping_ratio, a.base_velocity_m_s.value_or(0.0),
+                                  0.01 * a.reference_strain_percent.value_or(0.0)};
+    block.flexible = mode;
+    return block;
+}
+
+std::vector<std::string> methods_of(const SlideArguments& a, bool flexible)
+{
+    if (a.methods.empty())
+        return flexible ? std::vector<std::string>{"rigid", "decoupled", "coupled"} : std::vector<std::string>{"rigid"};
+    const std::vector<std::string> methods = word_list(a.methods, "--method", {"rigid", "decoupled", "coupled"});
+    for (const std::string& method : methods)
+        if (method != "rigid" && !flexible)
+            refuse_usage("--method " + method + " without a period.",
+                         "a mode: --period-s, or --height and --shear-velocity", "add  --period-s 0.3");
+    return methods;
+}
+
+/// Horizontal components, scaled.
+std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& streams)
+{
+    std::vector<std::pair<std::string, std::filesystem::path>> files;
+    for (const std::filesystem::path& file : a.records) files.emplace_back(file.stem().string(), file);
+    if (!a.record_list.empty())
+        for (const RecordFiles& files_of : record_list(a.record_list).records)
+            files.emplace_back(files_of.name, files_of.horizontal);
+    if (files.empty())
+        refuse_usage("there is no record.", "accelerograms: --record FILE, or --records of a folder",
+                     "add  --record FILE ; without a record:  damslip regress");
+    records::ReadOptions options;
+    options.unit = a.unit;
+    options.dt = a.dt;
+    options.column = a.column;
+    std::vector<GroundMotion> motions;
+    for (const auto& [name, file] : files) {
+        const Record record = records::read_record(file, options);
+        if (!streams.quiet)
+            for (const std::string& warning : record.warnings)
+                streams.talk << "note: " << name << ": " << warning << "\n";
+        records::MotionOptions scaling;
+        scaling.scale = a.scale;
+        if (a.pga_g) scaling.scale_to_pga = *a.pga_g * standard_gravity;
+        motions.push_back(records::make_ground_motion(record, std::nullopt, scaling));
+        motions.back().name = name;
+    }
+    return motions;
+}
+
+/// Of both ways: the graver.
+Status status_of(const GivenYieldRow& row)
+{
+    const int normal = status_row(row.normal.status).exit_code, inverse = status_row(row.inverse.status).exit_code;
+    if (normal != inverse) return worse_exit_code(normal, inverse) == normal ? row.normal.status : row.inverse.status;
+    return row.normal.status == Status::at_rest ? row.inverse.status : row.normal.status;
+}
+
+Cell slip_or_none(const GivenYieldRow& row, double slip)
+{
+    return optional_cell(reported(status_of(row), slip / units::mm));
+}
+
+Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYieldRow>& rows)
+{
+    using R = GivenYieldRow;
+    const double a_y = block.yield.front().yield;
+    std::vector<ColumnOf<R>> columns{
+        {{"record", "record"}, &R::record},
+        {{"method", "method"}, &R::method},
+        {{"pga_g", "PGA", "g", 4}, [](const R& r) { return r.pga / standard_gravity; }},
+        {{"yield_over_pga", "a_y/PGA", "–", 4},
+         [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
+        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
+        {{"slip_inverse_mm", "slip, record flipped", "mm", 5},
+         [](const R& r) { return slip_or_none(r, r.inverse.max_slip); }},
+        {{"slip_mean_mm", "mean of both", "mm", 5}, [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
+        {{"largest_acceleration_g", "largest acceleration", "g", 4},
+         [](const R& r) { return r.largest_acceleration / standard_gravity; }},
+        {{"status", "status"}, [](const R& r) { return word(status_of(r)); }}};
+    if (block.flexible) {
+        const auto period = [](const R& r) { return r.mode ? Cell(r.mode->period) : Cell(); };
+        const auto damping = [](const R& r) { return r.mode ? Cell(100.0 * r.mode->damping_ratio) : Cell(); };
+        columns.insert(columns.end() - 1,
+                       {{{"period_s", "period", "s", 4}, period}, {{"damping_percent", "damping", "%", 4}, damping}});
+    }
+    Table table = table_of<R>("Slip on a given yield acceleration", columns, rows);
+    table.notes.push_back(
+        fmt::format("a_y = {:.5g} g{}; {}.", a_y / standard_gravity,
+                    block.yield.size() > 1 ? " at rest, then as the table over the slip" : "",
+                    block.two_way ? "the block slides both ways, slip: the largest on the way" : "one way, downhill"));
+    table.notes.push_back("horizontal component alone; the largest acceleration is the mass's own on average.");
+    return table;
+}
+
+void slide_flags(CLI::App& sub, SlideArguments& a)
+{
+    const char* const yield = "Yield acceleration";
+    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g]")
+        ->check(in_range(1e-6, largest_yield_g))
+        ->group(yield);
+    sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]")->check(in_range(1e-5, 100.0))->group(yield);
+    sub.add_option("--yield-table", a.yield_table,
+                   "file of slip [mm] and a_y [g], the first at 0 mm; straight lines between, the last holds")
+        ->group(yield);
+    const char* const motion = "Ground motion";
+    sub.add_option("--record", a.records, "horizontal accelerogram(s)")->group(motion);
+    sub.add_option("--records", a.record_list, "folder, pattern in quotes or list (CSV) of accelerograms")
+        ->group(motion);
+    sub.add_option("--units", a.unit, "unit of record files that do not say: g, m/s2, cm/s2, gal, mg")->group(motion);
+    sub.add_option("--dt", a.dt, "time step of one-column record files [s]")->check(in_range(1e-6, 1.0))->group(motion);
+    sub.add_option("--column", a.column, "heading or number of the column where files hold several")->group(motion);
+    sub.add_option("--scale", a.scale, "factor on all records")->check(in_range(0.0, 1e4))->group(motion);
+    sub.add_option("--pga-g", a.pga_g, "every record to this peak, before --scale [g]")
+        ->check(in_range(1e-6, 10.0))
+        ->group(motion);
+    sub.add_flag("--two-way", a.two_way, "the block slides uphill, too, at the same yield");
+    sub.add_option("--method", a.methods,
+                   "rigid, decoupled, coupled; default: rigid, of a block with a period all of them");
+    const char* const flexible = "A block that vibrates on its base";
+    sub.add_option("--period-s", a.period_s, "period of its mode [s]")->check(in_range(1e-3, 100.0))->group(flexible);
+    CLI::Option* height = sub.add_option("--height", a.height_m, "of a shear column in place of the period [m]")
+                              ->check(in_range(0.01, 1000.0))
+                              ->group(flexible);
+    CLI::Option* velocity =
+        sub.add_option("--shear-velocity", a.velocity_m_s, "V_s of the column at small strain [m/s]")
+            ->check(in_range(1.0, 10000.0))
+            ->needs(height)
+            ->group(flexible);
+    height->needs(velocity);
+    sub.add_option("--base-velocity", a.base_velocity_m_s,
+                   "V_s of the rock below: what it radiates is added to the damping")
+        ->check(in_range(1.0, 10000.0))
+        ->needs(height)
+        ->group(flexible);
+    sub.add_option("--reference-strain", a.reference_strain_percent,
+                   "at which the column's shear modulus is halved [%]: period and damping follow the strain")
+        ->check(in_range(1e-4, 100.0))
+        ->needs(height)
+        ->group(flexible);
+    sub.add_option("--damping", a.damping, "damping ratio of the mode (0.05)")
+        ->check(in_range(0.0, 0.5))
+        ->group(flexible);
+    sub.add_option("--mass-ratio", a.mass_ratio, "effective mass of the mode over the mass (8/pi^2)")
+        ->check(in_range(1e-3, 0.95))
+        ->group(flexible);
+}
+
+} // namespace
+
+int slide_on_yield(const SlideArguments& a, const Streams& streams)
+{
+    const GivenYieldBlock block = block_of(a);
+    const std::vector<std::string> methods = methods_of(a, block.flexible.has_value());
+    const std::vector<GivenYieldRow> rows = given_yield_runs(block, motions_of(a, streams), methods);
+    const Table table = given_yield_table(block, rows);
+    if (streams.form == Form::json) {
+        nlohmann::ordered_json j = pages::json_header("slide");
+        j["yield_g"] = block.yield.front().yield / standard_gravity;
+        j["two_way"] = block.two_way;
+        j["rows"] = pages::json_of(table);
+        j["notes"] = table.notes;
+        streams.out << j.dump(2) << "\n";
+    } else {
+        streams.out << pages::text(table) << "\n";
+    }
+    StatusCount statuses;
+    for (const GivenYieldRow& row : rows) {
+        statuses.add(row.normal.status);
+        statuses.add(row.inverse.status);
+    }
+    return statuses.exit_code();
+}
+
+Command slide_command()
+{
+    return {"slide", "slip on a yield acceleration that is given, of records; without a scene",
+            "damslip slide --yield-g 0.1 --record ns.at2 --period-s 0.3",
+            with_flags<SlideArguments>(slide_flags, slide_on_yield)};
+}
+
+} // namespace damslip::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace damslip {
+struct Ready;
+struct SpectrumLevel;
+} // namespace damslip
+
+namespace damslip::cli {
+
+/// --response-spectrum and its spectra, in place of the records' ones.
+struct SpectrumArguments {
+    bool wanted = false;
+    std::filesystem::path horizontal;   ///< file; empty: the records' spectra
+    std::optional<double> pga;          ///< of that spectrum [m/s^2]
+    std::filesystem::path vertical;     ///< file of the vertical component; empty: none
+    std::optional<double> vertical_pga; ///< [m/s^2]
+};
+
+/// Refuses what cannot be answered, before anything is computed.
+/// @throws UsageError without a record and without a spectrum
+void check_spectrum_level(const SpectrumArguments& a, bool has_records);
+
+/// @param ready  for finite elements @returns null: not asked for
+/// @throws InputError, UsageError, NotConverged, Interrupted
+std::shared_ptr<const SpectrumLevel> find_spectrum_level(const SpectrumArguments& a, const Ready& ready);
+
+} // namespace damslip::cli

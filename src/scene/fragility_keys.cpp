@@ -1,0 +1,205 @@
+#include "scene/fragility_keys.hpp"
+
+#include "core/intensity_measure.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace damslip {
+
+namespace {
+
+using Value = FragilityValue;
+
+const Range positive = Range::above(0);
+
+FragilityKey number_key(std::string name, Range range, std::string default_text, std::string meaning,
+                        std::string example)
+{
+    return {std::move(name),    Value::number,     range, {}, {}, std::move(default_text),
+            std::move(meaning), std::move(example)};
+}
+
+FragilityKey whole_key(std::string name, Range range, std::string default_text, std::string meaning,
+                       std::string example)
+{
+    return {std::move(name),    Value::whole,      range, {}, {}, std::move(default_text),
+            std::move(meaning), std::move(example)};
+}
+
+/// Of several words; the first one is the default.
+FragilityKey word_key(std::string name, std::vector<std::string> words, std::string meaning)
+{
+    std::string first = words.front(), example = "\"" + words.back() + "\"";
+    return {std::move(name),    Value::word,       {}, std::move(words), {}, std::move(first),
+            std::move(meaning), std::move(example)};
+}
+
+FragilityKey flag_key(std::string name, std::string meaning)
+{
+    return {std::move(name), Value::flag, {}, {}, {}, "false", std::move(meaning), "true"};
+}
+
+FragilityKey text_key(std::string name, Value value, std::string default_text, std::string meaning, std::string example)
+{
+    return {std::move(name), value, {}, {}, {}, std::move(default_text), std::move(meaning), std::move(example)};
+}
+
+FragilityKey law_key(std::string name, std::vector<LawNumber> numbers, std::string meaning, std::string example)
+{
+    return {std::move(name), Value::law, {}, {}, std::move(numbers), "", std::move(meaning), std::move(example)};
+}
+
+std::vector<FragilityKey> law_rows()
+{
+    const LawNumber low{"min"}, high{"max"}, from{"min", true}, to{"max", true};
+    return {
+        law_key(
+            "lognormal",
+            {{"median", false, true}, {"beta", false, true}, {"mean", false, true}, {"cov", false, true}, low, high},
+            "law: median and beta, the standard deviation of ln x; or mean and cov, the coefficient of variation. "
+            "min, max: the law on the condition that it lies between",
+            "{ median = 0.77, beta = 0.15 }"),
+        law_key("normal", {{"mean", true}, {"sd", true, true}, low, high},
+                "law: mean and standard deviation; min, max as above", "{ mean = 2400, sd = 30 }"),
+        law_key("uniform", {from, to}, "law: every number from min to max alike", "{ min = 0.6, max = 1.0 }"),
+        law_key("triangular", {from, {"mode", true}, to}, "law: least, likeliest, largest",
+                "{ min = 0.6, mode = 0.77, max = 1.0 }"),
+        law_key("beta", {{"a", true, true}, {"b", true, true}, from, to},
+                "law: exponents a and b of the beta distribution, spread from min to max",
+                "{ a = 2, b = 3, min = 0.6, max = 1.0 }"),
+        text_key("discrete", Value::discrete, "",
+                 "law: one of these values (numbers, words of the choice, true, false) by its weight: a logic tree",
+                 "{ values = [\"seepage\", \"linear\"], weights = [0.6, 0.4] }")};
+}
+
+FragilityKeyTable variable_table()
+{
+    FragilityKeyTable table{
+        "probability.variable",
+        Presence::list,
+        "One thing that is not known, and its law: one of lognormal, normal, uniform, triangular, beta, discrete.",
+        {text_key("name", Value::text, "the first key", "draws depend on it: another name, other draws", "\"mu\""),
+         text_key("key", Value::text_or_list, "required",
+                  "number or choice of the scene in the unit of its spelling, lift_joint[NAME].friction of a list; "
+                  "several keys in brackets take the same draw",
+                  "\"contact.friction\""),
+         flag_key("factor", "true: the draw multiplies the number of the file"),
+         word_key("kind", {"aleatory", "epistemic"},
+                  "aleatory: differs from earthquake to earthquake, makes P; epistemic: has one value that is not "
+                  "known, makes the band of P")}};
+    for (FragilityKey& law : law_rows()) table.keys.push_back(std::move(law));
+    return table;
+}
+
+FragilityKeyTable intensity_table()
+{
+    FragilityKeyTable table{
+        "intensity",
+        Presence::optional,
+        "How strong the shaking is. `fragility` needs it, with one list of levels.",
+        {text_key("measure", Value::text, "PGA", std::string(known_intensities), "\"SA(T1)\""),
+         word_key("component", {"as-used"}, "as-used: of the component that shakes the dam"),
+         word_key(
+             "design", {"stripes", "ida", "cloud"},
+             "stripes: draws of their own at each level; ida: the same at all levels; cloud: records as they are")}};
+    for (const auto& [name, meaning] : {std::pair{"levels_g", "ascending; of PGA, SA, avgSA"},
+                                        {"levels_m_s2", "the same in m/s2"},
+                                        {"levels_m_s", "ascending; of PGV, IA, CAV"},
+                                        {"levels_cm_s", "the same in cm/s"}})
+        table.keys.push_back({name, Value::numbers, positive, {}, {}, "", meaning, "[0.1, 0.2, 0.4]"});
+    return table;
+}
+
+std::vector<FragilityKeyTable> make_tables()
+{
+    std::vector<FragilityKeyTable> tables;
+    tables.push_back(
+        {"probability",
+         Presence::optional,
+         "How `damslip fragility` draws. Other commands check the tables of a fragility, and compute nothing with "
+         "them.",
+         {whole_key("seed", Range::between(0, 0x1p62), "1", "of all draws: the same seed, the same numbers", "1"),
+          word_key("sampling", {"sobol", "lhs", "random"}, "points of a sample; lhs: Latin hypercube"),
+          whole_key("replicates", Range::between(1, 10'000), "16",
+                    "samples, each randomised by itself: their spread is the error", "8"),
+          whole_key("samples", Range::between(1, 100'000'000), "by --samples or --budget",
+                    "draws of each replicate and epistemic draw", "64"),
+          word_key("static_failure", {"infinite", "given-standing"},
+                   "a draw whose dam does not stand without an earthquake: its slip is infinite; or it is left out, "
+                   "since the dam stands today. Its share is printed")}});
+    tables.push_back(variable_table());
+    tables.push_back({"probability.correlation",
+                      Presence::list,
+                      "Two variables of one kind that go together (Gaussian copula).",
+                      {text_key("between", Value::names, "required", "names of two variables", "[\"mu\", \"c\"]"),
+                       number_key("spearman", Range::inside(-1, 1), "required", "their rank correlation", "-0.3")}});
+    tables.push_back(
+        {"suite",
+         Presence::optional,
+         "The records of a fragility; without it those of [motion].",
+         {text_key(
+              "files", Value::text, "those of [motion]",
+              "folder, pattern, or CSV with horizontal, vertical, event, weight, magnitude, scale; from the folder "
+              "of the scene",
+              "\"suite/*.AT2\""),
+          word_key("draw", {"balanced", "with-replacement"},
+                   "balanced: each record as often as its weight says; with-replacement: by chance"),
+          word_key("polarity", {"both", "as-recorded", "reversed"}, "of the horizontal component"),
+          number_key("max_scale", positive, "4", "largest factor on a record; larger ones are refused", "4"),
+          flag_key("allow_scaling", "true: factors beyond max_scale are used, and listed")}});
+    tables.push_back(intensity_table());
+    tables.push_back({"limit",
+                      Presence::list,
+                      "What is too much: a curve for each. `fragility` needs one at least, with one of the lengths.",
+                      {word_key("quantity", {"slip", "largest-slip", "lift-off", "post-seismic-fs"},
+                                "slip at the end, or largest on the way; of finite elements: largest opening of the "
+                                "base, sliding factor after the earthquake"),
+                       number_key("below", positive, "", "of post-seismic-fs: too little below it", "1.1"),
+                       number_key("above_mm", Range::at_least(0), "", "too much above it", "50"),
+                       number_key("above_cm", Range::at_least(0), "", "the same in cm", "5"),
+                       number_key("above_m", Range::at_least(0), "", "the same in m", "0.05")}});
+    tables.push_back(
+        {"hazard",
+         Presence::optional,
+         "How often the site shakes how strongly: for rates per year.",
+         {text_key("curve", Value::text, "required",
+                   "CSV of intensity, in the unit of the levels, and annual rate of more; or an export of OpenQuake",
+                   "\"hazard.csv\""),
+          number_key("all_events", positive, "none",
+                     "annual rate of all events: bounds what lies below the lowest level", "0.5")}});
+    return tables;
+}
+
+} // namespace
+
+std::vector<std::string> FragilityKeyTable::names() const
+{
+    std::vector<std::string> out;
+    for (const FragilityKey& key : keys) out.push_back(key.name);
+    return out;
+}
+
+const FragilityKey& FragilityKeyTable::key(std::string_view wanted) const
+{
+    const auto at = std::find_if(keys.begin(), keys.end(), [&](const FragilityKey& k) { return k.name == wanted; });
+    if (at == keys.end()) throw std::logic_error("key of a fragility: " + std::string(wanted));
+    return *at;
+}
+
+const std::vector<FragilityKeyTable>& fragility_key_tables()
+{
+    static const std::vector<FragilityKeyTable> tables = make_tables();
+    return tables;
+}
+
+const FragilityKeyTable& fragility_key_table(std::string_view name)
+{
+    const auto& tables = fragility_key_tables();
+    const auto at =
+        std::find_if(tables.begin(), tables.end(), [&](const FragilityKeyTable& t) { return t.name == name; });
+    if (at == tables.end()) throw std::logic_error("table of a fragility: " + std::string(name));
+    return *at;
+}
+
+} // namespace damslip
