@@ -56,19 +56,31 @@ std::vector<sliding::YieldPoint> read_yield_table(const std::filesystem::path& p
     return points;
 }
 
-std::vector<sliding::YieldPoint> yield_of(const SlideArguments& a)
+/// One yield over the slip for each of a list.
+std::vector<std::vector<sliding::YieldPoint>> yields_of(const SlideArguments& a)
 {
-    if (static_cast<int>(a.yield_g.has_value()) + a.yield_m_s2.has_value() + !a.yield_table.empty() != 1)
+    if (!a.yield_g.empty() + !a.yield_m_s2.empty() + !a.yield_table.empty() != 1)
         refuse_usage("the yield acceleration is to be given once.", "one of --yield-g, --yield-m-s2, --yield-table",
                      "for example  --yield-g 0.1");
-    if (!a.yield_table.empty()) return read_yield_table(a.yield_table);
-    return {{0.0, a.yield_g ? *a.yield_g * standard_gravity : *a.yield_m_s2}};
+    if (!a.yield_table.empty()) return {read_yield_table(a.yield_table)};
+    const bool in_g = !a.yield_g.empty();
+    const char* const flag = in_g ? "--yield-g" : "--yield-m-s2";
+    const double unit = in_g ? standard_gravity : 1.0, least = in_g ? 1e-6 : 1e-5,
+                 most = in_g ? largest_yield_g : 10.0 * largest_yield_g;
+    std::vector<std::vector<sliding::YieldPoint>> yields;
+    for (const double yield : number_list(in_g ? a.yield_g : a.yield_m_s2, flag)) {
+        if (!(yield >= least && yield <= most))
+            refuse_usage(fmt::format("{} {} is not allowed.", flag, shortest(yield)),
+                         fmt::format("numbers from {:g} to {:g}", least, most),
+                         fmt::format("for example  {} 0.05:0.2:0.05", flag));
+        yields.push_back({{0.0, yield * unit}});
+    }
+    return yields;
 }
 
 GivenYieldBlock block_of(const SlideArguments& a)
 {
     GivenYieldBlock block;
-    block.yield = yield_of(a);
     block.two_way = a.two_way;
     if (!a.period_s && !a.height_m) {
         if (a.damping || a.mass_ratio)
@@ -149,13 +161,13 @@ Cell slip_or_none(const GivenYieldRow& row, double slip)
 Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYieldRow>& rows)
 {
     using R = GivenYieldRow;
-    const double a_y = block.yield.front().yield;
     std::vector<ColumnOf<R>> columns{
+        {{"yield_g", "a_y", "g", 5}, [](const R& r) { return r.yield / standard_gravity; }},
         {{"record", "record"}, &R::record},
         {{"method", "method"}, &R::method},
         {{"pga_g", "PGA", "g", 4}, [](const R& r) { return r.pga / standard_gravity; }},
         {{"yield_over_pga", "a_y/PGA", "–", 4},
-         [=](const R& r) { return r.pga > 0 ? finite_cell(a_y / r.pga) : Cell(); }},
+         [](const R& r) { return r.pga > 0 ? finite_cell(r.yield / r.pga) : Cell(); }},
         {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
         {{"slip_inverse_mm", "slip, record flipped", "mm", 5},
          [](const R& r) { return slip_or_none(r, r.inverse.max_slip); }},
@@ -171,8 +183,7 @@ Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYie
     }
     Table table = table_of<R>("Slip on a given yield acceleration", columns, rows);
     table.notes.push_back(
-        fmt::format("a_y = {:.5g} g{}; {}.", a_y / standard_gravity,
-                    block.yield.size() > 1 ? " at rest, then as the table over the slip" : "",
+        fmt::format("{}{}.", block.yield.size() > 1 ? "a_y: at rest, then as the table over the slip; " : "",
                     block.two_way ? "the block slides both ways, slip: the largest on the way" : "one way, downhill"));
     table.notes.push_back("horizontal component alone; the largest acceleration is the mass's own on average.");
     return table;
@@ -181,10 +192,9 @@ Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYie
 void slide_flags(CLI::App& sub, SlideArguments& a)
 {
     const char* const yield = "Yield acceleration";
-    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g]")
-        ->check(in_range(1e-6, largest_yield_g))
+    sub.add_option("--yield-g", a.yield_g, "yield acceleration a_y [g], or several: 0.05,0.1 or 0.05:0.2:0.05")
         ->group(yield);
-    sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]")->check(in_range(1e-5, 100.0))->group(yield);
+    sub.add_option("--yield-m-s2", a.yield_m_s2, "the same [m/s^2]")->group(yield);
     sub.add_option("--yield-table", a.yield_table,
                    "file of slip [mm] and a_y [g], the first at 0 mm; straight lines between, the last holds")
         ->group(yield);
@@ -235,13 +245,18 @@ void slide_flags(CLI::App& sub, SlideArguments& a)
 
 int slide_on_yield(const SlideArguments& a, const Streams& streams)
 {
-    const GivenYieldBlock block = block_of(a);
+    const std::vector<std::vector<sliding::YieldPoint>> yields = yields_of(a);
+    GivenYieldBlock block = block_of(a);
     const std::vector<std::string> methods = methods_of(a, block.flexible.has_value());
-    const std::vector<GivenYieldRow> rows = given_yield_runs(block, motions_of(a, streams), methods);
+    const std::vector<GroundMotion> motions = motions_of(a, streams);
+    std::vector<GivenYieldRow> rows;
+    for (const std::vector<sliding::YieldPoint>& yield : yields) {
+        block.yield = yield;
+        for (GivenYieldRow& row : given_yield_runs(block, motions, methods)) rows.push_back(std::move(row));
+    }
     const Table table = given_yield_table(block, rows);
     if (streams.form == Form::json) {
         nlohmann::ordered_json j = pages::json_header("slide");
-        j["yield_g"] = block.yield.front().yield / standard_gravity;
         j["two_way"] = block.two_way;
         j["rows"] = pages::json_of(table);
         j["notes"] = table.notes;

@@ -11,7 +11,7 @@ namespace damslip::cli {
 
 /// A yield acceleration, what slides on it, and records. In the units of the flags.
 struct SlideArguments {
-    std::optional<double> yield_g, yield_m_s2;
+    std::string yield_g, yield_m_s2;   ///< lists, as the axes of a sweep
     std::filesystem::path yield_table; ///< rows of slip [mm] and yield [g]; one of the three is given
     std::vector<std::filesystem::path> records;
     std::string record_list; ///< folder, pattern or list in place of them

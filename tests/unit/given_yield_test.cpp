@@ -147,6 +147,24 @@ TEST_F(SlideCommand, PrintsBothWaysAndTheirMean)
     EXPECT_NEAR(row["slip_mean_mm"].get<double>(), 0.5 * (slip + inverse), 1e-12 * slip);
 }
 
+// Each of a list is the run with it alone.
+TEST_F(SlideCommand, SeveralYields)
+{
+    const auto rows = [&](const std::string& yield) {
+        const ProgramAnswer a =
+            answer_of({"slide", "--yield-g", yield, "--record", file("pulse.csv"), "--period-s", "0.3", "--json"});
+        EXPECT_EQ(a.code, 0) << a.talk;
+        return nlohmann::json::parse(a.out)["rows"];
+    };
+    const auto both = rows("0.05:0.1:0.05"), first = rows("0.05"), second = rows("0.1");
+    ASSERT_EQ(both.size(), first.size() + second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(both[i], first[i]);
+        EXPECT_EQ(both[first.size() + i], second[i]);
+        EXPECT_GT(first[i]["slip_mm"], second[i]["slip_mm"]);
+    }
+}
+
 TEST_F(SlideCommand, ATableLetsItSlideFarther)
 {
     const auto slip = [&](std::vector<std::string> more) {
@@ -171,6 +189,8 @@ TEST_F(SlideCommand, WrongInputIsRefusedWithItsPlace)
     says({"slide", "--yield-table", file("late.csv"), "--record", record}, "late.csv:2");
     says({"slide", "--yield-table", file("back.csv"), "--record", record}, "back.csv:4");
     says({"slide", "--record", record}, "--yield-g");
+    says({"slide", "--yield-g", "0.1,11", "--record", record}, "--yield-g 11 is not allowed");
+    says({"slide", "--yield-g", "0.1,nan", "--record", record}, "--yield-g");
     says({"slide", "--yield-g", "0.1", "--yield-m-s2", "1", "--record", record}, "--yield-table");
     says({"slide", "--yield-g", "0.1"}, "--record FILE");
     says({"slide", "--yield-g", "0.1", "--record", record, "--method", "coupled"}, "--period-s");

@@ -148,6 +148,14 @@ LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& count
     return e;
 }
 
+/// Plain runs with the same standard error, p (1 - p) / se^2, at most twenty for each run there is: the error comes from few replicates. A
+/// conditioned stripe is surer than its runs, and a curve that misses it must not pass for one that fits.
+double runs_of_same_error(const LevelEstimate& e)
+{
+    const double variance = e.p * (1.0 - e.p);
+    return e.se > 0.0 && variance > 0.0 ? std::min(variance / (e.se * e.se), 20.0 * e.n) : e.n;
+}
+
 /// First level of each draw and record above which D > d.
 void find_capacities(const FragilityPlan& plan, const FragilityRuns& runs, LimitEstimate& limit)
 {
@@ -368,9 +376,10 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
             limit.levels.push_back(
                 estimate_level(plan, counts, level, plan.input.intensity.levels[level], conditioned != nullptr));
             const LevelEstimate& e = limit.levels.back();
+            const double n = conditioned ? runs_of_same_error(e) : e.n;
             // All runs of one epistemic draw hang together: they count as one.
-            const double n = plan.epistemic ? std::min(e.n, static_cast<double>(plan.replicates * plan.outer)) : e.n;
-            stripes.push_back({e.x, n, e.p * n});
+            const double counted = plan.epistemic ? std::min(n, static_cast<double>(plan.replicates * plan.outer)) : n;
+            stripes.push_back({e.x, counted, e.p * counted});
         }
         limit.fit = probability::fit_lognormal(stripes);
         if (limit.fit.method != probability::FitMethod::none)

@@ -57,7 +57,10 @@ std::vector<GivenYieldRow> given_yield_runs(const GivenYieldBlock& block, const 
     for (const GroundMotion& motion : motions) {
         GroundMotion horizontal = motion;
         horizontal.accel_v.clear();
-        for (const std::string& method : methods) rows.push_back(given_yield_run(block, stages, horizontal, method));
+        for (const std::string& method : methods) {
+            rows.push_back(given_yield_run(block, stages, horizontal, method));
+            rows.back().yield = block.yield.front().yield;
+        }
     }
     return rows;
 }

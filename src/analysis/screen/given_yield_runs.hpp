@@ -26,6 +26,7 @@ struct GivenYieldRow {
     std::string record;
     std::string method;                         ///< "rigid", "decoupled", "coupled"
     double pga = 0.0;                           ///< [m/s^2]
+    double yield = 0.0;                         ///< of the block that has not slipped [m/s^2]
     sliding::SlideResult normal, inverse;       ///< as recorded, and flipped
     double largest_acceleration = 0.0;          ///< of the mass on average, the larger of both; rigid: PGA [m/s^2]
     std::optional<sliding::FlexibleBlock> mode; ///< of a flexible one; of a column the one it has in this motion
