@@ -104,15 +104,20 @@ def subset_simulation(slip, rng):
                 slips.append(s)
 
 
+def report(name, p, cov, calls):
+    """Prints a probability beside the closed form, and ends the script where they do not agree."""
+    exact = closed_form()
+    print(f"{name:<18} P = {p:.3g}, c.o.v. {cov:.2f}, {calls} calls")
+    print(f"{'closed form':<18} P = {exact:.4g}")
+    if abs(p - exact) > 3 * cov * exact or calls > 4000:
+        sys.exit("they differ by more than three standard errors, or it took more than 4000 calls")
+
+
 def main():
     worker = Worker(sys.argv[1] if len(sys.argv) > 1 else "damslip")
     p, cov = subset_simulation(worker.slip, random.Random(1))
     worker.close()
-    exact = closed_form()
-    print(f"subset simulation  P = {p:.3g}, c.o.v. {cov:.2f}, {worker.calls} calls")
-    print(f"closed form        P = {exact:.4g}")
-    if abs(p - exact) > 3 * cov * exact or worker.calls > 4000:
-        sys.exit("they differ by more than three standard errors, or it took more than 4000 calls")
+    report("subset simulation", p, cov, worker.calls)
 
 
 if __name__ == "__main__":

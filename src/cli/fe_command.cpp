@@ -1,5 +1,6 @@
 #include "cli/fe_command.hpp"
 
+#include "analysis/spectrum/spectrum_level.hpp"
 #include "cli/print_pdf.hpp"
 #include "core/usage_error.hpp"
 #include "pages/report/page_html.hpp"
@@ -45,11 +46,6 @@ int fe(const FeArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
     need_section(given, "damslip fe", "damslip screen SCENE gives the slip of the wedge");
-    const Ready ready = prepare(given, Method::finite_elements, {.reduced = arguments.reduced, .stop = streams.stop});
-    if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
-    if (!streams.quiet && ready.reservoir) streams.talk << ready.reservoir->reason << "\n";
-    if (!streams.quiet && ready.dam_period)
-        streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / ready.dam_period->frequency);
     if ((arguments.reduced || arguments.base == "tied") && !(arguments.state_in.empty() && arguments.state_out.empty()))
         refuse_usage(arguments.reduced ? "--state-in or --state-out with --reduced."
                                        : "--state-in or --state-out with --base tied.",
@@ -57,7 +53,13 @@ int fe(const FeArguments& arguments, const Streams& streams)
     if (arguments.frames && arguments.base == "tied")
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
-    const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, ready);
+    const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
+    const Ready ready = prepare(given, Method::finite_elements, {.reduced = arguments.reduced, .stop = streams.stop});
+    if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
+    if (!streams.quiet && ready.reservoir) streams.talk << ready.reservoir->reason << "\n";
+    if (!streams.quiet && ready.dam_period)
+        streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / ready.dam_period->frequency);
+    const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, spectra, ready);
     if (arguments.reduced) return run_reduced(arguments, ready, found.get(), streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)
                                     : run_contact(arguments, ready, found.get(), streams);

@@ -16,13 +16,13 @@ using namespace pages;
 namespace {
 
 /// The response spectrum's answer, on the model of finite elements.
-std::shared_ptr<const SpectrumLevel> spectrum_of_elements(const ScreenArguments& a, const Scene& given,
+std::shared_ptr<const SpectrumLevel> spectrum_of_elements(const SpectrumArguments& a,
+                                                          const std::vector<LevelSpectrum>& spectra, const Scene& given,
                                                           const Ready& ready, const Streams& streams)
 {
-    if (!a.spectrum.wanted) return nullptr;
-    need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
-    check_spectrum_level(a.spectrum, !ready.records().empty());
-    return find_spectrum_level(a.spectrum,
+    if (!a.wanted) return nullptr;
+    check_spectrum_level(a, !ready.records().empty());
+    return find_spectrum_level(a, spectra,
                                prepare(given, Method::finite_elements, ready.pairs, {.stop = streams.stop}));
 }
 
@@ -34,14 +34,18 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     options.flexible_modes = true;
     options.stop = streams.stop;
     const Scene given = read_run_scene(arguments.inputs, streams);
+    if (arguments.rocking && given.wedge)
+        refuse_usage("--rocking cannot take a [wedge]: it has no toe to rock on.", "a scene with a [section]",
+                     "delete --rocking");
+    if (arguments.spectrum.wanted)
+        need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
+    const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::rigid_block, options);
     if (!streams.quiet)
         for (const std::string& warning : record_warnings(ready.records())) streams.talk << "note: " << warning << "\n";
 
-    if (arguments.rocking && ready.scene.wedge)
-        refuse_usage("--rocking cannot take a [wedge]: it has no toe to rock on.", "a scene with a [section]",
-                     "delete --rocking");
-    const std::shared_ptr<const SpectrumLevel> spectrum = spectrum_of_elements(arguments, given, ready, streams);
+    const std::shared_ptr<const SpectrumLevel> spectrum =
+        spectrum_of_elements(arguments.spectrum, spectra, given, ready, streams);
     Screening s = run_screening(ready, arguments.jobs,
                                 arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));

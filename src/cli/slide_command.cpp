@@ -123,6 +123,10 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
     if (!a.record_list.empty())
         for (const RecordFiles& files_of : record_list(a.record_list).records)
             files.emplace_back(files_of.name, files_of.horizontal);
+    if (files.empty() && !a.record_list.empty())
+        refuse_usage(fmt::format("--records {}: there is no record here.", a.record_list),
+                     "a folder, a pattern in quotes such as 'suite/*.AT2', or a CSV with horizontal",
+                     "correct the pattern");
     if (files.empty())
         refuse_usage("there is no record.", "accelerograms: --record FILE, or --records of a folder",
                      "add  --record FILE ; without a record:  damslip regress");

@@ -24,17 +24,20 @@ void check_spectrum_level(const SpectrumArguments& a, bool has_records)
                      "add  --record FILE , or  --spectrum FILE --spectrum-pga 1.0");
 }
 
-std::shared_ptr<const SpectrumLevel> find_spectrum_level(const SpectrumArguments& a, const Ready& ready)
+std::vector<LevelSpectrum> given_spectra(const SpectrumArguments& a)
+{
+    if (!a.wanted || a.horizontal.empty()) return {};
+    const records::TargetSpectrum shape = records::read_target_spectrum(a.horizontal);
+    LevelSpectrum spectrum{shape.name, ratio_of_files, scaled(shape, *a.pga)};
+    if (!a.vertical.empty()) spectrum.vertical = scaled(records::read_target_spectrum(a.vertical), *a.vertical_pga);
+    return {std::move(spectrum)};
+}
+
+std::shared_ptr<const SpectrumLevel> find_spectrum_level(const SpectrumArguments& a,
+                                                         const std::vector<LevelSpectrum>& given, const Ready& ready)
 {
     if (!a.wanted) return nullptr;
     check_spectrum_level(a, !ready.records().empty());
-    std::vector<LevelSpectrum> given;
-    if (!a.horizontal.empty()) {
-        const records::TargetSpectrum shape = records::read_target_spectrum(a.horizontal);
-        given.push_back({shape.name, ratio_of_files, scaled(shape, *a.pga)});
-        if (!a.vertical.empty())
-            given.back().vertical = scaled(records::read_target_spectrum(a.vertical), *a.vertical_pga);
-    }
     return std::make_shared<const SpectrumLevel>(spectrum_level(ready, given));
 }
 

@@ -4,8 +4,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace damslip {
+struct LevelSpectrum;
 struct Ready;
 struct SpectrumLevel;
 } // namespace damslip
@@ -25,8 +27,12 @@ struct SpectrumArguments {
 /// @throws UsageError without a record and without a spectrum
 void check_spectrum_level(const SpectrumArguments& a, bool has_records);
 
-/// @param ready  for finite elements @returns null: not asked for
+/// The spectra of the files, read before anything is computed; empty: those of the records. @throws InputError
+std::vector<LevelSpectrum> given_spectra(const SpectrumArguments& a);
+
+/// @param given  given_spectra() @param ready  for finite elements @returns null: not asked for
 /// @throws InputError, UsageError, NotConverged, Interrupted
-std::shared_ptr<const SpectrumLevel> find_spectrum_level(const SpectrumArguments& a, const Ready& ready);
+std::shared_ptr<const SpectrumLevel> find_spectrum_level(const SpectrumArguments& a,
+                                                         const std::vector<LevelSpectrum>& given, const Ready& ready);
 
 } // namespace damslip::cli

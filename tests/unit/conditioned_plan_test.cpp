@@ -6,6 +6,11 @@
 //   flank down    v += (A/2 - a_y) dt,        s += v dt + (A - a_y) dt^2 / 2 - A dt^2 / 6
 //   after         s += v^2 / (2 a_y)
 // (a_y < A/2 is not needed: the block decelerates on the flank all the same.) D falls with mu, so that P(D > d) = F(mu*) with D(mu*) = d, exactly.
+#include "pulse_scene.hpp"
+
+#include "analysis/fragility/fragility_study.hpp"
+#include "core/usage_error.hpp"
+
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/fragility/fragility_estimate.hpp"
 
@@ -15,68 +20,17 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace damslip {
 namespace {
 
-constexpr double accel_of_pulse = 4.0, length_of_pulse = 0.5, step_of_pulse = 0.01, g_of_pulse = 9.81;
-
-double slip_by_hand(double mu, double accel)
-{
-    const double y = mu * g_of_pulse, A = accel, dt = step_of_pulse, T = length_of_pulse;
-    if (y >= A) return 0.0;
-    double v = (A - y) * (A - y) * dt / (2 * A), s = std::pow(A - y, 3) * dt * dt / (6 * A * A);
-    s += v * T + (A - y) * T * T / 2;
-    v += (A - y) * T;
-    s += v * dt + (A - y) * dt * dt / 2 - A * dt * dt / 6;
-    v += (A / 2 - y) * dt;
-    return s + v * v / (2 * y);
-}
-
-double friction_by_hand(double slip, double accel)
-{
-    double low = 0.01, high = 1.0;
-    for (int i = 0; i < 100; ++i) (slip_by_hand(0.5 * (low + high), accel) > slip ? low : high) = 0.5 * (low + high);
-    return low;
-}
-
-SceneText scene_of_pulse(const std::string& more = "")
-{
-    const auto folder = std::filesystem::temp_directory_path() / fmt::format("damslip_conditioned_{}", ::getpid());
-    std::filesystem::create_directories(folder);
-    std::string samples = "# units: m/s2\nt,a\n0,0\n";
-    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * step_of_pulse, accel_of_pulse);
-    samples += fmt::format("{},0\n{},0\n", 52 * step_of_pulse, 53 * step_of_pulse);
-    write_file(folder / "pulse.csv", samples);
-    return {
-        "[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\n[contact]\nfriction = 0.7\n"
-        "[sliding]\ntwo_way = false\n" +
-            more + "[[motion.record]]\nname = \"pulse\"\nhorizontal = \"pulse.csv\"\nunit = \"m/s2\"\n",
-        folder / "pulse.toml"};
-}
-
-ShakingSuite suite_of_pulse(const SceneText& text)
-{
-    ShakingSuite suite;
-    suite.pairs = load_records(text.scene(), Method::rigid_block);
-    suite.event = {"pulse"};
-    suite.weight = {1.0};
-    suite.intensity = {accel_of_pulse};
-    return suite;
-}
-
 FragilityInput input_of_pulse(double limit)
 {
-    RandomVariable mu;
-    mu.name = "mu";
-    mu.keys = {"contact.friction"};
-    mu.law = {"lognormal", {{"median", 0.30}, {"beta", 0.2}}, {}, {}, {"probability.variable[mu].lognormal", 7}};
     FragilityInput input;
     input.probability.sampling = SamplingInput::latin_hypercube;
     input.probability.replicates = 8;
-    input.probability.variables = {mu};
-    input.intensity.levels = {accel_of_pulse};
+    input.probability.variables = {pulse::mu()};
+    input.intensity.levels = {pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
     return input;
 }
@@ -99,7 +53,7 @@ LevelEstimate level_of(const ConditionedPlan& plan, const FragilityRuns& runs, s
 ConditionedPlan rigid_plan(const FragilityInput& input, const SceneText& text)
 {
     Watch watch;
-    return condition_rigid(input, suite_of_pulse(text), text, number_in_file, sweep_method("rigid"), {}, watch);
+    return condition_rigid(input, pulse::suite(text), text, number_in_file, sweep_method("rigid"), {}, watch);
 }
 
 FragilityRuns runs_of(const ConditionedPlan& plan, const SceneText& text)
@@ -111,9 +65,9 @@ FragilityRuns runs_of(const ConditionedPlan& plan, const SceneText& text)
 // Lognormal, truncated, uniform; two levels. No friction is drawn: the digits of F(mu*).
 TEST(ConditionedPlan, RigidBlockIsExact)
 {
-    const SceneText text = scene_of_pulse();
+    const SceneText text = pulse::scene();
     FragilityInput input = input_of_pulse(0.2);
-    input.intensity.levels = {3.0, accel_of_pulse};
+    input.intensity.levels = {3.0, pulse::accel};
     const auto p = [&](std::size_t level) {
         const ConditionedPlan plan = rigid_plan(input, text);
         EXPECT_TRUE(plan.exact());
@@ -122,7 +76,7 @@ TEST(ConditionedPlan, RigidBlockIsExact)
     };
     for (const std::size_t level : {0, 1}) {
         input.probability.variables[0].law = {"lognormal", {{"median", 0.30}, {"beta", 0.2}}, {}, {}, {}};
-        const double mu = friction_by_hand(0.2, input.intensity.levels[level]);
+        const double mu = pulse::friction(0.2, input.intensity.levels[level]);
         EXPECT_NEAR(p(level) / lognormal_share(mu, 0.30, 0.2), 1.0, 1e-9);
         input.probability.variables[0].law.parameters["min"] = 0.2;
         const double below = lognormal_share(0.2, 0.30, 0.2);
@@ -135,7 +89,7 @@ TEST(ConditionedPlan, RigidBlockIsExact)
 // p_static = F(mu_c) to the digits, whatever the limit; given that the dam stands nothing fails.
 TEST(ConditionedPlan, StaticFailureIsToldApart)
 {
-    const SceneText text = scene_of_pulse("[reservoir]\nlevel_m = 45\n[uplift]\nmodel = \"none\"\n");
+    const SceneText text = pulse::scene("[reservoir]\nlevel_m = 45\n[uplift]\nmodel = \"none\"\n");
     FragilityInput input = input_of_pulse(1e3);
     input.intensity.levels = {0.01}; // moves no dam that stands
     const double critical = prepare(text.scene(), Method::rigid_block).rigid_model().critical_friction;
@@ -154,9 +108,9 @@ TEST(ConditionedPlan, StaticFailureIsToldApart)
 // are what the replicates say they are (chi^2 of 40 x 7 degrees of freedom, within four deviations; 160 plain runs would have 80 %).
 TEST(ConditionedPlan, UnbiasedWithAPredictionThatIsOff)
 {
-    const SceneText text = scene_of_pulse(), stronger = scene_of_pulse("[motion]\nscale = 1.2\n");
+    const SceneText text = pulse::scene(), stronger = pulse::scene("[motion]\nscale = 1.2\n");
     FragilityInput input = input_of_pulse(0.2);
-    const double mu = friction_by_hand(0.2, 1.2 * accel_of_pulse), median = mu * std::exp(3.0902 * 0.2);
+    const double mu = pulse::friction(0.2, 1.2 * pulse::accel), median = mu * std::exp(3.0902 * 0.2);
     input.probability.variables[0].law.parameters["median"] = median;
     const double p = lognormal_share(mu, median, 0.2);
     Watch watch;
@@ -169,7 +123,7 @@ TEST(ConditionedPlan, UnbiasedWithAPredictionThatIsOff)
         sizes.pilot = 48;
         sizes.motions = 1;
         const ConditionedPlan plan =
-            condition_finite_elements(input, suite_of_pulse(text), text, number_in_file, sweep_method("rigid"),
+            condition_finite_elements(input, pulse::suite(text), text, number_in_file, sweep_method("rigid"),
                                       sweep_method("rigid"), sizes, watch);
         ASSERT_EQ(plan.plan.samples.size(), 160u);
         const FragilityRuns runs = runs_of(plan, stronger);
@@ -201,6 +155,22 @@ TEST(ConditionedPlan, WhatCannotBeConditionedOn)
     EXPECT_NE(why_not_conditioned(input), "");
     input.probability.variables.erase(input.probability.variables.begin());
     EXPECT_NE(why_not_conditioned(input), "");
+}
+
+// Where no runs are shared out among levels, a probability to aim at is refused, not passed over.
+TEST(ConditionedPlan, AnAimWithoutConditioningIsRefused)
+{
+    const SceneText text = pulse::scene();
+    FragilityInput input = input_of_pulse(0.2);
+    Watch watch;
+    const FragilityStudy rigid = open_fragility(text, text.scene(), input, "rigid");
+    for (const Conditioning asked : {Conditioning::automatic, Conditioning::on, Conditioning::off})
+        EXPECT_THROW(condition_on_friction(rigid, asked, 16, 1, watch, 0.01), UsageError);
+    EXPECT_FALSE(condition_on_friction(rigid, Conditioning::off, 16, 1, watch));
+    input.probability.variables.front().kind = VariableKind::epistemic;
+    const FragilityStudy fe = open_fragility(text, text.scene(), input, "fe");
+    EXPECT_THROW(condition_on_friction(fe, Conditioning::automatic, 16, 1, watch, 0.01), UsageError);
+    EXPECT_FALSE(condition_on_friction(fe, Conditioning::automatic, 16, 1, watch));
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 //
 // Ground: the pulse of fragility_test.cpp with flanks of length 0 but for one sample, A = 4 m/s^2. The block slides one way; its density does nothing,
 // as a_y = mu g of a dry horizontal base.
+#include "pulse_scene.hpp"
+
 #include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
@@ -14,66 +16,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
-#include <unistd.h>
 
 namespace damslip {
 namespace {
 
-constexpr double top_accel = 4.0, g_of_dam = 9.81;
-
-SceneText dam_under_a_pulse(const std::string& more = "", bool one_way = true)
-{
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / fmt::format("damslip_answers_{}", ::getpid());
-    std::filesystem::create_directories(folder);
-    std::string samples = "# units: m/s2\nt,a\n0,0\n";
-    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * 0.01, top_accel);
-    write_file(folder / "pulse.csv", samples + "0.52,0\n0.53,0\n");
-    return {"[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\nyoung_modulus_GPa = "
-            "25\npoisson_ratio = 0.2\n"
-            "[contact]\nfriction = 0.3\n[sliding]\ntwo_way = " +
-                std::string(one_way ? "false\n" : "true\n") + more +
-                "[[motion.record]]\nname = \"pulse\"\nhorizontal = \"pulse.csv\"\nunit = \"m/s2\"\n",
-            folder / "pulse.toml"};
-}
-
-ShakingSuite suite_of_one(const SceneText& text)
-{
-    ShakingSuite suite;
-    suite.pairs = load_records(text.scene(), Method::rigid_block);
-    suite.event = {"pulse"};
-    suite.weight = {1.0};
-    suite.intensity = {top_accel};
-    return suite;
-}
-
-RandomVariable lognormal_variable(const std::string& name, const std::string& key, double median, double beta,
-                                  VariableKind kind)
-{
-    RandomVariable v;
-    v.name = name;
-    v.keys = {key};
-    v.kind = kind;
-    v.law = {"lognormal", {{"median", median}, {"beta", beta}}, {}, {}, {"probability.variable", 7}};
-    return v;
-}
-
 double number_of_the_file(const std::string&)
 {
     return 1.0;
-}
-
-/// D by hand, flanks of dt included: see fragility_test.cpp.
-double slip_under_pulse(double mu, double accel)
-{
-    const double y = mu * g_of_dam, A = accel, dt = 0.01, T = 0.5;
-    if (y >= A) return 0.0;
-    double v = (A - y) * (A - y) * dt / (2 * A), s = std::pow(A - y, 3) * dt * dt / (6 * A * A);
-    s += v * T + (A - y) * T * T / 2;
-    v += (A - y) * T;
-    s += v * dt + (A - y) * dt * dt / 2 - A * dt * dt / 6;
-    v += (A / 2 - y) * dt;
-    return s + v * v / (2 * y);
 }
 
 FragilityInput input_under_pulse(double limit, FragilityDesign design)
@@ -84,7 +33,7 @@ FragilityInput input_under_pulse(double limit, FragilityDesign design)
     input.suite = SuiteInput{};
     input.suite->polarity = SuitePolarity::as_recorded;
     input.intensity.design = design;
-    input.intensity.levels = {top_accel};
+    input.intensity.levels = {pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
     return input;
 }
@@ -100,14 +49,14 @@ FragilityRuns rigid_runs(const FragilityPlan& plan, const SceneText& text)
 // Within twice the printed 95 % intervals; without correlation the density takes none.
 TEST(FragilityAnswers, ShapleySharesOfCorrelatedVariables)
 {
-    const SceneText text = dam_under_a_pulse();
-    FragilityInput input = input_under_pulse(slip_under_pulse(0.3, top_accel), FragilityDesign::stripes);
+    const SceneText text = pulse::scene("", 0.3);
+    FragilityInput input = input_under_pulse(pulse::slip(0.3, pulse::accel), FragilityDesign::stripes);
     input.probability.variables = {
-        lognormal_variable("mu", "contact.friction", 0.3, 0.2, VariableKind::aleatory),
-        lognormal_variable("density", "dam.density_kg_m3", 2400.0, 0.05, VariableKind::aleatory)};
+        pulse::lognormal("mu", "contact.friction", 0.3, 0.2, VariableKind::aleatory),
+        pulse::lognormal("density", "dam.density_kg_m3", 2400.0, 0.05, VariableKind::aleatory)};
     input.probability.correlations = {{"mu", "density", 0.8, {}}};
     const auto causes_of = [&](const FragilityInput& given) {
-        const FragilityPlan plan = plan_fragility(given, suite_of_one(text), {256}, text.file(), number_of_the_file);
+        const FragilityPlan plan = plan_fragility(given, pulse::suite(text), {256}, text.file(), number_of_the_file);
         const FragilityEstimate estimate = estimate_fragility(plan, rigid_runs(plan, text), nullptr, {});
         Watch watch;
         return fragility_causes(plan, estimate, text, number_of_the_file, sweep_method("rigid"), 256, 1, watch);
@@ -133,13 +82,13 @@ TEST(FragilityAnswers, ShapleySharesOfCorrelatedVariables)
 // by bisection here, too: 1e-9 relative. Two-way blocks keep the level.
 TEST(FragilityAnswers, CapacitiesByRoots)
 {
-    const double slip = slip_under_pulse(0.3, 4.37);
+    const double slip = pulse::slip(0.3, 4.37);
     FragilityInput input = input_under_pulse(slip, FragilityDesign::ida);
     input.intensity.levels = {3.0, 4.0, 5.0};
-    input.probability.variables = {lognormal_variable("mu", "contact.friction", 0.3, 0.1, VariableKind::aleatory)};
+    input.probability.variables = {pulse::lognormal("mu", "contact.friction", 0.3, 0.1, VariableKind::aleatory)};
     for (const bool one_way : {true, false}) {
-        const SceneText text = dam_under_a_pulse("", one_way);
-        const FragilityPlan plan = plan_fragility(input, suite_of_one(text), {64}, text.file(), number_of_the_file);
+        const SceneText text = pulse::scene("", 0.3, !one_way);
+        const FragilityPlan plan = plan_fragility(input, pulse::suite(text), {64}, text.file(), number_of_the_file);
         const FragilityRuns runs = rigid_runs(plan, text);
         FragilityEstimate estimate = estimate_fragility(plan, runs, nullptr, {});
         const probability::CapacityFit by_levels = *estimate.limits[0].capacities;
@@ -157,7 +106,7 @@ TEST(FragilityAnswers, CapacitiesByRoots)
             const double mu = std::get<double>(plan.draws[plan.samples[*bracket.first].draw].changes.front().value);
             double low = 0.5, high = 5.0;
             for (int i = 0; i < 100; ++i)
-                (slip_under_pulse(mu, 0.5 * (low + high)) > slip ? high : low) = 0.5 * (low + high);
+                (pulse::slip(mu, 0.5 * (low + high)) > slip ? high : low) = 0.5 * (low + high);
             reached.push_back(high);
         }
         ASSERT_GT(reached.size(), 20u);
@@ -185,16 +134,16 @@ TEST(FragilityAnswers, NonDecreasing)
 TEST(FragilityAnswers, StagesOfTheWaterLevel)
 {
     const SceneText text =
-        dam_under_a_pulse("[reservoir]\nlevel_m = 20\ndensity_kg_m3 = 1000\n[uplift]\nmodel = \"none\"\n");
+        pulse::scene("[reservoir]\nlevel_m = 20\ndensity_kg_m3 = 1000\n[uplift]\nmodel = \"none\"\n", 0.3);
     FragilityInput input = input_under_pulse(0.2, FragilityDesign::stripes);
     RandomVariable level;
     level.name = "level";
     level.keys = {"reservoir.level_m"};
     level.kind = VariableKind::aleatory;
     level.law = {"discrete", {}, {10.0, 20.0, 30.0}, {1.0, 1.0, 1.0}, {"probability.variable", 7}};
-    input.probability.variables = {lognormal_variable("mu", "contact.friction", 0.45, 0.2, VariableKind::aleatory),
+    input.probability.variables = {pulse::lognormal("mu", "contact.friction", 0.45, 0.2, VariableKind::aleatory),
                                    level};
-    const FragilityPlan plan = plan_fragility(input, suite_of_one(text), {240}, text.file(), number_of_the_file);
+    const FragilityPlan plan = plan_fragility(input, pulse::suite(text), {240}, text.file(), number_of_the_file);
     const std::vector<probability::UsaceLocation> places = stage_fragility(plan, rigid_runs(plan, text));
     ASSERT_EQ(places.size(), 1u);
     ASSERT_EQ(places[0].stages.size(), 3u);
@@ -208,7 +157,7 @@ TEST(FragilityAnswers, StagesOfTheWaterLevel)
     EXPECT_LT(places[0].stages[1].min, 20.0); // an interval, not a point
     EXPECT_GT(places[0].stages[1].max, 20.0);
     input.probability.variables.pop_back();
-    const FragilityPlan without = plan_fragility(input, suite_of_one(text), {64}, text.file(), number_of_the_file);
+    const FragilityPlan without = plan_fragility(input, pulse::suite(text), {64}, text.file(), number_of_the_file);
     EXPECT_TRUE(stage_fragility(without, rigid_runs(without, text)).empty());
 }
 
@@ -241,18 +190,19 @@ TEST(FragilityAnswers, LimitsThatAreNotOfSlip)
 // friction of the same run; without uplift the base opens at the heel while it is shaken.
 TEST(FragilityAnswers, FiniteElementsGiveOpeningAndFactor)
 {
-    const SceneText text = dam_under_a_pulse("[mesh]\nsize_m = 10\ncontact_size_m = 8\n[time]\ndt_s = 0.01\n"
-                                             "[reservoir]\nlevel_m = 35\ndensity_kg_m3 = 1000\n[uplift]\nmodel = "
-                                             "\"none\"\n");
+    const SceneText text = pulse::scene("[mesh]\nsize_m = 10\ncontact_size_m = 8\n[time]\ndt_s = 0.01\n"
+                                        "[reservoir]\nlevel_m = 35\ndensity_kg_m3 = 1000\n[uplift]\nmodel = "
+                                        "\"none\"\n",
+                                        0.3);
     FragilityInput input = input_under_pulse(0.02, FragilityDesign::stripes);
     input.probability.replicates = 1;
-    input.intensity.levels = {0.6 * top_accel};
+    input.intensity.levels = {0.6 * pulse::accel};
     RandomVariable mu;
     mu.name = "mu";
     mu.keys = {"contact.friction"};
     mu.law = {"uniform", {{"min", 0.7}, {"max", 0.9}}, {}, {}, {"probability.variable", 7}};
     input.probability.variables = {mu};
-    const FragilityPlan plan = plan_fragility(input, suite_of_one(text), {2}, text.file(), number_of_the_file);
+    const FragilityPlan plan = plan_fragility(input, pulse::suite(text), {2}, text.file(), number_of_the_file);
     Watch watch;
     const FragilityRuns runs =
         run_fragility(plan, text, sweep_method("fe-whole-steps"), wanted_samples(plan), nullptr, 1, watch);
@@ -270,11 +220,11 @@ TEST(FragilityAnswers, FiniteElementsGiveOpeningAndFactor)
 // block that cannot rock: the same slip to 1e-9.
 TEST(FragilityAnswers, Rocking)
 {
-    const SceneText text = dam_under_a_pulse();
+    const SceneText text = pulse::scene("", 0.3);
     FragilityInput input = input_under_pulse(0.2, FragilityDesign::stripes);
     input.probability.replicates = 1;
-    input.probability.variables = {lognormal_variable("mu", "contact.friction", 0.3, 0.1, VariableKind::aleatory)};
-    const FragilityPlan plan = plan_fragility(input, suite_of_one(text), {16}, text.file(), number_of_the_file);
+    input.probability.variables = {pulse::lognormal("mu", "contact.friction", 0.3, 0.1, VariableKind::aleatory)};
+    const FragilityPlan plan = plan_fragility(input, pulse::suite(text), {16}, text.file(), number_of_the_file);
     Watch watch;
     const FragilityRuns rocking =
         run_fragility(plan, text, sweep_method("rocking"), wanted_samples(plan), nullptr, 1, watch);

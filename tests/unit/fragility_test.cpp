@@ -7,6 +7,8 @@
 //   after         s += v^2 / (2 a_y)
 // which tends to D = (A - a_y) A T^2 / (2 a_y), D > d <=> mu < A^2 T^2 / (g (2d + A T^2)), as dt goes to 0. D falls with mu, so that P(D > d) is F_mu at the
 // mu with D = d. Latin hypercubes of m points meet F_mu(mu*) to 1/m.
+#include "pulse_scene.hpp"
+
 #include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
 #include "analysis/fragility/two_level_runs.hpp"
@@ -18,83 +20,17 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace damslip {
 namespace {
-
-constexpr double pulse_accel = 4.0, pulse_length = 0.5, pulse_dt = 0.01, site_gravity = 9.81;
-
-double pulse_slip(double mu, double accel = pulse_accel)
-{
-    const double y = mu * site_gravity, A = accel, dt = pulse_dt, T = pulse_length;
-    if (y >= A) return 0.0;
-    double v = (A - y) * (A - y) * dt / (2 * A), s = std::pow(A - y, 3) * dt * dt / (6 * A * A);
-    s += v * T + (A - y) * T * T / 2;
-    v += (A - y) * T;
-    s += v * dt + (A - y) * dt * dt / 2 - A * dt * dt / 6;
-    v += (A / 2 - y) * dt;
-    return s + v * v / (2 * y);
-}
-
-double critical_mu(double slip)
-{
-    double low = 0.01, high = 1.0;
-    for (int i = 0; i < 100; ++i) (pulse_slip(0.5 * (low + high)) > slip ? low : high) = 0.5 * (low + high);
-    return low;
-}
-
-std::filesystem::path test_folder()
-{
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / fmt::format("damslip_fragility_{}", ::getpid());
-    std::filesystem::create_directories(folder);
-    return folder;
-}
-
-SceneText pulse_scene(const std::string& more = "")
-{
-    const std::filesystem::path record = test_folder() / "pulse.csv";
-    std::string samples = "# units: m/s2\nt,a\n0,0\n";
-    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * pulse_dt, pulse_accel);
-    samples += fmt::format("{},0\n{},0\n", 52 * pulse_dt, 53 * pulse_dt);
-    write_file(record, samples);
-    return {
-        "[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\n[contact]\nfriction = 0.7\n"
-        "[sliding]\ntwo_way = false\n" +
-            more + "[[motion.record]]\nname = \"pulse\"\nhorizontal = \"pulse.csv\"\nunit = \"m/s2\"\n",
-        test_folder() / "pulse.toml"};
-}
-
-ShakingSuite suite_of(const SceneText& text)
-{
-    ShakingSuite suite;
-    suite.pairs = load_records(text.scene(), Method::rigid_block);
-    for (const RecordPair& pair : *suite.pairs) {
-        suite.event.push_back(pair.files.name);
-        suite.weight.push_back(1.0);
-        suite.intensity.push_back(pulse_accel);
-    }
-    return suite;
-}
-
-RandomVariable lognormal_mu(VariableKind kind = VariableKind::aleatory)
-{
-    RandomVariable mu;
-    mu.name = "mu";
-    mu.keys = {"contact.friction"};
-    mu.kind = kind;
-    mu.law = {"lognormal", {{"median", 0.30}, {"beta", 0.2}}, {}, {}, {"probability.variable[mu].lognormal", 7}};
-    return mu;
-}
 
 FragilityInput pulse_input(double limit)
 {
     FragilityInput input;
     input.probability.sampling = SamplingInput::latin_hypercube;
     input.probability.replicates = 4;
-    input.probability.variables = {lognormal_mu()};
-    input.intensity.levels = {pulse_accel};
+    input.probability.variables = {pulse::mu()};
+    input.intensity.levels = {pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
     return input;
 }
@@ -112,7 +48,7 @@ struct Done {
 Done fragility(const SceneText& text, const FragilityInput& input, std::size_t samples, int jobs = 1)
 {
     Done d;
-    d.plan = plan_fragility(input, suite_of(text), {samples}, text.file(), written);
+    d.plan = plan_fragility(input, pulse::suite(text), {samples}, text.file(), written);
     Watch watch;
     d.runs = run_fragility(d.plan, text, sweep_method("rigid"), wanted_samples(d.plan), nullptr, jobs, watch);
     d.estimate = estimate_fragility(d.plan, d.runs, nullptr, {});
@@ -127,9 +63,9 @@ double lognormal_cdf(double x, double median, double beta)
 // F at critical mu to the width of a stratum, 1/m; lognormal, truncated, uniform.
 TEST(Fragility, PulseAndRandomFriction)
 {
-    const SceneText text = pulse_scene();
+    const SceneText text = pulse::scene();
     for (const double limit : {0.05, 0.2}) {
-        const double mu = critical_mu(limit);
+        const double mu = pulse::friction(limit);
         FragilityInput input = pulse_input(limit);
         EXPECT_NEAR(fragility(text, input, 1024).estimate.limits[0].levels[0].p, lognormal_cdf(mu, 0.30, 0.2),
                     1.0 / 256);
@@ -157,9 +93,9 @@ TEST(Fragility, PulseOfRandomAmplitude)
         input.probability.correlations.clear();
         if (rho != 0.0) input.probability.correlations = {{"mu", "amplitude", rho, {}}};
         const double r = 2.0 * std::sin(M_PI * rho / 6.0);
-        const double p = probability::normal_cdf(std::log(0.75 * pulse_accel / (site_gravity * 0.30)) /
+        const double p = probability::normal_cdf(std::log(0.75 * pulse::accel / (pulse::gravity * 0.30)) /
                                                  std::sqrt(0.09 + 0.04 - 2.0 * r * 0.3 * 0.2));
-        EXPECT_NEAR(fragility(pulse_scene(), input, n).estimate.limits[0].levels[0].p, p,
+        EXPECT_NEAR(fragility(pulse::scene(), input, n).estimate.limits[0].levels[0].p, p,
                     4.0 * std::sqrt(p * (1.0 - p) / static_cast<double>(n)))
             << rho;
     }
@@ -169,10 +105,10 @@ TEST(Fragility, PulseOfRandomAmplitude)
 TEST(Fragility, BandsOfLackOfKnowledge)
 {
     FragilityInput input = pulse_input(0.2);
-    input.probability.variables = {lognormal_mu(VariableKind::epistemic)};
-    const Done d = fragility(pulse_scene(), input, 256);
+    input.probability.variables = {pulse::mu(VariableKind::epistemic)};
+    const Done d = fragility(pulse::scene(), input, 256);
     const LevelEstimate& level = d.estimate.limits[0].levels[0];
-    const double p = lognormal_cdf(critical_mu(0.2), 0.30, 0.2);
+    const double p = lognormal_cdf(pulse::friction(0.2), 0.30, 0.2);
     ASSERT_TRUE(level.bands);
     EXPECT_EQ(d.plan.inner, 1u);
     EXPECT_NEAR(level.bands->mean, p, 1.0 / 64);
@@ -184,7 +120,7 @@ TEST(Fragility, BandsOfLackOfKnowledge)
 // A dam under water that needs mu > mu_c to stand: p_static = F(mu_c), whatever the limit; "given-standing" leaves it out.
 TEST(Fragility, StaticFailureIsToldApart)
 {
-    const SceneText text = pulse_scene("[reservoir]\nlevel_m = 45\n[uplift]\nmodel = \"none\"\n");
+    const SceneText text = pulse::scene("[reservoir]\nlevel_m = 45\n[uplift]\nmodel = \"none\"\n");
     FragilityInput input = pulse_input(1e3);
     const Scene scene = text.scene();
     const double critical = prepare(scene, Method::rigid_block).rigid_model().critical_friction;
@@ -206,7 +142,7 @@ TEST(Fragility, StaticFailureIsToldApart)
 // Rows that are lost lie between survivals and failures: the bounds hold the full answer.
 TEST(Fragility, MissingRunsAreBounds)
 {
-    Done d = fragility(pulse_scene(), pulse_input(0.2), 1024);
+    Done d = fragility(pulse::scene(), pulse_input(0.2), 1024);
     const double full = d.estimate.limits[0].levels[0].p;
     for (std::size_t id = 0; id < d.runs.rows.size(); id += 10)
         d.runs.rows[id]->results.status = word(Status::not_resolved);
@@ -222,7 +158,7 @@ TEST(Fragility, MissingRunsAreBounds)
 // Threads, other variables: the same bits.
 TEST(Fragility, DrawsDependOnNothingElse)
 {
-    const SceneText text = pulse_scene();
+    const SceneText text = pulse::scene();
     FragilityInput input = pulse_input(0.2);
     input.intensity.levels = {2.0, 3.0, 4.0};
     const Done one = fragility(text, input, 256, 1), two = fragility(text, input, 256, 2);
@@ -233,7 +169,7 @@ TEST(Fragility, DrawsDependOnNothingElse)
     density.keys = {"dam.density_kg_m3"};
     density.law = {"uniform", {{"min", 2300.0}, {"max", 2500.0}}, {}, {}, {}};
     input.probability.variables.push_back(density);
-    const FragilityPlan more = plan_fragility(input, suite_of(text), {256}, text.file(), written);
+    const FragilityPlan more = plan_fragility(input, pulse::suite(text), {256}, text.file(), written);
     ASSERT_EQ(more.draws.size(), one.plan.draws.size());
     for (std::size_t i = 0; i < more.draws.size(); ++i)
         EXPECT_EQ(std::get<double>(more.draws[i].values[0]), std::get<double>(one.plan.draws[i].values[0]));
@@ -244,13 +180,13 @@ TEST(Fragility, LevelsScaleTheRecord)
 {
     FragilityInput input = pulse_input(0.1);
     input.intensity.levels = {2.0, 4.0};
-    const Done d = fragility(pulse_scene(), input, 1024);
+    const Done d = fragility(pulse::scene(), input, 1024);
     for (const LevelEstimate& level : d.estimate.limits[0].levels) {
-        const double k = level.x / pulse_accel;
+        const double k = level.x / pulse::accel;
         double low = 0.01, high = 1.0; // D(k a; mu g) = k D(a; mu g / k)
         for (int i = 0; i < 100; ++i) {
             const double mu = 0.5 * (low + high);
-            (k * pulse_slip(mu / k) > 0.1 ? low : high) = mu;
+            (k * pulse::slip(mu / k) > 0.1 ? low : high) = mu;
         }
         EXPECT_NEAR(level.p, lognormal_cdf(low, 0.30, 0.2), 1.0 / 256);
     }
@@ -259,25 +195,25 @@ TEST(Fragility, LevelsScaleTheRecord)
 TEST(Fragility, RefusesRecordsScaledTooFar)
 {
     FragilityInput input = pulse_input(0.1);
-    input.intensity.levels = {4.1 * pulse_accel};
-    const SceneText text = pulse_scene();
-    EXPECT_THROW(plan_fragility(input, suite_of(text), {64}, text.file(), written), InputError);
+    input.intensity.levels = {4.1 * pulse::accel};
+    const SceneText text = pulse::scene();
+    EXPECT_THROW(plan_fragility(input, pulse::suite(text), {64}, text.file(), written), InputError);
     input.suite = SuiteInput{};
     input.suite->polarity = SuitePolarity::as_recorded;
     input.suite->allow_scaling = true;
-    EXPECT_EQ(plan_fragility(input, suite_of(text), {64}, text.file(), written).scaled_far.size(), 1u);
+    EXPECT_EQ(plan_fragility(input, pulse::suite(text), {64}, text.file(), written).scaled_far.size(), 1u);
 }
 
 // The same rigid block as dear and cheap model, draws of their own: the estimate is F_mu(mu*) within four of its standard errors, and a
 // cheap model that knows the answer leaves far less scatter than the dear samples alone.
 TEST(Fragility, TwoModels)
 {
-    const SceneText text = pulse_scene();
+    const SceneText text = pulse::scene();
     FragilityInput input = pulse_input(0.2);
     input.probability.sampling = SamplingInput::random;
-    const double p = lognormal_cdf(critical_mu(0.2), 0.30, 0.2);
-    const FragilityPlan dear = plan_fragility(input, suite_of(text), {128, 0}, text.file(), written),
-                        cheap = plan_fragility(input, suite_of(text), {2048, 1}, text.file(), written);
+    const double p = lognormal_cdf(pulse::friction(0.2), 0.30, 0.2);
+    const FragilityPlan dear = plan_fragility(input, pulse::suite(text), {128, 0}, text.file(), written),
+                        cheap = plan_fragility(input, pulse::suite(text), {2048, 1}, text.file(), written);
     EXPECT_NE(std::get<double>(dear.draws[0].values[0]), std::get<double>(cheap.draws[0].values[0]));
     Watch watch;
     const auto run = [&](const FragilityPlan& plan) {
@@ -294,17 +230,17 @@ TEST(Fragility, TwoModels)
 // One-way block under the pulse: D(k g) = d at k = mu*, whatever the dam.
 TEST(Fragility, YieldThatALimitNeeds)
 {
-    const SceneText text = pulse_scene();
-    const FragilityPlan plan = plan_fragility(pulse_input(0.2), suite_of(text), {64}, text.file(), written);
+    const SceneText text = pulse::scene();
+    const FragilityPlan plan = plan_fragility(pulse_input(0.2), pulse::suite(text), {64}, text.file(), written);
     const std::vector<NeededYield> needed = needed_yield(plan, text, 0.2);
     ASSERT_EQ(needed.size(), 1u);
-    EXPECT_NEAR(needed[0].k50, critical_mu(0.2) * site_gravity / 9.80665, 1e-9);
+    EXPECT_NEAR(needed[0].k50, pulse::friction(0.2) * pulse::gravity / 9.80665, 1e-9);
 }
 
 std::string refusal(const std::string& tables)
 {
-    const std::filesystem::path file = test_folder() / "read.toml";
-    pulse_scene();
+    const std::filesystem::path file = pulse::folder() / "read.toml";
+    pulse::scene();
     write_file(
         file,
         "[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\n[contact]\nfriction = 0.7\n"
@@ -327,13 +263,13 @@ TEST(Fragility, TablesAreRead)
                              "0.1, min = 0.4 }\n[intensity]\n"
                              "measure = \"SA(0.3)\"\nlevels_g = [0.1, 0.2]\n[[limit]]\nabove_mm = 50\n";
     EXPECT_EQ(refusal(good), "");
-    const FragilityInput input = read_fragility_input(test_folder() / "read.toml");
+    const FragilityInput input = read_fragility_input(pulse::folder() / "read.toml");
     EXPECT_EQ(input.probability.seed, 3u);
     EXPECT_EQ(input.probability.variables.at(0).law.parameters.at("min"), 0.4);
     EXPECT_EQ(input.probability.variables.at(0).kind, VariableKind::epistemic);
     EXPECT_EQ(input.intensity.levels, (std::vector<double>{0.1 * 9.80665, 0.2 * 9.80665}));
     EXPECT_EQ(input.limits.at(0).value, 0.05);
-    EXPECT_EQ(SceneText::read(test_folder() / "read.toml").written("contact.friction"), 0.7);
+    EXPECT_EQ(SceneText::read(pulse::folder() / "read.toml").written("contact.friction"), 0.7);
     for (const auto& [from, to, words] : {std::tuple{"beta = 0.1", "bta = 0.1", "Did you mean beta?"},
                                           {"beta = 0.1", "beta = -0.1", "beta is not allowed"},
                                           {"contact.friction", "contact.fricton", "Did you mean contact.friction?"},
@@ -354,7 +290,7 @@ TEST(Fragility, LawsStayWithinTheirKeys)
     const std::string tail = "\n[intensity]\nmeasure = \"PGA\"\nlevels_g = [0.1]\n[[limit]]\nabove_mm = 50\n";
     const auto refused = [&](const std::string& law) -> std::string {
         EXPECT_EQ(refusal(head + law + tail), ""); // the tables themselves are right
-        const auto file = test_folder() / "read.toml";
+        const auto file = pulse::folder() / "read.toml";
         const SceneText text = SceneText::read(file);
         try {
             check_supports(read_fragility_input(file), text, [&](const std::string& key) { return text.written(key); });
@@ -374,15 +310,15 @@ TEST(Fragility, LawsStayWithinTheirKeys)
 // A list of records: events and weights are taken, what is no number or no file is refused with its line.
 TEST(Fragility, SuiteOfAList)
 {
-    const SceneText text = pulse_scene();
+    const SceneText text = pulse::scene();
     FragilityInput input = pulse_input(0.2);
     input.suite = SuiteInput{};
-    input.suite->files = (test_folder() / "suite.csv").string();
+    input.suite->files = (pulse::folder() / "suite.csv").string();
     write_file(input.suite->files, "horizontal,event,weight,scale\npulse.csv,first,2.5,0.5\n");
     const ShakingSuite suite = suite_of_input(text.scene(), input);
     EXPECT_EQ(suite.event, std::vector<std::string>{"first"});
     EXPECT_EQ(suite.weight, std::vector<double>{2.5});
-    EXPECT_EQ(suite.intensity, std::vector<double>{0.5 * pulse_accel});
+    EXPECT_EQ(suite.intensity, std::vector<double>{0.5 * pulse::accel});
     for (const char* bad :
          {"pulse.csv,first,-1,1\n", "nothing.csv,first,1,1\n", "pulse.csv,a,1,1\npulse.csv,b,1,1\n"}) {
         write_file(input.suite->files, std::string("horizontal,event,weight,scale\n") + bad);

@@ -1,5 +1,7 @@
 // What an interval of P costs, and multifidelity Monte Carlo with runs of the program. A rigid block slides down under its own weight and a pulse:
 // P(D > d) = F_mu(mu*).
+#include "pulse_scene.hpp"
+
 #include "analysis/fragility/interval_cost.hpp"
 #include "analysis/fragility/mfmc_runs.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
@@ -13,52 +15,19 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace damslip {
 namespace {
-
-constexpr double accel_of_pulse = 4.0;
-constexpr double gravity_of_scene = 9.81;
-
-SceneText scene_of_a_pulse()
-{
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / fmt::format("damslip_interval_{}", ::getpid());
-    std::filesystem::create_directories(folder);
-    std::string samples = "# units: m/s2\nt,a\n0,0\n";
-    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * 0.01, accel_of_pulse);
-    write_file(folder / "pulse.csv", samples + "0.52,0\n0.53,0\n");
-    return {"[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\n"
-            "[contact]\nfriction = 0.7\n[sliding]\ntwo_way = false\n"
-            "[[motion.record]]\nname = \"pulse\"\nhorizontal = \"pulse.csv\"\nunit = \"m/s2\"\n",
-            folder / "pulse.toml"};
-}
-
-ShakingSuite suite_of_the_pulse(const SceneText& text)
-{
-    ShakingSuite suite;
-    suite.pairs = load_records(text.scene(), Method::rigid_block);
-    suite.event = {"pulse"};
-    suite.weight = {1.0};
-    suite.intensity = {accel_of_pulse};
-    return suite;
-}
 
 FragilityInput input_of_the_pulse(double limit)
 {
     FragilityInput input;
     input.probability.sampling = SamplingInput::random;
     input.probability.replicates = 1;
-    RandomVariable mu;
-    mu.name = "mu";
-    mu.keys = {"contact.friction"};
-    mu.kind = VariableKind::epistemic; // the interval's price takes it as aleatory
-    mu.law = {"lognormal", {{"median", 0.30}, {"beta", 0.2}}, {}, {}, {"probability.variable[mu].lognormal", 7}};
-    input.probability.variables = {mu};
+    input.probability.variables = {pulse::mu(VariableKind::epistemic)}; // the interval's price takes it as aleatory
     input.suite = SuiteInput{};
     input.suite->polarity = SuitePolarity::as_recorded;
-    input.intensity.levels = {0.5 * accel_of_pulse, accel_of_pulse};
+    input.intensity.levels = {0.5 * pulse::accel, pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
     return input;
 }
@@ -68,24 +37,9 @@ double as_in_the_file(const std::string&)
     return 0.7;
 }
 
-/// D by hand, flanks of dt included: see fragility_test.cpp.
-double slip_by_hand(double mu)
-{
-    const double y = mu * gravity_of_scene, A = accel_of_pulse, dt = 0.01, T = 0.5;
-    if (y >= A) return 0.0;
-    double v = (A - y) * (A - y) * dt / (2 * A), s = std::pow(A - y, 3) * dt * dt / (6 * A * A);
-    s += v * T + (A - y) * T * T / 2;
-    v += (A - y) * T;
-    s += v * dt + (A - y) * dt * dt / 2 - A * dt * dt / 6;
-    v += (A / 2 - y) * dt;
-    return s + v * v / (2 * y);
-}
-
 double exact_probability(double limit)
 {
-    double low = 0.01, high = 1.0;
-    for (int i = 0; i < 100; ++i) (slip_by_hand(0.5 * (low + high)) > limit ? low : high) = 0.5 * (low + high);
-    return probability::normal_cdf(std::log(low / 0.30) / 0.2);
+    return probability::normal_cdf(std::log(pulse::friction(limit) / 0.30) / 0.2);
 }
 
 // Every estimator finds the same P, 0.09, within twice the half-width it prints itself, four standard errors. Plain
@@ -94,7 +48,7 @@ double exact_probability(double limit)
 // form adds to it, so that 0.4 is asked for.
 TEST(IntervalCost, EstimatorsAgreeAndNarrow)
 {
-    const SceneText text = scene_of_a_pulse();
+    const SceneText text = pulse::scene();
     IntervalCostOptions options;
     options.method = options.cheap = "rigid";
     options.runs = 1024;
@@ -102,8 +56,8 @@ TEST(IntervalCost, EstimatorsAgreeAndNarrow)
     options.replicates = 8;
     Watch watch;
     const IntervalCost cost =
-        interval_cost(input_of_the_pulse(0.42), suite_of_the_pulse(text), text, as_in_the_file, options, watch);
-    EXPECT_EQ(cost.level, accel_of_pulse); // half of it never slides so far
+        interval_cost(input_of_the_pulse(0.42), pulse::suite(text), text, as_in_the_file, options, watch);
+    EXPECT_EQ(cost.level, pulse::accel); // half of it never slides so far
     ASSERT_EQ(cost.points.size(), 9u);
     const double p = exact_probability(0.42);
     for (const IntervalPoint& point : cost.points) {
@@ -119,18 +73,18 @@ TEST(IntervalCost, EstimatorsAgreeAndNarrow)
 
 TEST(IntervalCost, WhatDoesNotFitIsLeftOut)
 {
-    const SceneText text = scene_of_a_pulse();
+    const SceneText text = pulse::scene();
     IntervalCostOptions options;
     options.method = options.cheap = "rigid";
     options.runs = 4096;
     options.budget = 1e-9;
     Watch watch;
     for (const IntervalPoint& point :
-         interval_cost(input_of_the_pulse(0.3), suite_of_the_pulse(text), text, as_in_the_file, options, watch).points)
+         interval_cost(input_of_the_pulse(0.3), pulse::suite(text), text, as_in_the_file, options, watch).points)
         EXPECT_NE(point.remark.find("left out"), std::string::npos) << point.estimator;
     FragilityInput nothing = input_of_the_pulse(0.3);
     nothing.probability.variables.clear();
-    EXPECT_THROW(interval_cost(nothing, suite_of_the_pulse(text), text, as_in_the_file, options, watch), InputError);
+    EXPECT_THROW(interval_cost(nothing, pulse::suite(text), text, as_in_the_file, options, watch), InputError);
 }
 
 // Twice the price of plain Monte Carlo for half of its half-width: half of its time.
@@ -155,11 +109,11 @@ TEST(IntervalCost, GainByHand)
 // variance is less than half of that of the dear runs alone. A pilot that is too small to learn from says so.
 TEST(Mfmc, WithRunsOfTheProgram)
 {
-    const SceneText text = scene_of_a_pulse();
+    const SceneText text = pulse::scene();
     FragilityInput input = input_of_the_pulse(0.3);
-    input.intensity.levels = {accel_of_pulse};
+    input.intensity.levels = {pulse::accel};
     input.probability.variables[0].kind = VariableKind::aleatory;
-    const ShakingSuite suite = suite_of_the_pulse(text);
+    const ShakingSuite suite = pulse::suite(text);
     const auto plan_of = [&](std::size_t samples, std::uint32_t stream) {
         return plan_fragility(input, suite, {samples, stream}, text.file(), as_in_the_file);
     };

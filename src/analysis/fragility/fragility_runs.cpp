@@ -219,7 +219,8 @@ void run_rigid(const FragilityPlan& plan, const SceneText& text, const SweepMeth
     const auto groups = missing_by_draw(plan, wanted, runs);
     const ProcessorClock clock(ProcessorTimeOf::process);
     RigidSamples samples(plan, text, method);
-    watch.begin("fragility, rigid block", static_cast<double>(wanted.size()));
+    watch.begin(method.kind == SweepKind::rocking ? "fragility, rocking block" : "fragility, rigid block",
+                static_cast<double>(wanted.size()));
     samples.make_motions(wanted, jobs);
     std::atomic<std::size_t> done{runs.found};
     parallel_for((groups.size() + draws_at_once - 1) / draws_at_once, jobs, [&](std::size_t block) {

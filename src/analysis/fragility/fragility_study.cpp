@@ -158,6 +158,10 @@ std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study
                                                      std::optional<double> aim)
 {
     const FragilityInput& input = study.input;
+    if (aim && (asked == Conditioning::off || !study.finite_elements()))
+        refuse_usage(fmt::format("--aim-at {} where no runs are shared out among the levels.", *aim),
+                     "finite elements whose friction is conditioned on: --method fe, without --conditioning off",
+                     "leave out  --aim-at");
     if (asked == Conditioning::off) return std::nullopt;
     const std::string why_not = why_not_conditioned(input);
     if (asked == Conditioning::on && !why_not.empty())
@@ -166,8 +170,14 @@ std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study
     const auto& variables = input.probability.variables;
     const bool bands = std::any_of(variables.begin(), variables.end(),
                                    [](const RandomVariable& v) { return v.kind == VariableKind::epistemic; });
-    if (asked == Conditioning::automatic && (!why_not.empty() || !study.finite_elements() || bands))
+    if (asked == Conditioning::automatic && (!why_not.empty() || !study.finite_elements() || bands)) {
+        if (aim)
+            refuse_usage(fmt::format("--aim-at {}, but friction is not conditioned on{}{}.", *aim,
+                                     why_not.empty() ? "" : ": ", why_not),
+                         "contact.friction drawn by a continuous law of its own, stripes, no epistemic variable",
+                         "leave out  --aim-at , or add  --conditioning on");
         return std::nullopt;
+    }
 
     ConditioningSizes sizes;
     sizes.jobs = jobs;

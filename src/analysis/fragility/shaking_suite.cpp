@@ -27,8 +27,8 @@ ShakingSuite suite_of_input(const Scene& scene, const FragilityInput& input)
                                     input.suite && !input.suite->files.empty()
                                         ? fmt::format("suite.files = \"{}\" names no record.", input.suite->files)
                                         : std::string("there is no record."),
-                                    "records in [suite] files or [[motion.record]]",
-                                    "for example  files = \"suite/*.AT2\""});
+                                    "a folder, a pattern or a list of records that are there, or [[motion.record]]",
+                                    "make or fetch the records first, or correct the path:  files = \"suite/*.AT2\""});
     return measured_suite(of, load_records(of, Method::rigid_block), input.intensity, std::move(files.events),
                           std::move(files.weights));
 }
