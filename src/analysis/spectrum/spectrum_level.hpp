@@ -19,7 +19,7 @@ struct LevelSpectrum {
     std::function<double(double period)> vertical = {}; ///< the same of the vertical component; empty: without one
 };
 
-/// The spectra of a record's components at a damping ratio; a vertical one where it has that component. @param motion  outlives what is returned
+/// The spectra of a record's components at a damping ratio; a vertical one where it has that component.
 LevelSpectrum spectrum_of(const std::string& name, const GroundMotion& motion, double ratio);
 
 /// One mode under one spectrum.
