@@ -125,8 +125,9 @@ std::optional<Diagnostic> unusual(const Key& key, const WrittenNumber& number)
 
 Key key_named(const std::string& name)
 {
-    SectionInput section;
-    for (const KeyGroup& group : key_groups(section))
+    static SectionInput section;
+    static const std::vector<KeyGroup> groups = key_groups(section);
+    for (const KeyGroup& group : groups)
         for (const Key& key : group.keys)
             if (group.name + "." + key.name == name) return key;
     assert(false && "no such key");

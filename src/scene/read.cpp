@@ -487,10 +487,16 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     Findings findings(file.string());
     Scene scene;
     scene.file = file;
-    SectionInput section;
-    std::vector<KeyGroup> groups = key_groups(section);
+    thread_local SectionInput section; // what the keys of the section write to; the table of keys is made once
+    thread_local const std::vector<KeyGroup> all_groups = key_groups(section);
+    section = {};
     const bool wedge = root.contains("wedge");
-    if (wedge) keep_wedge_tables(groups, root, findings);
+    std::vector<KeyGroup> of_wedge;
+    if (wedge) {
+        of_wedge = all_groups;
+        keep_wedge_tables(of_wedge, root, findings);
+    }
+    const std::vector<KeyGroup>& groups = wedge ? of_wedge : all_groups;
     unknown_tables(groups, root, findings);
     for (const char* table : fragility_tables) root.erase(table); // they are no part of a Scene
     for (const KeyGroup& group : groups) read_group(group, groups, root, scene, findings);

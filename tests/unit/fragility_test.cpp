@@ -101,60 +101,6 @@ TEST(Fragility, PulseOfRandomAmplitude)
     }
 }
 
-// With mu as lack of knowledge each P_e is 0 or 1, exactly: the bands are those of a Bernoulli variable.
-TEST(Fragility, BandsOfLackOfKnowledge)
-{
-    FragilityInput input = pulse_input(0.2);
-    input.probability.variables = {pulse::mu(VariableKind::epistemic)};
-    const Done d = fragility(pulse::scene(), input, 256);
-    const LevelEstimate& level = d.estimate.limits[0].levels[0];
-    const double p = lognormal_cdf(pulse::friction(0.2), 0.30, 0.2);
-    ASSERT_TRUE(level.bands);
-    EXPECT_EQ(d.plan.inner, 1u);
-    EXPECT_NEAR(level.bands->mean, p, 1.0 / 64);
-    EXPECT_EQ(level.bands->percentiles.front(), p > 0.95 ? 1.0 : 0.0);
-    EXPECT_EQ(level.bands->percentiles.back(), p > 0.05 ? 1.0 : 0.0);
-    EXPECT_EQ(level.bands->noise_share, 0.0);
-}
-
-// A dam under water that needs mu > mu_c to stand: p_static = F(mu_c), whatever the limit; "given-standing" leaves it out.
-TEST(Fragility, StaticFailureIsToldApart)
-{
-    const SceneText text = pulse::scene("[reservoir]\nlevel_m = 45\n[uplift]\nmodel = \"none\"\n");
-    FragilityInput input = pulse_input(1e3);
-    const Scene scene = text.scene();
-    const double critical = prepare(scene, Method::rigid_block).rigid_model().critical_friction;
-    input.probability.variables[0].law.parameters["median"] = critical * 1.2;
-    input.intensity.levels = {0.01}; // moves no dam that stands
-    const double p = lognormal_cdf(critical, critical * 1.2, 0.2);
-    const Done infinite = fragility(text, input, 1024);
-    EXPECT_NEAR(infinite.estimate.p_static, p, 1.0 / 256);
-    EXPECT_EQ(infinite.estimate.limits[0].levels[0].p, infinite.estimate.p_static); // nothing else fails
-    input.probability.static_failure = StaticFailure::given_standing;
-    const Done standing = fragility(text, input, 1024);
-    EXPECT_EQ(standing.estimate.p_static, infinite.estimate.p_static);
-    EXPECT_EQ(standing.estimate.limits[0].levels[0].z, 0.0);
-    EXPECT_LT(standing.estimate.limits[0].levels[0].n, 1024.0);
-    EXPECT_EQ(standing.estimate.limits[0].levels[0].sampling.lower, 0.0);
-    EXPECT_GT(standing.estimate.limits[0].levels[0].sampling.upper, 0.0);
-}
-
-// Rows that are lost lie between survivals and failures: the bounds hold the full answer.
-TEST(Fragility, MissingRunsAreBounds)
-{
-    Done d = fragility(pulse::scene(), pulse_input(0.2), 1024);
-    const double full = d.estimate.limits[0].levels[0].p;
-    for (std::size_t id = 0; id < d.runs.rows.size(); id += 10)
-        d.runs.rows[id]->results.status = word(Status::not_resolved);
-    const LevelEstimate level = estimate_fragility(d.plan, d.runs, nullptr, {}).limits[0].levels[0];
-    EXPECT_EQ(level.missing, 103.0);
-    EXPECT_LE(level.p_low, full);
-    EXPECT_GE(level.p_high, full);
-    EXPECT_LE(level.sampling.lower, level.p_low);
-    EXPECT_GE(level.sampling.upper, level.p_high);
-    EXPECT_LT(level.p_low, level.p_high);
-}
-
 // Threads, other variables: the same bits.
 TEST(Fragility, DrawsDependOnNothingElse)
 {

@@ -126,7 +126,9 @@ TEST(Mfmc, WithRunsOfTheProgram)
     options.cheap = {"rigid"};
     options.most_cheap = 4000;
     options.cheap_price = 1.0; // as dear as the dear one: nothing to gain
-    EXPECT_NE(run_mfmc(plan, dear, plan_of, text, options, watch).limits[0].levels[0].why_not, "");
+    const MfmcAtLevel off = run_mfmc(plan, dear, plan_of, text, options, watch).limits[0].levels[0];
+    EXPECT_FALSE(off.used);
+    EXPECT_TRUE(off.why_not.starts_with("off: ρ ")) << off.why_not;
     options.cheap_price = 1e-3;
     const MfmcFragility result = run_mfmc(plan, dear, plan_of, text, options, watch);
     const MfmcAtLevel& at = result.limits[0].levels[0];

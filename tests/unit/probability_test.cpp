@@ -291,12 +291,52 @@ TEST(ProbabilityEstimate, WorthlessAndMissingCheapModelsLeaveThePlainMean)
 
 TEST(ProbabilityEstimate, PilotIsNotBelievedWhereItsLowerBoundGainsNothing)
 {
-    const PilotDecision off = decide_on_pilot(40, 0.31, 1.0, 0.01);
+    const auto at_price = [](double w) { return [w](double rho) { return two_level_speed_up(rho, 1.0, w); }; };
+    const PilotDecision off = decide_on_pilot(40, 0.31, at_price(0.01));
     EXPECT_FALSE(off.use);
-    expect_has(off.sentence, "off: ρ 0.31 (0.05…0.53), no gain");
-    EXPECT_TRUE(decide_on_pilot(40, 0.95, 1.0, 0.001).use);
-    EXPECT_FALSE(decide_on_pilot(40, -0.95, 1.0, 0.001).use);
-    EXPECT_FALSE(decide_on_pilot(3, 0.99, 1.0, 0.001).use);
+    expect_has(off.sentence, "off: ρ 0.31 (0.05…0.53), would gain 1.0, 1.0 at least");
+    EXPECT_FALSE(decide_on_pilot(40, 0.9, at_price(1.0)).use);
+    EXPECT_NEAR(decide_on_pilot(40, 0.5, at_price(1.0)).speed_up, 0.5,
+                1e-12); // rho^2 < w (1 - rho^2): the price of both
+    EXPECT_TRUE(decide_on_pilot(40, 0.95, at_price(0.001)).use);
+    EXPECT_FALSE(decide_on_pilot(40, -0.95, at_price(0.001)).use);
+    EXPECT_FALSE(decide_on_pilot(3, 0.99, at_price(0.001)).use);
+    EXPECT_DOUBLE_EQ(less_chance(0.6, 11, 2),
+                     std::sqrt(1.0 - 0.64 * 10.0 / 8.0)); // 0.2: rho^2 = 0.36 of 11 samples, 2 parameters
+    EXPECT_EQ(less_chance(0.1, 11, 2), 0.0);
+}
+
+// The cheap model answers like the dear one but for a share of its samples, or by chance. Off: the plain mean to the digits, whatever the chance.
+TEST(ProbabilityEstimate, TheControlVariateIsOffWhereItDoesNotPay)
+{
+    const auto estimate_of = [](double right, std::uint64_t seed) {
+        const Stream f(seed, "f"), noise(seed, "noise"), kept(seed, "kept");
+        std::vector<DearSample> dear;
+        std::vector<CheapSample> cheap;
+        for (std::uint32_t i = 0; i < 2200; ++i) {
+            const double u = f.uniform(i), seen = kept.uniform(i) < right ? u : noise.uniform(i);
+            if (i < 200)
+                dear.push_back({i, u < 0.3 ? 1.0 : 0.0, {seen}});
+            else
+                cheap.push_back({i, {seen}});
+        }
+        return two_level(dear, cheap, seed);
+    };
+    int used = 0;
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        const TwoLevelEstimate e = estimate_of(0.0, seed);
+        used += e.used;
+        if (e.used) continue;
+        EXPECT_NEAR(e.se, e.plain_se, 1e-15);
+        EXPECT_NEAR(e.p, std::round(200.0 * e.p) / 200.0, 1e-12);
+        expect_has(e.sentence, "off: ρ ");
+    }
+    EXPECT_EQ(used,
+              0); // a gain of 1.2 at the lower end asks for rho 0.5 of 160 samples: six standard deviations of none
+    const TwoLevelEstimate good = estimate_of(0.97, 1);
+    EXPECT_TRUE(good.used);
+    EXPECT_LT(good.se, 0.7 * good.plain_se);
+    for (const TwoLevelFold& fold : good.folds) EXPECT_TRUE(fold.decision.use) << fold.decision.sentence;
 }
 
 TEST(ProbabilityEstimate, TwoModelsAreTheTwoModelCaseOfTheHierarchy)

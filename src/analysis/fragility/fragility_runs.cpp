@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -25,6 +26,20 @@ namespace damslip {
 namespace {
 
 constexpr const char* friction_key = "contact.friction";
+
+std::atomic<double> in_solvers{0.0}; // [s], of all threads
+
+/// Adds the wall time of its life to it.
+class InSolver {
+public:
+    InSolver() : start_(std::chrono::steady_clock::now()) {}
+    ~InSolver() { in_solvers += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    InSolver(const InSolver&) = delete;
+    InSolver& operator=(const InSolver&) = delete;
+
+private:
+    std::chrono::steady_clock::time_point start_;
+};
 
 /// What a rigid block does not ask the seepage for.
 bool moves_no_water(const std::string& key)
@@ -168,10 +183,12 @@ private:
     {
         if (own_motion_) {
             const GroundMotion own = motion(ready, s.record, s.factor);
+            const InSolver timed;
             return rocks_ ? rock_model(ready.scene, model, own, s.polarity).slide
                           : slide_model(ready.scene, model, own, s.polarity);
         }
         const sliding::SkippingMotion& shared = *motions_.at(key(s));
+        const InSolver timed;
         return rocks_ ? rock_model(ready.scene, model, shared.motion(), s.polarity).slide
                       : slide_model(ready.scene, model, shared, s.polarity);
     }
@@ -342,6 +359,7 @@ private:
             rows.push_back(fe_row(group.ids[rows.size()], slip));
             put_base(r, rows.back().results);
         };
+        const InSolver timed;
         if (model.reduced) {
             for (const Contact& contact : contacts) {
                 if (watch_.stop_asked()) break;
@@ -384,6 +402,7 @@ private:
             std::vector<KeyChange> changes = draw.changes; // the friction is each run's own
             std::erase_if(changes, [](const KeyChange& change) { return change.key == friction_key; });
             const Scene scene = with_law(text_.with(changes), method_.law, {});
+            const InSolver timed;
             model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs,
                                         {.reduced = method_.reduced, .stop = watch_.stop()}));
             fe2d::RunOptions options = model.ready->run_options(watch_);
@@ -410,6 +429,11 @@ private:
 };
 
 } // namespace
+
+double seconds_in_solvers()
+{
+    return in_solvers;
+}
 
 std::size_t FragilityRuns::finished() const
 {

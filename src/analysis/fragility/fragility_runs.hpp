@@ -34,6 +34,10 @@ SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& tex
 FragilityRuns run_fragility(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
                             const std::vector<std::size_t>& wanted, Journal* journal, int jobs, Watch& watch);
 
+/// Wall time that the threads of this program have spent in the solvers of run_fragility() so far, one added to the other: set-up and steps of finite
+/// elements, sliding and rocking blocks [s].
+double seconds_in_solvers();
+
 /// Ids 0 ... n - 1 of a plan, or those of a part of it: equal runs of draws.
 std::vector<std::size_t> wanted_samples(const FragilityPlan& plan, const Shard& shard = {});
 

@@ -134,7 +134,8 @@ PilotOfLevel learn(const ModelRuns& dear, const std::vector<ModelRuns>& cheap, c
         const probability::Calibration& h = pilot.calibrations.emplace_back(probability::calibrate(places, by_run));
         std::vector<double> g;
         for (const SampleUnit& unit : units) g.push_back(prediction_of(unit, cheap[m], limit, h));
-        const double rho = probability::correlation(f, g), sigma = std::sqrt(probability::variance_of(g));
+        const double rho = probability::less_chance(probability::correlation(f, g), f.size(), words.front().size()),
+                     sigma = std::sqrt(probability::variance_of(g));
         // A model that tells nothing has no correlation: it is kept in its place with one that no plan takes.
         const bool tells = std::isfinite(rho) && rho > 0.0 && sigma > 0.0;
         pilot.statistics.push_back(
@@ -145,7 +146,19 @@ PilotOfLevel learn(const ModelRuns& dear, const std::vector<ModelRuns>& cheap, c
         return pilot;
     }
     pilot.plan = probability::plan_mfmc(pilot.statistics, ratio_scale * pilot.statistics[0].cost);
-    if (pilot.plan.models.size() < 2) pilot.why_not = "no cheap model pays: the pilot's correlations are too small";
+    // The chain is believed where one of its cheap models alone is sure to pay; else it is off, and the best of all cheap models says why.
+    std::optional<probability::PilotDecision> best;
+    bool sure = false;
+    for (std::size_t m = 1; m < pilot.statistics.size(); ++m) {
+        const auto gain = [&](double rho) {
+            return probability::two_level_speed_up(rho, pilot.statistics[0].cost, pilot.statistics[m].cost);
+        };
+        probability::PilotDecision decision = probability::decide_on_pilot(units.size(), pilot.statistics[m].rho, gain);
+        const auto& used = pilot.plan.models;
+        sure = sure || (decision.use && std::find(used.begin(), used.end(), m) != used.end());
+        if (!best || decision.speed_up_lower > best->speed_up_lower) best = std::move(decision);
+    }
+    if (!sure && best) pilot.why_not = best->use ? "off: no chain of these models pays" : best->sentence;
     return pilot;
 }
 

@@ -111,7 +111,11 @@ TwoLevelFragility estimate_two_level(const FragilityPlan& plan, const FragilityR
             const std::uint64_t seed = plan.input.probability.seed;
             at.low = probability::two_level(low, others, seed);
             at.high = probability::two_level(high, others, seed);
-            at.used = true;
+            at.used = at.low.used || at.high.used;
+            if (!at.used) {
+                at.why_not = at.low.sentence;
+                continue;
+            }
             const double p = std::clamp(at.low.p, 1.0 / (2.0 * n), 1.0 - 1.0 / (2.0 * n));
             const double spent =
                 n * (result.dear_seconds + result.cheap_seconds) + static_cast<double>(at.cheap) * result.cheap_seconds;

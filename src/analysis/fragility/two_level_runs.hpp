@@ -29,7 +29,8 @@ struct TwoLevelFragility {
 
 /// Estimates with cross-fitting (probability::two_level). What the cheap model says of a sample: asinh of its slip over the limit, and its yield
 /// acceleration over the factor on the record. Folds are of events; of fewer than 10 events of samples, and the interval is that of the draws
-/// under this suite. Levels with fewer than 10 failures or 10 survivals of the dear model keep the plain estimate.
+/// under this suite. Levels with fewer than 10 failures or 10 survivals of the dear model keep the plain estimate, and so do those where no fold
+/// finds that the rigid block pays.
 /// @param dear        plan and runs of finite elements; `dear_rigid` the rigid block's runs of the same plan
 /// @param cheap       a plan of other draws (FragilitySizes::stream) by the rigid block
 TwoLevelFragility estimate_two_level(const FragilityPlan& plan, const FragilityRuns& dear,

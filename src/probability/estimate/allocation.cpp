@@ -12,12 +12,12 @@ namespace damslip::probability {
 
 double two_level_speed_up(double rho, double cost_dear, double cost_cheap)
 {
-    const double w = cost_cheap / cost_dear, r2 = rho * rho;
-    if (!(r2 > w * (1.0 - r2)) || r2 >= 1.0) return r2 >= 1.0 ? 1.0 / w : 1.0;
-    return std::max(1.0, 1.0 / std::pow(std::sqrt(1.0 - r2) + std::sqrt(r2 * w), 2));
+    const double w = cost_cheap / cost_dear, r2 = std::min(1.0, rho * rho);
+    if (!(r2 > w * (1.0 - r2))) return 1.0 / (1.0 + w);
+    return 1.0 / std::pow(std::sqrt(1.0 - r2) + std::sqrt(r2 * w), 2);
 }
 
-PilotDecision decide_on_pilot(std::size_t n, double rho, double cost_dear, double cost_cheap)
+PilotDecision decide_on_pilot(std::size_t n, double rho, const std::function<double(double)>& gain)
 {
     PilotDecision d;
     d.rho = rho;
@@ -31,17 +31,19 @@ PilotDecision decide_on_pilot(std::size_t n, double rho, double cost_dear, doubl
     const double z = std::atanh(std::clamp(rho, -1.0 + 1e-12, 1.0 - 1e-12));
     d.rho_lower = std::tanh(z - half);
     d.rho_upper = std::tanh(z + half);
-    // The gain grows with |rho|: its smaller end is that of the end nearer to 0, none where the interval holds 0. alpha is never negative, so
-    // that a negative correlation gains nothing either.
-    d.speed_up = rho > 0.0 ? two_level_speed_up(rho, cost_dear, cost_cheap) : 1.0;
-    d.speed_up_lower = d.rho_lower > 0.0 ? two_level_speed_up(d.rho_lower, cost_dear, cost_cheap) : 1.0;
+    d.speed_up = gain(std::max(0.0, rho));
+    d.speed_up_lower = gain(std::max(0.0, d.rho_lower));
     d.use = d.speed_up_lower > 1.2;
-    const std::string figures = fmt::format("ρ {:.2f} ({:.2f}…{:.2f})", rho, d.rho_lower, d.rho_upper);
-    d.sentence =
-        d.use ? fmt::format("on: {}, {:.1f} times as fast, {:.1f} at least", figures, d.speed_up, d.speed_up_lower)
-        : d.speed_up > 1.2 ? fmt::format("off: {}, the gain of {:.1f} is not sure", figures, d.speed_up)
-                           : fmt::format("off: {}, no gain", figures);
+    d.sentence = fmt::format("{}: ρ {:.2f} ({:.2f}…{:.2f}), {} {:.1f}, {:.1f} at least", d.use ? "on" : "off", rho,
+                             d.rho_lower, d.rho_upper, d.use ? "gains" : "would gain", d.speed_up, d.speed_up_lower);
     return d;
+}
+
+double less_chance(double rho, std::size_t n, std::size_t parameters)
+{
+    if (n <= parameters + 1) return 0.0;
+    const double r2 = 1.0 - (1.0 - rho * rho) * static_cast<double>(n - 1) / static_cast<double>(n - parameters - 1);
+    return std::isfinite(r2) ? std::copysign(std::sqrt(std::max(0.0, r2)), rho) : rho;
 }
 
 double correlation(std::span<const double> a, std::span<const double> b)

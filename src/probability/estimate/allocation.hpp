@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,18 +14,24 @@ struct PilotDecision {
     bool use = false;
     double rho = 0.0;
     double rho_lower = 0.0,
-           rho_upper = 0.0; ///< 90 % interval by Fisher's z = atanh(rho), standard error 1 / sqrt(n - 3)
-    double speed_up = 1.0;  ///< variance of plain Monte Carlo for the same seconds over that of both models, at rho
+           rho_upper = 0.0;      ///< 90 % interval by Fisher's z = atanh(rho), standard error 1 / sqrt(n - 3)
+    double speed_up = 1.0;       ///< variance of plain Monte Carlo over that of both models, at rho
     double speed_up_lower = 1.0; ///< at the end of the interval with the smaller gain
-    std::string sentence;        ///< "off: ρ 0.31 (0.05…0.53), no gain"
+    std::string sentence;        ///< "off: ρ 0.31 (0.05…0.53), would gain 1.1, 1.0 at least"
 };
 
-/// 1 / [sqrt(1 - rho^2) + sqrt(rho^2 w)]^2, w = cheap / dear cost of a run, where the cheap model is admissible (rho^2 > w (1 - rho^2)); else 1.
+/// For the same seconds: 1 / [sqrt(1 - rho^2) + sqrt(rho^2 w)]^2, w = cheap / dear cost of a run, where the cheap model is admissible
+/// (rho^2 > w (1 - rho^2)); else the best is no further cheap run at all, and what is lost its price beside the dear one: 1 / (1 + w).
 double two_level_speed_up(double rho, double cost_dear, double cost_cheap);
 
-/// Used if the lower bound of the speed-up exceeds 1.2. A pilot of n < 4 pairs, or of a rho that is no number: not used.
-/// @param n  pairs of the pilot; thrown away afterwards
-PilotDecision decide_on_pilot(std::size_t n, double rho, double cost_dear, double cost_cheap);
+/// Used if the gain at the lower end of the 90 % interval of rho exceeds 1.2. A pilot of n < 4 pairs, or of a rho that is no number: not used.
+/// @param n  pairs of the pilot
+/// @param gain  of a correlation 0 ... 1, growing with it. A negative one gains what 0 does: no weight is negative
+PilotDecision decide_on_pilot(std::size_t n, double rho, const std::function<double(double)>& gain);
+
+/// A correlation found on the samples that a fit of `parameters` (its constant not counted) was made on, less what that fit owes to chance:
+/// rho^2 -> 1 - (1 - rho^2) (n - 1) / (n - parameters - 1) (Ezekiel 1930), not below 0.
+double less_chance(double rho, std::size_t n, std::size_t parameters);
 
 /// Pearson's correlation; NaN where one of both does not vary.
 double correlation(std::span<const double> a, std::span<const double> b);

@@ -1,7 +1,6 @@
 #include "probability/estimate/two_level.hpp"
 
 #include "core/number.hpp"
-#include "probability/estimate/allocation.hpp"
 #include "probability/estimate/calibration.hpp"
 #include "probability/laws/distribution.hpp"
 #include "probability/sampling/permutation.hpp"
@@ -28,21 +27,30 @@ Calibration calibrate_on(const std::vector<const DearSample*>& training)
     return calibrate(cheap, f);
 }
 
-/// Best weight of g for N further cheap samples, from samples outside the fold.
-double control_weight(const Calibration& h, const std::vector<const DearSample*>& training, double n, double cheap)
+/// Whether g pays with N further cheap samples, and its best weight, both from samples outside the fold.
+struct ControlWeight {
+    double alpha = 0.0;
+    PilotDecision decision;
+};
+ControlWeight control_weight(const Calibration& h, const std::vector<const DearSample*>& training, double n,
+                             double cheap)
 {
+    ControlWeight control;
     std::vector<double> f, g;
     for (const DearSample* s : training) {
         f.push_back(s->f);
         g.push_back(h(s->cheap));
     }
-    const double variance = variance_of(g);
-    if (!(variance > 0.0)) return 0.0;
+    const double share = cheap / (n + cheap), variance = variance_of(g);
+    const double rho = variance > 0.0 ? less_chance(correlation(f, g), f.size(), training.front()->cheap.size()) : 0.0;
+    control.decision = decide_on_pilot(f.size(), rho, [share](double r) { return 1.0 / (1.0 - r * r * share); });
+    if (!control.decision.use) return control;
     const double mean_f = mean_of(f), mean_g = mean_of(g);
     double covariance = 0.0;
     for (std::size_t i = 0; i < f.size(); ++i)
         covariance += (f[i] - mean_f) * (g[i] - mean_g) / static_cast<double>(f.size() - 1);
-    return std::clamp(covariance / variance * cheap / (n + cheap), 0.0, 1.0);
+    control.alpha = std::clamp(covariance / variance * share, 0.0, 1.0);
+    return control;
 }
 
 /// Fold of each cluster: clusters in the order of their numbers, dealt out by a random permutation.
@@ -114,9 +122,13 @@ TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const Che
     for (std::size_t k = 0; k < folds; ++k) {
         const Calibration h = calibrate_on(outside[k]);
         const double share = static_cast<double>(inside[k].size()) / n;
-        TwoLevelFold& part = e.folds.emplace_back(TwoLevelFold{inside[k].size(), further[k].size(), 0.0});
-        if (part.cheap > 0 && outside[k].size() > 2)
-            part.alpha = control_weight(h, outside[k], n, static_cast<double>(cheap.size()));
+        TwoLevelFold& part = e.folds.emplace_back(TwoLevelFold{inside[k].size(), further[k].size(), 0.0, {}});
+        if (part.cheap > 0 && outside[k].size() > 2) {
+            ControlWeight control = control_weight(h, outside[k], n, static_cast<double>(cheap.size()));
+            part.alpha = control.alpha;
+            part.decision = std::move(control.decision);
+        }
+        e.used = e.used || part.alpha > 0.0;
         for (const DearSample* s : inside[k]) {
             f.push_back(s->f);
             g.push_back(h(s->cheap));
@@ -134,6 +146,8 @@ TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const Che
     e.degrees = of_residuals > 0.0 ? degrees_of_variance(residuals) * std::pow(e.se * e.se / of_residuals, 2) : n - 1.0;
     e.plain_se = std::sqrt(variance_of(f) / n);
     e.rho = correlation(f, g);
+    const double share = static_cast<double>(cheap.size()) / (n + static_cast<double>(cheap.size()));
+    e.sentence = decide_on_pilot(f.size(), e.rho, [share](double r) { return 1.0 / (1.0 - r * r * share); }).sentence;
     e.printed = std::clamp(e.p, 0.0, 1.0);
     e.clipped = e.printed != e.p;
     e.interval = wilson_of_estimate(e.p, e.se, n, e.degrees, confidence, &e.n_eff);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "probability/estimate/allocation.hpp"
 #include "probability/fit/interval.hpp"
 
 #include <cstdint>
@@ -25,7 +26,8 @@ struct CheapSample {
 
 struct TwoLevelFold {
     std::size_t n = 0, cheap = 0; ///< dear samples n_k, cheap ones N_k
-    double alpha = 0.0;           ///< weight of the cheap model, fitted without the fold
+    double alpha = 0.0;           ///< weight of the cheap model, fitted without the fold; 0: not used there
+    PilotDecision decision;       ///< of the samples outside the fold, less_chance(); gain: that of the variance
 };
 
 struct TwoLevelEstimate {
@@ -38,6 +40,8 @@ struct TwoLevelEstimate {
     Interval interval;     ///< Wilson with n_eff
     double rho = 0.0;      ///< correlation of f and g on the samples g was not trained on
     double plain_se = 0.0; ///< of the mean of the n dear samples alone
+    bool used = false;     ///< by one fold at least; else `p` is the mean of the n dear samples alone
+    std::string sentence;  ///< of all samples together: "off: ρ 0.31 (0.05…0.53), would gain 1.1, 1.0 at least"
     std::vector<TwoLevelFold> folds;
 };
 
@@ -48,7 +52,8 @@ struct TwoLevelEstimate {
 /// The residuals f - alpha g are few surprises among many zeros: where by chance few were met, se is too small. The interval therefore takes the
 /// quantile of Student's t with 2 n / (kurtosis - 1) degrees of freedom of their variance (Satterthwaite 1946), combined with the exact rest.
 ///
-/// Unbiased for any h: no g_k meets a sample it was trained on. A fold without cheap samples has alpha = 0.
+/// Unbiased for any h: no g_k meets a sample it was trained on. A fold without cheap samples has alpha = 0. So has one whose pilot, the samples
+/// outside it, does not show that the cheap model pays (decide_on_pilot(), gain 1 / (1 - rho^2 N / (n + N))): it does not see the fold either, and adds no bias.
 /// A cluster's share of the dear and of the cheap samples has to be the same on average, as with RecordDraw.
 /// @throws ParameterError for n < 2, f outside 0 ... 1, features of unequal number
 TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const CheapSample> cheap, std::uint64_t seed,

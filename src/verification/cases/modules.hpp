@@ -17,6 +17,7 @@ void add_wedge_cases(Registry& registry);
 void add_anchor_cases(Registry& registry);
 void add_probability_cases(Registry& registry);
 void add_probability_sampling_cases(Registry& registry);
+void add_probability_command_cases(Registry& registry);
 void add_fe_core_cases(Registry& registry);
 void add_fe_quadratic_cases(Registry& registry);
 void add_fe_import_cases(Registry& registry);

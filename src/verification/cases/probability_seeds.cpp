@@ -1,5 +1,6 @@
 #include "verification/cases/probability_seeds.hpp"
 
+#include "core/parallel.hpp"
 #include "probability/estimate/multi_fidelity.hpp"
 #include "probability/estimate/two_level.hpp"
 #include "probability/laws/normal.hpp"
@@ -26,7 +27,9 @@ public:
         sum_ += estimate;
         squares_ += estimate * estimate;
         errors_ += se * se;
-        study_.covered += interval.contains(study_.exact);
+        const bool covers = interval.contains(study_.exact);
+        study_.covered += covers;
+        if (study_.seeds <= SeedStudy::few) study_.covered_of_few += covers;
     }
 
     SeedStudy study()
@@ -102,18 +105,19 @@ double SeedStudy::bound() const
 
 SeedStudy study_two_level(int seeds, int n, CheapModel cheap, SuiteOf suite)
 {
-    SeedSums sums(exact_p(suite));
-    for (int seed = 0; seed < seeds; ++seed) {
-        const SlipDraws draws(static_cast<std::uint64_t>(seed) + 1000, suite, cheap);
+    std::vector<TwoLevelEstimate> estimates(static_cast<std::size_t>(seeds));
+    parallel_for(estimates.size(), 0, [&](std::size_t seed) {
+        const SlipDraws draws(seed + 1000, suite, cheap);
         std::vector<DearSample> dear;
         std::vector<CheapSample> further;
         const std::uint32_t size = static_cast<std::uint32_t>(n);
         for (std::uint32_t i = 0; i < size; ++i)
             dear.push_back({draws.cluster(i), draws.log_slip(i) > 0.0 ? 1.0 : 0.0, draws.cheap(i)});
         for (std::uint32_t i = size; i < 11 * size; ++i) further.push_back({draws.cluster(i), draws.cheap(i)});
-        const TwoLevelEstimate e = two_level(dear, further, static_cast<std::uint64_t>(seed));
-        sums.add(e.p, e.se, e.interval);
-    }
+        estimates[seed] = two_level(dear, further, seed);
+    });
+    SeedSums sums(exact_p(suite));
+    for (const TwoLevelEstimate& e : estimates) sums.add(e.p, e.se, e.interval);
     return sums.study();
 }
 

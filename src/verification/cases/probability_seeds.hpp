@@ -2,16 +2,18 @@
 
 #include <cstdint>
 
-/// What estimators do over many seeds: the sampling cases of `verify` with few seeds, the long tests with many.
+/// What estimators do over many seeds.
 namespace damslip::verification {
 
 /// Many estimates of one known value.
 struct SeedStudy {
+    static constexpr int few = 300; ///< first seeds, looked at by themselves, too
     int seeds = 0;
     double exact = 0.0, mean = 0.0; ///< of the estimates
     double sd = 0.0;                ///< between the estimates
     double mean_se = 0.0;           ///< root of the mean of the squared standard errors they state
     int covered = 0;                ///< intervals of 95 % that hold the exact value
+    int covered_of_few = 0;         ///< of the first seeds
 
     double bound() const; ///< 4 sd / sqrt(seeds): |mean - exact| of an unbiased estimate
 };

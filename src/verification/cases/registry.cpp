@@ -40,6 +40,7 @@ Registry all_cases()
     add_anchor_cases(registry);
     add_probability_cases(registry);
     add_probability_sampling_cases(registry);
+    add_probability_command_cases(registry);
     add_fe_core_cases(registry);
     add_fe_quadratic_cases(registry);
     add_fe_import_cases(registry);
