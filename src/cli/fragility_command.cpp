@@ -127,7 +127,12 @@ void write_files(const std::filesystem::path& out, const FragilityView& view, co
     write_file(out / "report.html", page_html(fragility_page(view)));
     if (const std::string usace = fragility_usace(view); !usace.empty()) write_file(out / "usace.json", usace);
     if (const std::string nrml = fragility_nrml(view); !nrml.empty()) write_file(out / "fragility.xml", nrml);
-    if (!streams.quiet) streams.talk << "report: " << (out / "report.html").string() << "\n";
+}
+
+/// The last line of the talk, as of every command with a report.
+void name_report(const std::filesystem::path& out, const Streams& streams)
+{
+    if (!out.empty() && !streams.quiet) streams.talk << "report: " << (out / "report.html").string() << "\n";
 }
 
 int write_slurm(const FragilityArguments& a, const Streams& streams)
@@ -232,8 +237,12 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     const FragilityPlan plan = conditioned ? conditioned->plan : study.plan(samples);
     const SweepIdentity identity = fragility_identity(plan, text, study.method.id);
     if (!a.out.empty()) std::filesystem::create_directories(a.out);
-    if (a.merge)
-        return finish_fragility(a, study, plan, merged_runs(a.out, plan, identity), conditioned, streams, watch);
+    if (a.merge) {
+        const FragilityRuns runs = merged_runs(a.out, plan, identity);
+        const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
+        name_report(a.out, streams);
+        return code;
+    }
     const Shard shard = a.shard.empty() ? Shard{} : parse_shard(a.shard, "--shard");
     std::optional<Journal> journal;
     if (!a.out.empty())
@@ -257,6 +266,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
     if (journal) journal->mark_done();
     time.tell(a.out, streams);
+    name_report(a.out, streams);
     return code;
 }
 
