@@ -114,8 +114,7 @@ FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan&
     return runs;
 }
 
-void write_files(const std::filesystem::path& out, const FragilityView& view, const SweepIdentity& identity,
-                 const Streams& streams)
+void write_files(const std::filesystem::path& out, const FragilityView& view, const SweepIdentity& identity)
 {
     const std::vector<std::string> comments = {"damslip " + identity.version + " fragility", "scene " + identity.scene,
                                                "runs " + hash_of(identity)};
@@ -206,7 +205,7 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
         streams.out << fragility_json(view).dump(2) << "\n";
     else
         streams.out << fragility_text(view);
-    if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id), streams);
+    if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
     return answer.answered ? exit_ok : exit_no_answer;
 }
 
@@ -227,6 +226,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     if (a.multi_fidelity == "mfmc" && !study.finite_elements())
         refuse_usage(fmt::format("--multi-fidelity mfmc with --method {}.", study.method.id),
                      "finite elements: they are what cheaper models help", "add  --method fe");
+    if (!a.out.empty()) make_folder(a.out);
     const std::size_t samples = a.budget    ? samples_by_budget(a, study, streams)
                                 : a.samples ? static_cast<std::size_t>(*a.samples)
                                             : study.usual_samples();
@@ -236,7 +236,6 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     const ConditionedPlan* const conditioned = by_friction ? &*by_friction : nullptr;
     const FragilityPlan plan = conditioned ? conditioned->plan : study.plan(samples);
     const SweepIdentity identity = fragility_identity(plan, text, study.method.id);
-    if (!a.out.empty()) std::filesystem::create_directories(a.out);
     if (a.merge) {
         const FragilityRuns runs = merged_runs(a.out, plan, identity);
         const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);

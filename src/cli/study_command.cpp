@@ -76,7 +76,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const Sweep inputs{scene, axes, tasks, records};
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
-    std::filesystem::create_directories(arguments.out);
+    make_folder(arguments.out);
     Journal journal(journal_of(sweep.out), identity, {}, arguments.resume ? JournalStart::resume : JournalStart::fresh);
     const Grid grid = make_grid(scene, axes, tasks, records, arguments.jobs);
     std::vector<std::size_t> wanted(tasks.rows());

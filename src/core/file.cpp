@@ -153,6 +153,13 @@ void write_file(const fs::path& path, std::string_view content)
     file.finish();
 }
 
+void make_folder(const fs::path& path)
+{
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) refuse_write(path, error.message());
+}
+
 std::optional<Diagnostic> output_path_problem(const fs::path& path, OutputPath kind, const std::string& named)
 {
     const std::string text = path.string();

@@ -35,6 +35,9 @@ private:
     int descriptor_ = -1;
 };
 
+/// Makes a folder and those above it; one that is there stays. @throws InputError when it cannot be made
+void make_folder(const std::filesystem::path& path);
+
 enum class OutputPath {
     file,         ///< a file, a device or a pipe, through links too
     regular_file, ///< a file alone: others are written beside it

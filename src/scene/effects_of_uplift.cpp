@@ -73,12 +73,12 @@ std::vector<EffectRow> uplift_effects()
         {.name = "uplift",
          .decide = decide_uplift,
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
-             s.uplift = Uplift{.model = UpliftModel::none, .points = {}};
+             s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
              return Removal{s, "uplift.model = \"none\": dry base"};
          },
          .leave_out =
              [](Scene& s, const EffectPlan&) { // said by name, so that the scene that was run can be read again
-                 if (s.uplift) s.uplift = Uplift{.model = UpliftModel::none, .points = {}};
+                 if (s.uplift) s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
              },
          .named = Effect::uplift},
         {.name = "seepage",

@@ -59,7 +59,9 @@ TEST(Scaling, ElasticSlipGoesWithTheLengthWhenTheModuliDo)
     for (const std::uint32_t seed : {1, 2, 3, 4, 5, 6, 8, 10}) {
         SCOPED_TRACE(seed);
         const Drawn d = draw(seed, rock_of(seed, 7));
-        if (d.scene.foundation) ASSERT_GT(*d.scene.mesh.contact_size, 1.0);
+        if (d.scene.foundation) {
+            ASSERT_GT(*d.scene.mesh.contact_size, 1.0);
+        }
         const fe2d::RunResult own = fe_run(d);
         const std::size_t last = d.motion.accel_h.size() - 1;
         ASSERT_GT(own.history.slip.size(), last) << own.message;

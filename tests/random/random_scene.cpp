@@ -559,7 +559,7 @@ void spoil(SceneFiles& files, Draw& draw)
 
 SceneFiles random_scene(Draw& draw, double radiating)
 {
-    Writer w{draw, {}};
+    Writer w{.draw = draw, .text = {}, .rock_by_name = {}};
     add_section(w);
     add_material(w);
     add_contact(w);

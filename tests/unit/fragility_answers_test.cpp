@@ -152,7 +152,9 @@ TEST(FragilityAnswers, StagesOfTheWaterLevel)
         EXPECT_NEAR(s.most_likely, 10.0 * (static_cast<double>(i) + 1.0), 1e-9);
         EXPECT_LE(s.min, s.most_likely);
         EXPECT_GE(s.max, s.most_likely);
-        if (i > 0) EXPECT_GT(s.probability, places[0].stages[i - 1].probability);
+        if (i > 0) {
+            EXPECT_GT(s.probability, places[0].stages[i - 1].probability);
+        }
     }
     EXPECT_LT(places[0].stages[1].min, 20.0); // an interval, not a point
     EXPECT_GT(places[0].stages[1].max, 20.0);

@@ -1,12 +1,18 @@
 // The tables of a fragility: one list of keys for the reader, the schema and the page, and every command looks them over.
+#include "program_answer.hpp"
+
+#include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "scene/document.hpp"
 #include "scene/fragility_input.hpp"
 #include "scene/fragility_keys.hpp"
 #include "scene/read.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace {
 
@@ -120,6 +126,68 @@ TEST(FragilityKeys, StandInTheSchemaAndOnThePage)
     }
     EXPECT_EQ(schema["probability"]["properties"]["seed"]["type"], "integer");
     EXPECT_EQ(schema["probability"]["properties"]["variable"]["items"]["required"], nlohmann::json({"key"}));
+}
+
+/// The example with another hazard curve and levels, in a folder of its own.
+class FragilityCommandRefuses : public testing::Test {
+protected:
+    void SetUp() override { std::filesystem::create_directories(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    /// What `damslip fragility` says of it. The talk tells of runs, too: there must be none.
+    ProgramAnswer answer(const std::string& curve, const std::string& levels, const std::string& out = "") const
+    {
+        const std::filesystem::path example = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/fragility";
+        std::string scene = read_file(example / "dam.toml");
+        const auto put = [&scene](const std::string& old, const std::string& text) {
+            for (std::size_t at = scene.find(old); at != std::string::npos; at = scene.find(old, at + text.size()))
+                scene.replace(at, old.size(), text);
+        };
+        put("../../records", std::string(DAMSLIP_SOURCE_DIR) + "/records");
+        put("levels_g = [0.05, 0.075, 0.1, 0.125, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]", "levels_g = " + levels);
+        std::ofstream(folder_ / "dam.toml") << scene;
+        if (!curve.empty()) std::ofstream(folder_ / "hazard.csv") << curve;
+        std::vector<std::string> command{"fragility", (folder_ / "dam.toml").string(), "--samples", "64"};
+        if (!out.empty()) command.insert(command.end(), {"--out", out});
+        return answer_of(command);
+    }
+    void expect_refuses(const ProgramAnswer& a, const std::string& problem) const
+    {
+        EXPECT_EQ(a.code, 3) << a.talk;
+        EXPECT_NE(a.talk.find(problem), std::string::npos) << a.talk;
+        EXPECT_EQ(a.talk.find("100 %"), std::string::npos) << a.talk;
+    }
+
+    const std::string curve_ = "pga_g,annual_rate\n0.02,1e-2\n0.5,1e-5\n";
+
+private:
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / ("damslip fragility " + std::to_string(::getpid()));
+};
+
+TEST_F(FragilityCommandRefuses, HazardThatDoesNotFitTheLevelsBeforeAnyRun)
+{
+    expect_refuses(answer("", "[0.1]"), "hazard.csv: error: there is no such file.");
+    expect_refuses(answer("# imt='PGV'\n" + curve_, "[0.1]"), "the hazard curve is of PGV, the levels are of PGA.");
+    const std::string apart = "the hazard curve goes from 0.02 to 0.5 g, the levels from ";
+    expect_refuses(answer(curve_, "[0.001, 0.01]"), apart + "0.001 to 0.01 g: no rate comes of them.");
+    expect_refuses(answer(curve_, "[0.6, 1.2]"), apart + "0.6 to 1.2 g: no rate comes of them.");
+    EXPECT_EQ(answer(curve_, "[0.01, 0.1]").code, 0);
+}
+
+// A quarter slides more than 50 mm at both levels: the median lies far beyond, and that is said.
+TEST_F(FragilityCommandRefuses, NoMedianBeyondTheLevelsWithoutAWord)
+{
+    const std::string text = answer(curve_, "[0.13, 0.16]").out;
+    EXPECT_NE(text.find(", extrapolated from levels of 0.13 to 0.16 g"), std::string::npos) << text;
+    EXPECT_NE(text.find("the median is extrapolated from the levels, 0.13 to 0.16 g"), std::string::npos) << text;
+    EXPECT_EQ(answer(curve_, "[0.1, 0.12]").code, 0); // the same share at both: no curve
+    EXPECT_EQ(answer(curve_, "[0.13, 0.4]").out.find("extrapolated"), std::string::npos);
+}
+
+TEST_F(FragilityCommandRefuses, AFolderThatCannotBeMade)
+{
+    expect_refuses(answer(curve_, "[0.1]", "/proc/nowhere"), "/proc/nowhere");
 }
 
 } // namespace

@@ -78,49 +78,6 @@ TEST(Fragility, PulseAndRandomFriction)
     }
 }
 
-// A lognormal too, by motion.scale, Spearman correlated: D > 0 <=> A > g mu. ln(A / (g mu)) is normal with variance
-// b_A^2 + b_mu^2 - 2 r b_A b_mu, r = 2 sin(pi rho / 6).
-TEST(Fragility, PulseOfRandomAmplitude)
-{
-    FragilityInput input = pulse_input(1e-12);
-    RandomVariable amplitude;
-    amplitude.name = "amplitude";
-    amplitude.keys = {"motion.scale"};
-    amplitude.law = {"lognormal", {{"median", 0.75}, {"beta", 0.3}}, {}, {}, {}};
-    input.probability.variables.push_back(amplitude);
-    const std::size_t n = 4096;
-    for (const double rho : {0.0, 0.6, -0.5}) {
-        input.probability.correlations.clear();
-        if (rho != 0.0) input.probability.correlations = {{"mu", "amplitude", rho, {}}};
-        const double r = 2.0 * std::sin(M_PI * rho / 6.0);
-        const double p = probability::normal_cdf(std::log(0.75 * pulse::accel / (pulse::gravity * 0.30)) /
-                                                 std::sqrt(0.09 + 0.04 - 2.0 * r * 0.3 * 0.2));
-        EXPECT_NEAR(fragility(pulse::scene(), input, n).estimate.limits[0].levels[0].p, p,
-                    4.0 * std::sqrt(p * (1.0 - p) / static_cast<double>(n)))
-            << rho;
-    }
-}
-
-// Threads, other variables: the same bits.
-TEST(Fragility, DrawsDependOnNothingElse)
-{
-    const SceneText text = pulse::scene();
-    FragilityInput input = pulse_input(0.2);
-    input.intensity.levels = {2.0, 3.0, 4.0};
-    const Done one = fragility(text, input, 256, 1), two = fragility(text, input, 256, 2);
-    for (std::size_t id = 0; id < one.runs.rows.size(); ++id)
-        EXPECT_EQ(one.runs.rows[id]->results, two.runs.rows[id]->results);
-    RandomVariable density;
-    density.name = "density";
-    density.keys = {"dam.density_kg_m3"};
-    density.law = {"uniform", {{"min", 2300.0}, {"max", 2500.0}}, {}, {}, {}};
-    input.probability.variables.push_back(density);
-    const FragilityPlan more = plan_fragility(input, pulse::suite(text), {256}, text.file(), written);
-    ASSERT_EQ(more.draws.size(), one.plan.draws.size());
-    for (std::size_t i = 0; i < more.draws.size(); ++i)
-        EXPECT_EQ(std::get<double>(more.draws[i].values[0]), std::get<double>(one.plan.draws[i].values[0]));
-}
-
 // Slip of a one-way block, D(k a; a_y) = k D(a; a_y / k): mu random and levels k A0 with thresholds k d give the same P as mu / k.
 TEST(Fragility, LevelsScaleTheRecord)
 {

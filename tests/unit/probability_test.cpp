@@ -224,8 +224,11 @@ TEST(ProbabilityFit, CloudFindsTheLawItsSlipsWereDrawnFrom)
     EXPECT_NEAR(fit.sigma, 0.6, 0.03);
     EXPECT_NEAR(fit.probability(0.1, 0.02), normal_cdf((1.0 + 2.0 * std::log(0.1) - std::log(0.02)) / 0.6), 0.03);
     EXPECT_THROW((void)fit.probability(0.1, 1e-4), ParameterError);
-    for (const QuantilePair& q : quantile_pairs(fit, points))
-        if (std::abs(q.expected) < 1.5) EXPECT_NEAR(q.found, q.expected, 0.12);
+    for (const QuantilePair& q : quantile_pairs(fit, points)) {
+        if (std::abs(q.expected) < 1.5) {
+            EXPECT_NEAR(q.found, q.expected, 0.12);
+        }
+    }
 }
 
 TEST(ProbabilityFit, SeparatedTablesAreFittedByFirthWhereScoringAloneWandersOff)
@@ -240,6 +243,19 @@ TEST(ProbabilityFit, SeparatedTablesAreFittedByFirthWhereScoringAloneWandersOff)
         EXPECT_GT(fit.curve.median, table[table.size() - 2].x);
         EXPECT_LT(fit.curve.median, table.back().x);
     }
+}
+
+// Equal shares at all levels: the slope is round-off of either sign, its median has been infinite.
+TEST(ProbabilityFit, SharesThatDoNotRiseHaveNoCurve)
+{
+    for (double n = 8.0; n <= 4096.0; n *= 2.0)
+        for (const double z : {1.0, 0.25 * n, 0.5 * n, n - 1.0})
+            for (const double x : {0.012, 0.12, 1.2, 12.0}) {
+                const LognormalFit fit =
+                    fit_lognormal(std::vector<StripeCount>{{x, n, z}, {1.2 * x, n, z}, {1.7 * x, n, z}});
+                EXPECT_EQ(fit.method, FitMethod::none) << n << ' ' << z << ' ' << x;
+                expect_has(fit.why, "does not rise");
+            }
 }
 
 TEST(ProbabilityFit, CensoredCapacitiesAreTheMaximumOfTheirLikelihood)
@@ -333,6 +349,18 @@ TEST(ProbabilityEstimate, TheControlVariateIsOffWhereItDoesNotPay)
     }
     EXPECT_EQ(used,
               0); // a gain of 1.2 at the lower end asks for rho 0.5 of 160 samples: six standard deviations of none
+    // Near the border, too, the remark agrees with what was done.
+    int near = 0;
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        const TwoLevelEstimate e = estimate_of(0.6, seed);
+        near += e.used;
+        if (e.used)
+            EXPECT_EQ(e.sentence, "");
+        else
+            expect_has(e.sentence, "off: ρ ");
+    }
+    EXPECT_GT(near, 10);
+    EXPECT_LT(near, 40);
     const TwoLevelEstimate good = estimate_of(0.97, 1);
     EXPECT_TRUE(good.used);
     EXPECT_LT(good.se, 0.7 * good.plain_se);
@@ -357,7 +385,7 @@ TEST(ProbabilityEstimate, NoStratumGetsNothingAndTheBudgetHolds)
     const std::vector<std::uint64_t> sizes = allocate_strata(strata, 100.0, 2);
     EXPECT_EQ(sizes[2], 2u);
     EXPECT_GT(sizes[0], sizes[1]);
-    EXPECT_LE(1.0 * sizes[0] + 2.0 * sizes[1] + 4.0 * sizes[2], 100.0);
+    EXPECT_LE(sizes[0] + 2 * sizes[1] + 4 * sizes[2], 100u);
     EXPECT_DOUBLE_EQ(batch_size(30.0, 1.0, 0.25), std::sqrt(90.0));
 }
 

@@ -14,7 +14,13 @@ const SweepIdentity identity{"1.0", "scene-hash", "records-hash", "friction 0.7,
 
 FinishedRow row(std::size_t id, double slip, const std::string& status = "at rest")
 {
-    return {id, true, {slip, slip, {}, {}, {}, 0.1, {}, 3.0, status, {}}};
+    FinishedRow done;
+    done.id = id;
+    done.results.slip = done.results.max_slip = slip;
+    done.results.slip_error = 0.1;
+    done.results.critical_friction = 3.0;
+    done.results.status = status;
+    return done;
 }
 
 class SweepJournal : public SweepScene {

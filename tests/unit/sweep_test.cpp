@@ -121,7 +121,9 @@ TEST_F(SweepScene, EveryFeRowNamesItsRock)
     EXPECT_EQ(names["fe"], massless);
     EXPECT_EQ(names["fe-radiating"], radiating);
     for (const auto& [method, rock] : rocks("")) {
-        if (method.starts_with("fe")) EXPECT_EQ(rock, "rigid base") << method;
+        if (method.starts_with("fe")) {
+            EXPECT_EQ(rock, "rigid base") << method;
+        }
     }
 
     // Words with a comma stand between quotes.

@@ -49,8 +49,6 @@ protected:
     }
 };
 
-} // namespace
-
 TEST_F(WorkerTest, NamesItsKeysFirst)
 {
     const Json hello = talk_to({}).front();
@@ -172,4 +170,5 @@ TEST_F(WorkerTest, AnswersQuofem)
     EXPECT_EQ(answer_of(command).code, 3);
 }
 
+} // namespace
 } // namespace damslip::sweep_tests

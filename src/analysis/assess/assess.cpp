@@ -253,7 +253,10 @@ void run_variants(BudgetWatch& watch, Assessment& a)
         if (choice.run && choice.status == Status::interrupted)
             a.left_out.push_back({"finite elements, " + choice.what, "the time was over"});
         else if (choice.run && choice.what != "other polarity")
-            a.assumptions.push_back({choice.what, choice.status, reported(choice.status, std::abs(choice.max_slip))});
+            a.assumptions.push_back({.what = choice.what,
+                                     .status = choice.status,
+                                     .slip = reported(choice.status, std::abs(choice.max_slip)),
+                                     .without = {}});
     }
     std::vector<Assumption> list;
     try_part("effects in turn, finite elements", a.left_out, [&] { list = assumptions_of(a); });

@@ -497,12 +497,12 @@ std::vector<std::size_t> runs_of_levels(const std::vector<double>& unsure, const
         all += unsure[k];
         if (!weight.empty()) of_rate += weight[k] * p[k] * unsure[k];
     }
-    const std::optional<std::size_t> aimed = sizes.aim ? std::optional(level_aimed_at(p, *sizes.aim)) : std::nullopt;
+    const std::size_t aimed = sizes.aim ? level_aimed_at(p, *sizes.aim) : 0;
     std::vector<std::size_t> n;
     for (std::size_t k = 0; k < unsure.size(); ++k) {
         const double same = all > 0.0 ? unsure[k] / all : 1.0 / static_cast<double>(unsure.size());
         double share = of_rate > 0.0 ? 0.5 * same + 0.5 * weight[k] * p[k] * unsure[k] / of_rate : same;
-        if (aimed) share = share / 3.0 + (k == *aimed ? 2.0 / 3.0 : 0.0);
+        if (sizes.aim) share = share / 3.0 + (k == aimed ? 2.0 / 3.0 : 0.0);
         n.push_back(std::max<std::size_t>(
             2, static_cast<std::size_t>(share * static_cast<double>(sizes.runs) / static_cast<double>(replicates))));
     }

@@ -58,9 +58,10 @@ void check_limits(const FragilityInput& input, const SweepMethod& method, const 
     }
 }
 
-/// The hazard curve in SI. @throws InputError for one of another measure
-probability::HazardCurve hazard_of(const FragilityInput& input, double unit)
+/// The hazard curve in SI. @throws InputError for one of another measure, or that no level lies within
+probability::HazardCurve hazard_of(const FragilityInput& input)
 {
+    const double unit = input.intensity.level_unit;
     const probability::HazardFile file = probability::read_hazard_curve(input.hazard->curve);
     if (!file.measure.empty() && file.measure != input.intensity.text)
         throw InputError(Diagnostic{
@@ -72,6 +73,19 @@ probability::HazardCurve hazard_of(const FragilityInput& input, double unit)
     const double factor = !exported ? unit : velocity ? units::cm : units::standard_gravity;
     std::vector<double> x = file.curve.x();
     for (double& at : x) at *= factor;
+    const std::vector<double>& levels = input.intensity.levels;
+    const bool apart = !levels.empty() && (levels.back() < x.front() || levels.front() > x.back());
+    if (apart && input.intensity.design != FragilityDesign::cloud) {
+        const auto range = [&](double from, double to) {
+            return fmt::format("{:g} to {:g} {}", from / unit, to / unit, input.intensity.level_unit_text);
+        };
+        throw InputError(
+            Diagnostic{input.hazard->curve.string(), 0, 0,
+                       fmt::format("the hazard curve goes from {}, the levels from {}: no rate comes of them.",
+                                   range(x.front(), x.back()), range(levels.front(), levels.back())),
+                       "levels within the hazard curve, at least in part",
+                       "change the levels of [intensity], or take a curve that reaches them"});
+    }
     return {std::move(x), file.curve.rate()};
 }
 
@@ -141,7 +155,9 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
     const SweepMethod& of = method_of_fragility(method, suite.pairs, scene);
     check_limits(input, of, text.file());
     const NumberInFile written = [text](const std::string& key) { return text.written(key); };
-    return {std::move(text), std::move(scene), std::move(input), std::move(suite), of, written};
+    std::optional<probability::HazardCurve> hazard;
+    if (input.hazard) hazard = hazard_of(input);
+    return {std::move(text), std::move(scene), std::move(input), std::move(suite), of, written, std::move(hazard)};
 }
 
 void allow_any_scaling(FragilityInput& input)
@@ -190,8 +206,7 @@ std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study
     const std::size_t all = samples * input.intensity.levels.size();
     sizes.pilot = std::max<std::size_t>(48, all / 10);
     sizes.runs = all > 2 * sizes.pilot ? all - sizes.pilot : all;
-    if (input.hazard)
-        sizes.weight_of_level = rate_of_levels(hazard_of(input, input.intensity.level_unit), input.intensity.levels);
+    if (study.hazard) sizes.weight_of_level = rate_of_levels(*study.hazard, input.intensity.levels);
     return condition_finite_elements(input, study.suite, study.text, study.written, study.rigid(), study.method, sizes,
                                      watch);
 }
@@ -201,9 +216,7 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
 {
     const FragilityInput& input = study.input;
     FragilityAnswer answer;
-    std::optional<probability::HazardCurve> hazard;
-    if (input.hazard) hazard = hazard_of(input, input.intensity.level_unit);
-    answer.estimate = estimate_fragility(plan, runs, hazard ? &*hazard : nullptr,
+    answer.estimate = estimate_fragility(plan, runs, study.hazard ? &*study.hazard : nullptr,
                                          input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
     answer.conditioned = conditioned;
     if (conditioned) answer.notes = conditioned->notes;

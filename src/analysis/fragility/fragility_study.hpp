@@ -15,7 +15,8 @@ struct FragilityStudy {
     FragilityInput input;
     ShakingSuite suite;
     const SweepMethod& method;
-    NumberInFile written; ///< SceneText::written()
+    NumberInFile written;                           ///< SceneText::written()
+    std::optional<probability::HazardCurve> hazard; ///< SI
 
     bool finite_elements() const { return method.kind == SweepKind::finite_elements; }
     /// Runs per level where nobody says how many.
@@ -29,7 +30,7 @@ void check_fragility(const FragilityInput& input, const SceneText& text);
 
 /// Reads and measures the records. @param method  rigid, rigid-v, fe, fe-exact ...; empty: rigid-v where a record has a vertical component,
 /// else rigid @pre check_fragility() @throws InputError, also for a
-/// limit that the method does not give; UsageError for a method that is none of a fragility
+/// limit that the method does not give, and a hazard curve of another measure or apart from the levels; UsageError for a method that is none of a fragility
 FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method);
 
 /// Records may be scaled beyond suite.max_scale; they are listed.
@@ -69,7 +70,6 @@ struct FragilityAnswer {
 
 /// Probabilities and rates, the rigid block beside finite elements, what P comes from. Of runs that are not complete, the estimate alone:
 /// what was not run counts as missing.
-/// @throws InputError for a hazard curve that does not fit the levels
 FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
                                  const FragilityExtras& extras, Watch& watch,
                                  const ConditionedPlan* conditioned = nullptr);

@@ -51,10 +51,12 @@ struct MfmcOptions {
     int jobs = 1;
 };
 
-/// Multifidelity Monte Carlo (Peherstorfer, Willcox & Gunzburger 2016; probability::plan_mfmc) with the dear runs of a plan. A pilot of draws of
-/// its own gives each cheap model a calibration (Calibration: a prediction of the dear answer, 0 ... 1), its correlation, its price and so its
-/// weight; one between the dear and the cheapest model that costs more than half of a dear run in its first few is left out before. How many samples each model gets follows from these, at all levels the most that any needs. A level where no cheap model
-/// is sure to pay (probability::decide_on_pilot()) keeps the plain estimate. No sample that counts was used for a calibration, a weight or that decision, so that the estimate has no bias. Samples are runs, or with lack of knowledge all runs of an epistemic draw.
+/// Multifidelity Monte Carlo (Peherstorfer, Willcox & Gunzburger 2016; probability::plan_mfmc) with the dear runs of a plan. A pilot of
+/// draws of its own gives each cheap model a calibration (Calibration: a prediction of the dear answer, 0 ... 1), its correlation, its
+/// price and so its weight; one between the dear and the cheapest model that costs more than half of a dear run in its first few is left
+/// out before. How many samples each model gets follows from these, at all levels the most that any needs. A level where no cheap model is
+/// sure to pay (probability::decide_on_pilot()) keeps the plain estimate. No sample that counts was used for a calibration, a weight or
+/// that decision, so that the estimate has no bias. Samples are runs, or with lack of knowledge all runs of an epistemic draw.
 /// @param dear  complete runs of `plan` by options.dear
 /// @param plan_of  makes the pilot's plan and that of further cheap samples
 MfmcFragility run_mfmc(const FragilityPlan& plan, const FragilityRuns& dear, const PlanOfStream& plan_of,

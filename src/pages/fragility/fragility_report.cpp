@@ -129,20 +129,27 @@ Chart rate_chart(const FragilityView& view)
     return chart;
 }
 
-/// "P(slip > 50 mm) = 0.5 at 0.31 g; 1.2e-4 per year"
+/// Both bounds. @pre limit.rate
+std::string rates_per_year(const LimitEstimate& limit)
+{
+    return fmt::format("{:.3g} to {:.3g} per year", limit.rate->raw_low.lower, limit.rate->raw_high.upper);
+}
+
+/// "slip > 50 mm: P = 0.5 at PGA = 0.31 g; 1.1e-4 to 1.3e-4 per year"
 std::string answer_sentence(const FragilityView& view, const LimitEstimate& limit)
 {
     std::string sentence = limit.limit.text + ": ";
+    const std::string apart = levels_apart_from_median(view, limit);
     if (limit.fit.method != probability::FitMethod::none)
-        sentence += fmt::format("P = 0.5 at {} = {:.3g} {}", view.plan.input.intensity.text,
-                                limit.fit.curve.median / view.unit, view.unit_text);
+        sentence += fmt::format("P = 0.5 at {} = {:.3g} {}{}", view.plan.input.intensity.text,
+                                limit.fit.curve.median / view.unit, view.unit_text,
+                                apart.empty() ? "" : ", extrapolated from levels of " + apart);
     else if (limit.cloud && limit.cloud->found)
         sentence += "a cloud of unscaled records";
     else
         sentence += "no curve, " + (limit.cloud ? limit.cloud->why : limit.fit.why);
     if (limit.rate) {
-        const double low = limit.rate->raw_low.lower, high = limit.rate->raw_high.upper;
-        sentence += fmt::format("; {:.3g} to {:.3g} per year", low, high);
+        sentence += "; " + rates_per_year(limit);
     }
     return sentence;
 }
@@ -207,7 +214,7 @@ Page fragility_page(const FragilityView& view)
                         {"Does not stand", fmt::format("{:.3g}", view.estimate.p_static)}};
     for (const LimitEstimate& limit : view.estimate.limits)
         if (limit.rate && page.key_figures.size() < 6)
-            page.key_figures.emplace_back(limit.limit.text, fmt::format("{:.3g} per year", limit.rate->raw.lower));
+            page.key_figures.emplace_back(limit.limit.text, rates_per_year(limit));
     page.warnings = view.notes;
     Section curves{"Fragility", {curve_chart(view)}, Fold::open};
     Section rates{"Rates", {}, Fold::open}, causes{"What it comes from", {}, Fold::open};

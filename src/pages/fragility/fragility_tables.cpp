@@ -188,11 +188,25 @@ Table curve_table(const FragilityView& view)
     }
     Table t = table_of("Curves", columns, view.estimate.limits);
     for (const LimitEstimate& limit : view.estimate.limits)
+        if (const std::string levels = levels_apart_from_median(view, limit); !levels.empty())
+            t.notes.push_back(
+                fmt::format("{}: the median is extrapolated from the levels, {}; levels about P = 0.5 would "
+                            "say where it is.",
+                            limit.limit.text, levels));
+    for (const LimitEstimate& limit : view.estimate.limits)
         if (limit.capacity_roots && limit.capacities)
             t.notes.push_back(fmt::format("{}: {} of {} capacities are the slip's own roots between two levels, the "
                                           "others the first level above.",
                                           limit.limit.text, *limit.capacity_roots, limit.capacities->reached));
     return t;
+}
+
+std::string levels_apart_from_median(const FragilityView& view, const LimitEstimate& limit)
+{
+    if (limit.fit.method == probability::FitMethod::none) return "";
+    const double first = limit.levels.front().x, last = limit.levels.back().x, median = limit.fit.curve.median;
+    if (median >= first && median <= last) return "";
+    return fmt::format("{:.4g} to {:.4g} {}", first / view.unit, last / view.unit, view.unit_text);
 }
 
 Table rate_table(const FragilityView& view)

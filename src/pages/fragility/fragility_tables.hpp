@@ -11,6 +11,8 @@ Table sample_table(const FragilityView& view);
 Table fragility_table(const FragilityView& view);
 /// One row for each limit: the lognormal curve, or why there is none.
 Table curve_table(const FragilityView& view);
+/// The levels, "0.15 to 0.4 g", where the median of the limit's curve lies apart from them: it is extrapolated; else empty.
+std::string levels_apart_from_median(const FragilityView& view, const LimitEstimate& limit);
 /// One row for each limit: rates per year and their intervals. Without hazard no rows.
 Table rate_table(const FragilityView& view);
 /// One row for each limit and part of the intensities: its share of the rate.

@@ -39,6 +39,11 @@ PilotDecision decide_on_pilot(std::size_t n, double rho, const std::function<dou
     return d;
 }
 
+double variance_gain(double rho, double share)
+{
+    return 1.0 / (1.0 - rho * rho * share);
+}
+
 double less_chance(double rho, std::size_t n, std::size_t parameters)
 {
     if (n <= parameters + 1) return 0.0;

@@ -29,6 +29,10 @@ double two_level_speed_up(double rho, double cost_dear, double cost_cheap);
 /// @param gain  of a correlation 0 ... 1, growing with it. A negative one gains what 0 does: no weight is negative
 PilotDecision decide_on_pilot(std::size_t n, double rho, const std::function<double(double)>& gain);
 
+/// What the use of further cheap samples alone does to the variance, whatever they cost: 1 / (1 - rho^2 N / (n + N)).
+/// @param share  N / (n + N), of the cheap samples
+double variance_gain(double rho, double share);
+
 /// A correlation found on the samples that a fit of `parameters` (its constant not counted) was made on, less what that fit owes to chance:
 /// rho^2 -> 1 - (1 - rho^2) (n - 1) / (n - parameters - 1) (Ezekiel 1930), not below 0.
 double less_chance(double rho, std::size_t n, std::size_t parameters);

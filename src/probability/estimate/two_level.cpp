@@ -43,7 +43,7 @@ ControlWeight control_weight(const Calibration& h, const std::vector<const DearS
     }
     const double share = cheap / (n + cheap), variance = variance_of(g);
     const double rho = variance > 0.0 ? less_chance(correlation(f, g), f.size(), training.front()->cheap.size()) : 0.0;
-    control.decision = decide_on_pilot(f.size(), rho, [share](double r) { return 1.0 / (1.0 - r * r * share); });
+    control.decision = decide_on_pilot(f.size(), rho, [share](double r) { return variance_gain(r, share); });
     if (!control.decision.use) return control;
     const double mean_f = mean_of(f), mean_g = mean_of(g);
     double covariance = 0.0;
@@ -51,6 +51,14 @@ ControlWeight control_weight(const Calibration& h, const std::vector<const DearS
         covariance += (f[i] - mean_f) * (g[i] - mean_g) / static_cast<double>(f.size() - 1);
     control.alpha = std::clamp(covariance / variance * share, 0.0, 1.0);
     return control;
+}
+
+/// What the fold nearest to paying says, where none pays.
+std::string why_off(const std::vector<TwoLevelFold>& folds)
+{
+    const TwoLevelFold& nearest = *std::ranges::max_element(
+        folds, {}, [](const TwoLevelFold& f) { return f.decision.sentence.empty() ? 0.0 : f.decision.speed_up_lower; });
+    return nearest.decision.sentence.empty() ? "off: no further run of the cheap model" : nearest.decision.sentence;
 }
 
 /// Fold of each cluster: clusters in the order of their numbers, dealt out by a random permutation.
@@ -146,8 +154,7 @@ TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const Che
     e.degrees = of_residuals > 0.0 ? degrees_of_variance(residuals) * std::pow(e.se * e.se / of_residuals, 2) : n - 1.0;
     e.plain_se = std::sqrt(variance_of(f) / n);
     e.rho = correlation(f, g);
-    const double share = static_cast<double>(cheap.size()) / (n + static_cast<double>(cheap.size()));
-    e.sentence = decide_on_pilot(f.size(), e.rho, [share](double r) { return 1.0 / (1.0 - r * r * share); }).sentence;
+    if (!e.used) e.sentence = why_off(e.folds);
     e.printed = std::clamp(e.p, 0.0, 1.0);
     e.clipped = e.printed != e.p;
     e.interval = wilson_of_estimate(e.p, e.se, n, e.degrees, confidence, &e.n_eff);

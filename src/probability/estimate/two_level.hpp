@@ -41,7 +41,8 @@ struct TwoLevelEstimate {
     double rho = 0.0;      ///< correlation of f and g on the samples g was not trained on
     double plain_se = 0.0; ///< of the mean of the n dear samples alone
     bool used = false;     ///< by one fold at least; else `p` is the mean of the n dear samples alone
-    std::string sentence;  ///< of all samples together: "off: ρ 0.31 (0.05…0.53), would gain 1.1, 1.0 at least"
+    std::string
+        sentence; ///< where not used, that of the fold nearest to paying: "off: ρ 0.31 (0.05…0.53), would gain 1.1, 1.0 at least"
     std::vector<TwoLevelFold> folds;
 };
 
@@ -53,7 +54,7 @@ struct TwoLevelEstimate {
 /// quantile of Student's t with 2 n / (kurtosis - 1) degrees of freedom of their variance (Satterthwaite 1946), combined with the exact rest.
 ///
 /// Unbiased for any h: no g_k meets a sample it was trained on. A fold without cheap samples has alpha = 0. So has one whose pilot, the samples
-/// outside it, does not show that the cheap model pays (decide_on_pilot(), gain 1 / (1 - rho^2 N / (n + N))): it does not see the fold either, and adds no bias.
+/// outside it, does not show that the cheap model pays (decide_on_pilot(), variance_gain()): that does not see the fold either, and adds no bias.
 /// A cluster's share of the dear and of the cheap samples has to be the same on average, as with RecordDraw.
 /// @throws ParameterError for n < 2, f outside 0 ... 1, features of unequal number
 TwoLevelEstimate two_level(std::span<const DearSample> dear, std::span<const CheapSample> cheap, std::uint64_t seed,

@@ -94,7 +94,9 @@ LognormalFit fit_lognormal(std::span<const StripeCount> stripes)
         fit.why = fmt::format("the likelihood did not converge within {} steps", b.iterations);
         return fit;
     }
-    if (!(fit.b1 > 0.0)) {
+    // Equal shares leave a slope of round-off, of either sign; a median beyond all numbers is none either.
+    const double median = std::exp(-fit.b0 / fit.b1);
+    if (!(fit.b1 > 1e-6 * std::sqrt(fit.var_b1)) || !(median > 0.0) || !std::isfinite(median)) {
         fit.why = "the share of failures does not rise with the intensity: no lognormal curve";
         return fit;
     }
@@ -102,7 +104,7 @@ LognormalFit fit_lognormal(std::span<const StripeCount> stripes)
     if (!exists)
         fit.why = "the lowest level with a failure is not below the highest with a survival: the likelihood has no "
                   "maximum, Firth's penalty is added";
-    fit.curve = {std::exp(-fit.b0 / fit.b1), 1.0 / fit.b1};
+    fit.curve = {median, 1.0 / fit.b1};
     for (std::size_t i = 0; i < s.n.size(); ++i) {
         const double eta = fit.b0 + fit.b1 * s.log_x[i];
         fit.deviance += 2.0 * (deviance_term(s.z[i], s.n[i] * normal_cdf(eta)) +

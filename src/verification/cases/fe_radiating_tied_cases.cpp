@@ -470,7 +470,11 @@ double period_on_strip(const Scene& scene, Deformation deformation)
     const auto reduced = [&](const SparseMatrix& m) { return SparseMatrix(expand.transpose() * m * expand); };
 
     const SparseMatrix mass = reduced(dam.mass), damper = reduced(dam.damping), stiffness = reduced(dam.stiffness);
-    CoupledSystem system{.mass = mass, .damping = damper, .stiffness = stiffness, .structure_unknowns = size + 3};
+    CoupledSystem system;
+    system.mass = mass;
+    system.damping = damper;
+    system.stiffness = stiffness;
+    system.structure_unknowns = size + 3;
     system.velocity_x = VectorXd::Zero(size + 3);
     if (scene.reservoir) {
         const FluidModel water = build_fluid(scene);

@@ -19,6 +19,7 @@ using probability::normal_cdf;
 
 constexpr double gravity_of_command = 9.81, plateau = 4.0, plateau_step = 0.01; // [m/s2], [m/s2], [s]
 constexpr double friction_median = 0.3, friction_beta = 0.2, slip_limit = 0.2;  // [-], [-], [m]
+constexpr int replicates = 4;
 
 std::vector<double> plateau_samples(double a)
 {
@@ -89,7 +90,7 @@ FragilityInput input_of_command()
 {
     FragilityInput input;
     input.probability.sampling = SamplingInput::random;
-    input.probability.replicates = 4;
+    input.probability.replicates = replicates;
     input.probability.variables = {lognormal_variable("mu", "contact.friction", friction_median, friction_beta)};
     input.intensity.levels = {plateau};
     input.limits = {{LimitQuantity::slip, slip_limit, "slip > 200 mm"}};
@@ -142,6 +143,12 @@ double friction_of_slip(double d, Slip slip)
 double interpolant_friction(const std::vector<double>& samples, double dt, double d)
 {
     return friction_of_slip(d, [&](double yield) { return exact::slip_of_interpolant(samples, dt, yield, INFINITY); });
+}
+
+/// Latin hypercubes, and Sobol' points of a power of two, meet F(μ*) to one of the points of a replicate.
+double one_stratum(int samples)
+{
+    return static_cast<double>(replicates) / samples;
 }
 
 double share_below(double mu)
@@ -258,26 +265,35 @@ std::vector<Check> command_draws()
         FragilityInput drawn = input;
         drawn.probability.sampling = sampling;
         const CommandRun run = command(text, drawn, suite_of_plateau(), 2048);
+        const double scatter = 4.0 * std::sqrt(exact * (1.0 - exact) / 2048.0);
         checks.push_back({fmt::format("plateau, {}: P of 2048 runs", name), "–", exact, run.level().p,
-                          4.0 * std::sqrt(exact * (1.0 - exact) / 2048.0), Measure::absolute});
+                          sampling == SamplingInput::random ? scatter : one_stratum(2048), Measure::absolute});
     }
     // Amplitude and friction by the copula: slides at all where A f > mu g.
     FragilityInput correlated = input;
     correlated.probability.variables.push_back(lognormal_variable("a", "motion.scale", 0.9, 0.3));
     correlated.limits.front().value = 1e-12;
-    const double r = 0.6;
-    correlated.probability.correlations = {{"mu", "a", 6.0 / std::numbers::pi * std::asin(0.5 * r), {}}};
-    const double beta = std::sqrt(0.09 + friction_beta * friction_beta - 2.0 * r * 0.3 * friction_beta);
-    const double p = normal_cdf(std::log(0.9 * plateau / (gravity_of_command * friction_median)) / beta);
-    checks.push_back({"amplitude and friction, r = 0.6: share that slides, 2048 runs", "–", p,
-                      command(text, correlated, suite_of_plateau(), 2048).level().p,
-                      4.0 * std::sqrt(p * (1.0 - p) / 2048.0), Measure::absolute});
+    for (const double spearman : {0.0, 0.6, -0.5}) {
+        correlated.probability.correlations.clear();
+        if (spearman != 0.0) correlated.probability.correlations = {{"mu", "a", spearman, {}}};
+        const double r = 2.0 * std::sin(std::numbers::pi * spearman / 6.0);
+        const double beta = std::sqrt(0.09 + friction_beta * friction_beta - 2.0 * r * 0.3 * friction_beta);
+        const double p = normal_cdf(std::log(0.9 * plateau / (gravity_of_command * friction_median)) / beta);
+        checks.push_back(
+            {fmt::format("amplitude and friction, rank correlation {}: share that slides, 4096 runs", spearman), "–", p,
+             command(text, correlated, suite_of_plateau(), 4096).level().p, 4.0 * std::sqrt(p * (1.0 - p) / 4096.0),
+             Measure::absolute});
+    }
     FragilityInput unknown = input;
+    unknown.probability.sampling = SamplingInput::latin_hypercube;
     unknown.probability.variables.front().kind = VariableKind::epistemic;
     const CommandRun bands = command(text, unknown, suite_of_plateau(), 2048);
     const auto& of = bands.level().bands;
     checks.push_back({"friction not known: P_e is 0 or 1, mean of the bands", "–", exact, of ? of->mean : NAN,
-                      4.0 * std::sqrt(exact * (1.0 - exact) / 2048.0), Measure::absolute});
+                      one_stratum(2048), Measure::absolute});
+    checks.push_back(
+        {"runs within an epistemic draw", "–", 1.0, static_cast<double>(bands.plan.inner), 0.0, Measure::absolute});
+    checks.push_back({"share of noise within the bands", "–", 0.0, of ? of->noise_share : NAN, 0.0, Measure::absolute});
     checks.push_back(
         {"5 % of P_e", "–", exact > 0.95 ? 1.0 : 0.0, of ? of->percentiles.front() : NAN, 0.0, Measure::absolute});
     checks.push_back(
@@ -296,6 +312,12 @@ std::vector<Check> ends_of_command()
     const double p = normal_cdf(std::log(1.0 / 1.2) / friction_beta);
     std::vector<Check> checks{{"does not stand: P = p_static = F(critical friction)", "–", p,
                                conditioned_command(text, input, suite_of_plateau()).p, 1e-9}};
+    FragilityInput stratified = input;
+    stratified.probability.sampling = SamplingInput::latin_hypercube;
+    const CommandRun hypercubes = command(text, stratified, suite_of_plateau(), 1024);
+    checks.push_back(
+        {"Latin hypercubes, 1024 runs: P", "–", p, hypercubes.level().p, one_stratum(1024), Measure::absolute});
+    checks.push_back({"and the share that is told", "–", hypercubes.level().p, hypercubes.estimate.p_static, 1e-12});
     const CommandRun all = command(text, input, suite_of_plateau(), 4096);
     checks.push_back(
         {"4096 runs: P", "–", p, all.level().p, 4.0 * std::sqrt(p * (1.0 - p) / 4096.0), Measure::absolute});
@@ -306,6 +328,7 @@ std::vector<Check> ends_of_command()
     checks.push_back(
         {"runs that count: those that stand", "–", 4096.0 * (1.0 - all.estimate.p_static), standing.level().n, 1e-12});
     const double k2 = std::pow(probability::normal_quantile(0.975), 2), n = standing.level().n;
+    checks.push_back({"no failure of n: lower end", "–", 0.0, standing.level().sampling.lower, 0.0, Measure::absolute});
     checks.push_back(
         {"no failure of n: upper end k²/(n + k²)", "–", k2 / (n + k2), standing.level().sampling.upper, 1e-9});
     return checks;
@@ -314,12 +337,13 @@ std::vector<Check> ends_of_command()
 std::vector<Check> same_bits()
 {
     const SceneText text = block_text();
-    const FragilityInput input = input_of_command();
+    FragilityInput input = input_of_command();
+    input.intensity.levels = {0.5 * plateau, 0.75 * plateau, plateau};
     const CommandRun one = command(text, input, suite_of_plateau(), 512);
     const auto different = [&](const FragilityRuns& runs) {
         double n = 0.0;
         for (std::size_t id = 0; id < one.runs.rows.size(); ++id)
-            n += !runs.rows[id] || runs.rows[id]->results.slip != one.runs.rows[id]->results.slip;
+            n += !runs.rows[id] || runs.rows[id]->results != one.runs.rows[id]->results;
         return n;
     };
     Watch watch;
@@ -337,10 +361,14 @@ std::vector<Check> same_bits()
     more.probability.variables.insert(more.probability.variables.begin(),
                                       lognormal_variable("stiffness", "dam.young_modulus_GPa", 25.0, 0.1));
     const CommandRun added = command(text, more, suite_of_plateau(), 512);
+    double draws = 0.0;
+    for (std::size_t i = 0; i < one.plan.draws.size(); ++i)
+        draws += std::get<double>(added.plan.draws[i].values[1]) != std::get<double>(one.plan.draws[i].values[0]);
     return {
-        {"slips that differ with 4 threads, of 512", "–", 0.0, different(threads), 0.0, Measure::absolute},
+        {"runs that differ with 4 threads, of 1536", "–", 0.0, different(threads), 0.0, Measure::absolute},
         {"with three parts", "–", 0.0, different(parts), 0.0, Measure::absolute},
-        {"with a variable added that moves no rigid block", "–", 0.0, different(added.runs), 0.0, Measure::absolute}};
+        {"with a variable added that moves no rigid block", "–", 0.0, different(added.runs), 0.0, Measure::absolute},
+        {"frictions drawn otherwise with it", "–", 0.0, draws, 0.0, Measure::absolute}};
 }
 
 } // namespace
