@@ -5,6 +5,7 @@
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 #include "core/usage_error.hpp"
 #include "pages/fragility/fragility_report.hpp"
 #include "pages/fragility/fragility_tables.hpp"
@@ -13,7 +14,6 @@
 #include "pages/sweep/sweep_parts.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -168,30 +168,18 @@ Conditioning conditioning_of(const std::string& word)
     return word == "on" ? Conditioning::on : word == "off" ? Conditioning::off : Conditioning::automatic;
 }
 
-/// Where the time went: not in a file that has to have the same bytes again.
-class TimeSpent {
-public:
-    explicit TimeSpent(int jobs) : threads_(thread_count(jobs)), start_(std::chrono::steady_clock::now()) {}
-    void tell(const std::filesystem::path& out, const Streams& streams) const
-    {
-        const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
-                     solvers = seconds_in_solvers(), share = solvers / (wall * threads_);
-        if (!streams.quiet)
-            streams.talk << fmt::format("{:.3g} s on {} threads, {:.1f} % of it in solvers\n", wall, threads_,
-                                        100.0 * share);
-        if (!out.empty())
-            write_file(out / "times.json", nlohmann::ordered_json{{"wall_s", wall},
-                                                                  {"threads", threads_},
-                                                                  {"in_solvers_s", solvers},
-                                                                  {"share_in_solvers", share}}
-                                                   .dump(2) +
-                                               "\n");
-    }
-
-private:
-    int threads_;
-    std::chrono::steady_clock::time_point start_;
-};
+/// Where the time of this start went. A file of its own, as all others have to have the same bytes again.
+void tell_time(double wall, const FragilityArguments& a, const Streams& streams)
+{
+    const int threads = thread_count(a.jobs);
+    const double solvers = seconds_in_solvers(), share = solvers / (wall * threads);
+    if (!streams.quiet)
+        streams.talk << fmt::format("{:.3g} s on {} threads, {:.1f} % of it in solvers\n", wall, threads,
+                                    100.0 * share);
+    const nlohmann::ordered_json times = {
+        {"wall_s", wall}, {"threads", threads}, {"in_solvers_s", solvers}, {"share_in_solvers", share}};
+    if (!a.out.empty()) write_file(a.out / "times.json", times.dump(2) + "\n");
+}
 
 int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, const FragilityPlan& plan,
                      const FragilityRuns& runs, const ConditionedPlan* conditioned, const Streams& streams,
@@ -214,7 +202,7 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
 int fragility(const FragilityArguments& a, const Streams& streams)
 {
     check_fragility_flags(a);
-    const TimeSpent time(a.jobs);
+    const Stopwatch time;
     const SceneText text = SceneText::read(a.inputs.scene);
     Scene scene = text.scene();
     say(scene.notes, a.inputs.strict, streams);
@@ -264,7 +252,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     }
     const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
     if (journal) journal->mark_done();
-    time.tell(a.out, streams);
+    tell_time(time.seconds(), a, streams);
     name_report(a.out, streams);
     return code;
 }

@@ -6,6 +6,7 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/processor_clock.hpp"
+#include "core/stopwatch.hpp"
 #include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/with_friction.hpp"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -32,13 +32,13 @@ std::atomic<double> in_solvers{0.0}; // [s], of all threads
 /// Adds the wall time of its life to it.
 class InSolver {
 public:
-    InSolver() : start_(std::chrono::steady_clock::now()) {}
-    ~InSolver() { in_solvers += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    InSolver() = default;
+    ~InSolver() { in_solvers += time_.seconds(); }
     InSolver(const InSolver&) = delete;
     InSolver& operator=(const InSolver&) = delete;
 
 private:
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch time_;
 };
 
 /// What a rigid block does not ask the seepage for.
