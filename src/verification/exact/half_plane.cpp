@@ -13,24 +13,24 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 constexpr int points = 16; ///< of Gauss' rule
 
-enum class Motion { horizontal, vertical, rocking };
+enum class StripMotion { horizontal, vertical, rocking };
 
 /// û of one wave number. R is written without the difference of large numbers it holds at large k.
-Complex surface_motion(const HalfPlane& plane, Motion motion, double frequency, Complex k)
+Complex surface_motion(const HalfPlane& plane, StripMotion motion, double frequency, Complex k)
 {
     const double ks = frequency / plane.shear_speed(), kp = frequency / plane.compression_speed();
     const Complex k2 = k * k, alpha = std::sqrt(k2 - kp * kp), beta = std::sqrt(k2 - ks * ks);
     const Complex product = alpha * beta;
     const Complex r =
         4.0 * k2 * (k2 * kp * kp - kp * kp * ks * ks - ks * ks * product) / (k2 + product) + ks * ks * ks * ks;
-    return -(motion == Motion::horizontal ? beta : alpha) * ks * ks / (plane.shear_modulus * r);
+    return -(motion == StripMotion::horizontal ? beta : alpha) * ks * ks / (plane.shear_modulus * r);
 }
 
 /// ŵ²: sin z/z for a uniform traction, 3 k (sin z - z cos z)/z³ for x/I; z = k b.
-Complex shape(Motion motion, Complex k, double b)
+Complex shape(StripMotion motion, Complex k, double b)
 {
     const Complex z = k * b, z2 = z * z;
-    if (motion != Motion::rocking) {
+    if (motion != StripMotion::rocking) {
         const Complex s = std::abs(z) < 1e-3 ? 1.0 - z2 / 6.0 : std::sin(z) / z;
         return s * s;
     }
@@ -39,7 +39,7 @@ Complex shape(Motion motion, Complex k, double b)
     return s * s;
 }
 
-Complex flexibility(const HalfPlane& plane, Motion motion, double frequency)
+Complex flexibility(const HalfPlane& plane, StripMotion motion, double frequency)
 {
     const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> rule(
         gsl_integration_glfixed_table_alloc(points), &gsl_integration_glfixed_table_free);
@@ -72,7 +72,7 @@ Complex flexibility(const HalfPlane& plane, Motion motion, double frequency)
     }
     // beyond, sin² and cos² by their mean: ŵ² = 1/(2 z²) or 9 k²/(2 z⁴), û = (1 - ν)/(G k)
     const double z = end * b, limit = (1.0 - plane.poisson_ratio) / plane.shear_modulus;
-    sum += motion == Motion::rocking ? 9.0 * limit / (4.0 * z * z * b * b) : limit / (4.0 * z * z);
+    sum += motion == StripMotion::rocking ? 9.0 * limit / (4.0 * z * z * b * b) : limit / (4.0 * z * z);
     return sum / pi; // both signs of k
 }
 
@@ -89,15 +89,15 @@ double HalfPlane::compression_speed() const
 
 Complex HalfPlane::horizontal(double frequency) const
 {
-    return flexibility(*this, Motion::horizontal, frequency);
+    return flexibility(*this, StripMotion::horizontal, frequency);
 }
 Complex HalfPlane::vertical(double frequency) const
 {
-    return flexibility(*this, Motion::vertical, frequency);
+    return flexibility(*this, StripMotion::vertical, frequency);
 }
 Complex HalfPlane::rocking(double frequency) const
 {
-    return flexibility(*this, Motion::rocking, frequency);
+    return flexibility(*this, StripMotion::rocking, frequency);
 }
 
 } // namespace damslip::exact
