@@ -46,7 +46,8 @@ endfunction()
 # The examples with the records they name (../records/data), and the documents.
 function(damslip_install_shared_files)
   set(data ${CMAKE_INSTALL_DATADIR}/damslip)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data} COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data} COMPONENT runtime
+          PATTERN "*_seeds" EXCLUDE PATTERN ".damslip-index.csv" EXCLUDE)   # records made of seeds
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/records/data DESTINATION ${data}/records COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)

@@ -28,4 +28,14 @@ TargetSpectrum read_target_spectrum(const std::filesystem::path& path)
     return parse_target_spectrum(read_file(path), path.string());
 }
 
+std::optional<TargetSpectrum> find_target_spectrum(std::string_view word, const std::filesystem::path& file,
+                                                   GroundType ground, MotionComponent component)
+{
+    if (word == "rock") return rock_spectrum();
+    if (word == "ec8-1") return eurocode8_spectrum(Eurocode8Type::type_1, ground, component);
+    if (word == "ec8-2") return eurocode8_spectrum(Eurocode8Type::type_2, ground, component);
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    return read_target_spectrum(file);
+}
+
 } // namespace damslip::records

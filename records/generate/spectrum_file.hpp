@@ -3,6 +3,7 @@
 #include "records/generate/target_spectrum.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace damslip::records {
@@ -12,5 +13,10 @@ namespace damslip::records {
 /// @throws InputError for anything else than two columns of numbers, and as table_spectrum does
 TargetSpectrum read_target_spectrum(const std::filesystem::path& path);
 TargetSpectrum parse_target_spectrum(std::string_view content, std::string_view file_name);
+
+/// The spectrum that a word names: rock, ec8-1, ec8-2, or the user's of `file`. @param ground, component  of ec8
+/// @returns nothing where the word is none of these and the file is not there @throws InputError as read_target_spectrum()
+std::optional<TargetSpectrum> find_target_spectrum(std::string_view word, const std::filesystem::path& file,
+                                                   GroundType ground, MotionComponent component);
 
 } // namespace damslip::records

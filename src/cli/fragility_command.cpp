@@ -211,6 +211,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     check_fragility(input, text);
     if (!a.slurm_array.empty()) return write_slurm(a, streams);
     const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
+    if (!study.suite.made.empty() && !streams.quiet) streams.talk << study.suite.made << "\n";
     if (a.multi_fidelity == "mfmc" && !study.finite_elements())
         refuse_usage(fmt::format("--multi-fidelity mfmc with --method {}.", study.method.id),
                      "finite elements: they are what cheaper models help", "add  --method fe");

@@ -199,14 +199,12 @@ records::TargetSpectrum generate_target(const RecordGenerateArguments& arguments
     const auto ground = choice<GroundType>(
         "--ground", arguments.ground,
         {{"A", GroundType::A}, {"B", GroundType::B}, {"C", GroundType::C}, {"D", GroundType::D}, {"E", GroundType::E}});
-    if (arguments.target == "rock") return rock_spectrum();
-    if (arguments.target == "ec8-1") return eurocode8_spectrum(Eurocode8Type::type_1, ground, component);
-    if (arguments.target == "ec8-2") return eurocode8_spectrum(Eurocode8Type::type_2, ground, component);
-    if (!std::filesystem::exists(arguments.target))
+    const auto target = find_target_spectrum(arguments.target, arguments.target, ground, component);
+    if (!target)
         refuse_usage(fmt::format("--target {} is not known.", arguments.target),
                      "rock, ec8-1, ec8-2, or a CSV file of period [s] and spectral acceleration",
                      "write  --target rock");
-    return read_target_spectrum(arguments.target);
+    return *target;
 }
 
 records::GeneratedRecord generate(const RecordGenerateArguments& arguments)

@@ -8,9 +8,11 @@
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "records/measure/response_spectrum.hpp"
+#include "records/suite/suite_index.hpp"
 #include "records/transform/transform.hpp"
 #include "records/write/write_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -58,19 +60,21 @@ struct MeasuredSuite {
     RecordList list;
     std::vector<Record> horizontal;
     std::vector<SuiteRow> rows;
+    records::SuiteIndex index; ///< keeps what is measured
 };
 
 MeasuredSuite measured(const std::string& pattern)
 {
-    MeasuredSuite suite{record_list(pattern), {}, {}};
+    MeasuredSuite suite{record_list(pattern), {}, {}, records::SuiteIndex({})};
     if (suite.list.records.empty())
         refuse(pattern, "there is no record here.",
                "a folder, a pattern such as 'suite/*.AT2', or a CSV with horizontal", "correct the pattern");
+    suite.index = records::SuiteIndex(suite.list.records.front().horizontal.parent_path());
     for (std::size_t i = 0; i < suite.list.records.size(); ++i) {
         const RecordFiles& files = suite.list.records[i];
         Record record = records::read_record(files.horizontal, {files.unit, files.dt, {}, files.column});
         if (files.scale != 1.0) record = records::scaled(std::move(record), files.scale);
-        suite.rows.push_back({files.name, suite.list.events[i], records::measure(record)});
+        suite.rows.push_back({files.name, suite.list.events[i], suite.index.measures(record)});
         if (!(suite.rows.back().measures.pga > 0.0))
             refuse(files.horizontal, "this record does not shake.", "samples other than 0", "leave it out");
         suite.horizontal.push_back(std::move(record));
@@ -91,7 +95,7 @@ std::string listed_path(const std::filesystem::path& file, const std::filesystem
 /// One line of the list that is written.
 struct SuiteLine {
     std::filesystem::path horizontal;
-    std::optional<std::filesystem::path> vertical;
+    std::optional<std::filesystem::path> vertical, other_horizontal;
     std::string event;
     double weight = 1.0, scale = 1.0;
 };
@@ -101,10 +105,15 @@ std::string list_text(const std::vector<SuiteLine>& lines, const std::filesystem
 {
     std::string text;
     for (const std::string& comment : comments) text += "# " + comment + "\n";
-    text += "horizontal,vertical,event,weight,scale\n";
+    const bool others =
+        std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) { return line.other_horizontal; });
+    const auto path = [&out](const std::optional<std::filesystem::path>& file) {
+        return file ? listed_path(*file, out) : std::string();
+    };
+    text += fmt::format("horizontal,vertical,{}event,weight,scale\n", others ? "other_horizontal," : "");
     for (const SuiteLine& line : lines)
-        text += fmt::format("{},{},{},{},{}\n", listed_path(line.horizontal, out),
-                            line.vertical ? listed_path(*line.vertical, out) : "", line.event, shortest(line.weight),
+        text += fmt::format("{},{},{}{},{},{}\n", listed_path(line.horizontal, out), path(line.vertical),
+                            others ? path(line.other_horizontal) + "," : "", line.event, shortest(line.weight),
                             shortest(line.scale));
     return text;
 }
@@ -116,7 +125,7 @@ struct FittedSuite {
     records::SuiteSelection selection;
 };
 
-FittedSuite fitted(const RecordSuiteArguments& a, const MeasuredSuite& suite, const records::TargetSpectrum* target)
+FittedSuite fitted(const RecordSuiteArguments& a, MeasuredSuite& suite, const records::TargetSpectrum* target)
 {
     constexpr int periods = 60;
     FittedSuite fit;
@@ -132,13 +141,10 @@ FittedSuite fitted(const RecordSuiteArguments& a, const MeasuredSuite& suite, co
     std::vector<records::SuiteCandidate> candidates;
     for (std::size_t i = 0; i < suite.rows.size(); ++i) {
         std::vector<double> spectrum;
-        if (target) {
-            const Record& r = suite.horizontal[i];
-            for (const auto& point : records::response_spectrum(r.acceleration, r.dt, fit.periods, 0.05).points)
-                spectrum.push_back(point.pseudo_acceleration);
-        } else {
+        if (target)
+            spectrum = suite.index.spectrum(suite.horizontal[i], fit.periods);
+        else
             spectrum.push_back(suite.rows[i].measures.pga);
-        }
         std::vector<double> logarithms;
         for (const double value : spectrum) logarithms.push_back(std::log(value));
         candidates.push_back({suite.rows[i].event, std::move(logarithms)});
@@ -194,7 +200,8 @@ bool match_lines(const RecordSuiteArguments& a, const MeasuredSuite& suite, cons
             chosen.factor * row.measures.pgv, after.pgv, file.string(),
             lines[i].vertical ? "; its vertical component is scaled by the same factor and not matched" : ""));
         lines[i].horizontal = file;
-        if (lines[i].vertical) { // a factor of the list is on both components
+        lines[i].other_horizontal.reset(); // not matched
+        if (lines[i].vertical) {           // a factor of the list is on both components
             const RecordFiles& files = suite.list.records[chosen.record];
             const Record up =
                 records::read_record(*lines[i].vertical, {files.unit, files.dt, {}, files.vertical_column});
@@ -219,15 +226,16 @@ int record_suite(const RecordSuiteArguments& a, const Streams& streams)
         words.ground = a.ground;
         target = generate_target(words);
     }
-    const MeasuredSuite suite = measured(a.patterns.front());
+    MeasuredSuite suite = measured(a.patterns.front());
+    if (!suite.list.made.empty() && !streams.quiet) streams.talk << suite.list.made << "\n";
     std::vector<Table> tables{suite_index_table(suite.rows)};
     std::vector<std::string> names{"records"}, notes = suite.list.notes, comments{"damslip record suite"};
     std::vector<SuiteLine> lines;
     bool good = true;
     const auto line_of = [&](std::size_t i, double factor) {
         const RecordFiles& files = suite.list.records[i];
-        return SuiteLine{files.horizontal, files.vertical, suite.list.events[i], suite.list.weights[i],
-                         files.scale * factor};
+        return SuiteLine{files.horizontal,     files.vertical,        files.other_horizontal,
+                         suite.list.events[i], suite.list.weights[i], files.scale * factor};
     };
     if (a.pga) {
         const FittedSuite fit = fitted(a, suite, target ? &*target : nullptr);
@@ -244,6 +252,7 @@ int record_suite(const RecordSuiteArguments& a, const Streams& streams)
     } else {
         for (std::size_t i = 0; i < suite.rows.size(); ++i) lines.push_back(line_of(i, 1.0));
     }
+    suite.index.keep();
     if (!a.out.empty()) {
         comments.insert(comments.end(), notes.begin(), notes.end());
         write_file(a.out, list_text(lines, a.out, comments));

@@ -20,7 +20,7 @@ enum class IntensityMeasure {
 /// Which horizontal motion is measured.
 enum class IntensityComponent {
     as_used, ///< the component that shakes the dam
-    geomean  ///< square root of the product of both horizontals; of a record of one component that one
+    geomean  ///< square root of the product of that of both horizontals; of a record of one component that one
 };
 
 /// A measure with its periods, as people write it: PGA, PGV, SA(0.3), SA(T1), avgSA(0.1,0.2,0.5), IA, CAV.

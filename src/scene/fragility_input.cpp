@@ -394,7 +394,8 @@ private:
             wrong(*table->get("measure"), fmt::format("intensity.measure = \"{}\" is not allowed.", in.text),
                   std::string(known_intensities), "write  measure = \"PGA\"");
         }
-        choice<IntensityComponent>(*table, "intensity", "component", {{"as-used", IntensityComponent::as_used}},
+        choice<IntensityComponent>(*table, "intensity", "component",
+                                   {{"as-used", IntensityComponent::as_used}, {"geomean", IntensityComponent::geomean}},
                                    in.component);
         choice<FragilityDesign>(
             *table, "intensity", "design",

@@ -99,7 +99,10 @@ FragilityKeyTable intensity_table()
         Presence::optional,
         "How strong the shaking is. `fragility` needs it, with one list of levels.",
         {text_key("measure", Value::text, "PGA", std::string(known_intensities), "\"SA(T1)\""),
-         word_key("component", {"as-used"}, "as-used: of the component that shakes the dam"),
+         word_key(
+             "component", {"as-used", "geomean"},
+             "as-used: of the component that shakes the dam; geomean: geometric mean of both horizontal ones, as most "
+             "hazard curves define it"),
          word_key(
              "design", {"stripes", "ida", "cloud"},
              "stripes: draws of their own at each level; ida: the same at all levels; cloud: records as they are")}};
@@ -138,11 +141,11 @@ std::vector<FragilityKeyTable> make_tables()
         {"suite",
          Presence::optional,
          "The records of a fragility; without it those of [motion].",
-         {text_key(
-              "files", Value::text, "those of [motion]",
-              "folder, pattern, or CSV with horizontal, vertical, event, weight, magnitude, scale; from the folder "
-              "of the scene",
-              "\"suite/*.AT2\""),
+         {text_key("files", Value::text, "those of [motion]",
+                   "folder, pattern, CSV with horizontal, vertical, other_horizontal, event, weight, magnitude, scale, "
+                   "or CSV "
+                   "of seeds with name, seed, pga_m_s2, target, whose records are made; from the folder of the scene",
+                   "\"suite/*.AT2\""),
           word_key("draw", {"balanced", "with-replacement"},
                    "balanced: each record as often as its weight says; with-replacement: by chance"),
           word_key("polarity", {"both", "as-recorded", "reversed"}, "of the horizontal component"),

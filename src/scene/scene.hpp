@@ -199,6 +199,8 @@ struct RecordFiles {
     std::string name;
     std::filesystem::path horizontal; ///< resolved against the scene's folder
     std::optional<std::filesystem::path> vertical;
+    std::optional<std::filesystem::path>
+        other_horizontal;     ///< of the same station: measured with it, does not shake the dam
     std::string unit;         ///< of files that do not say: "g", "m/s2", "cm/s2", "gal"; empty: the file says
     std::optional<double> dt; ///< of one-column files [s]
     std::string column; ///< of `horizontal` where it holds several: heading, or number from 1; empty: the only one

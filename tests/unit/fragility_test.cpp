@@ -229,5 +229,37 @@ TEST(Fragility, SuiteOfAList)
     }
 }
 
+// The geometric mean of both horizontal components, with the scene's factor on both; of a record that has no other the measure of the one.
+TEST(Fragility, IntensityOfBothComponents)
+{
+    const SceneText text = pulse::scene("[motion]\nscale = 0.5\n");
+    const auto pulse_of = [](double accel) {
+        return fmt::format("# units: m/s2\nt,a\n0,0\n0.01,{}\n0.02,{}\n0.03,0\n0.04,0\n", accel, -accel / 3);
+    };
+    write_file(pulse::folder() / "one.csv", pulse_of(4.0));
+    write_file(pulse::folder() / "two.csv", pulse_of(1.0));
+    FragilityInput input = pulse_input(0.2);
+    input.suite = SuiteInput{};
+    input.suite->files = (pulse::folder() / "both.csv").string();
+    write_file(input.suite->files, "horizontal,other_horizontal,event\none.csv,two.csv,a\ntwo.csv,,b\n");
+    EXPECT_EQ(suite_of_input(text.scene(), input).intensity, (std::vector<double>{2.0, 0.5}));
+    input.intensity.component = IntensityComponent::geomean;
+    const ShakingSuite suite = suite_of_input(text.scene(), input);
+    EXPECT_DOUBLE_EQ(suite.intensity[0], 1.0); // sqrt(2 * 0.5)
+    EXPECT_DOUBLE_EQ(suite.intensity[1], 0.5);
+    ASSERT_EQ(suite.notes.size(), 1u);
+    EXPECT_NE(suite.notes[0].find("of 1 of 2 records"), std::string::npos) << suite.notes[0];
+
+    input.intensity.measure = IntensityMeasure::arias; // grows with the square of the factor, of each component
+    const double both = suite_of_input(text.scene(), input).intensity[0];
+    input.intensity.component = IntensityComponent::as_used;
+    const double one = suite_of_input(text.scene(), input).intensity[0];
+    EXPECT_NEAR(both, one / 4.0,
+                1e-12 * one); // the other has a quarter of its samples: a sixteenth of its Arias intensity
+
+    EXPECT_EQ(suite_of_input(text.scene(), input).intensity[0], one); // of the index
+    EXPECT_TRUE(std::filesystem::exists(pulse::folder() / ".damslip-index.csv"));
+}
+
 } // namespace
 } // namespace damslip

@@ -64,11 +64,18 @@ TEST_F(RecordFolder, components_of_a_station_are_one_event_with_one_vertical)
     const RecordList list = record_list(folder.string());
     ASSERT_EQ(list.records.size(), 4u);
     const struct {
-        const char *name, *vertical, *event;
-    } rows[] = {{"a_h", "a_v.csv", "a"}, {"alone", "", "alone"}, {"b000", "b-up.csv", "b"}, {"b090", "b-up.csv", "b"}};
+        const char *name, *vertical, *event, *other;
+    } rows[] = {{"a_h", "a_v.csv", "a", ""},
+                {"alone", "", "alone", ""},
+                {"b000", "b-up.csv", "b", "b090.csv"},
+                {"b090", "b-up.csv", "b", "b000.csv"}};
+    const auto name_of = [](const std::optional<std::filesystem::path>& file) {
+        return file ? file->filename().string() : std::string();
+    };
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(list.records[i].name, rows[i].name);
-        EXPECT_EQ(list.records[i].vertical ? list.records[i].vertical->filename().string() : "", rows[i].vertical);
+        EXPECT_EQ(name_of(list.records[i].vertical), rows[i].vertical);
+        EXPECT_EQ(name_of(list.records[i].other_horizontal), rows[i].other);
         EXPECT_EQ(list.events[i], rows[i].event);
     }
     ASSERT_EQ(list.notes.size(), 1u); // c_up.csv has no horizontal component
@@ -87,10 +94,32 @@ TEST_F(RecordFolder, a_list_says_it_all)
     EXPECT_EQ(list.weights, (std::vector<double>{2.0, 1.0}));
     EXPECT_EQ(list.records[0].scale, 1.5);
     EXPECT_FALSE(list.records[0].vertical);
+    write("pairs.csv", "horizontal,other_horizontal\nb000.csv,b090.csv\na_h.csv,\n");
+    const RecordList pairs = record_list((folder / "pairs.csv").string());
+    EXPECT_EQ(pairs.records[0].other_horizontal, folder / "b090.csv");
+    EXPECT_FALSE(pairs.records[1].other_horizontal);
     write("bad.csv", "horizontal,weigth\na_h.csv,1\n");
     EXPECT_THROW(record_list((folder / "bad.csv").string()), InputError);
     write("gone.csv", "horizontal\nnowhere.csv\n");
     EXPECT_THROW(record_list((folder / "gone.csv").string()), InputError);
+}
+
+TEST_F(RecordFolder, a_list_of_seeds_is_made_first)
+{
+    write("seeds.csv", "name,seed,pga_m_s2,duration_s,event,weight,vertical\nx,1,2,5,quake,3,no\n");
+    RecordList list = record_list((folder / "seeds.csv").string());
+    ASSERT_EQ(list.records.size(), 1u);
+    EXPECT_EQ(list.records[0].name, "x");
+    EXPECT_EQ(list.records[0].horizontal, folder / "seeds" / "x_h.csv");
+    EXPECT_EQ(list.events, std::vector<std::string>{"quake"});
+    EXPECT_EQ(list.weights, std::vector<double>{3.0});
+    EXPECT_NE(list.made.find("1 of 1"), std::string::npos) << list.made;
+    EXPECT_TRUE(record_list((folder / "seeds.csv").string()).made.empty());
+    const std::filesystem::path index = folder / "seeds" / ".damslip-index.csv";
+    const ProgramAnswer first = answer_of({"record", "suite", (folder / "seeds.csv").string()});
+    ASSERT_EQ(first.code, 0) << first.talk;
+    EXPECT_TRUE(std::filesystem::exists(index));
+    EXPECT_EQ(answer_of({"record", "suite", (folder / "seeds.csv").string()}).out, first.out);
 }
 
 TEST_F(RecordFolder, records_of_the_command_line_take_the_scenes_place)

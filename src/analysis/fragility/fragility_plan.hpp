@@ -14,6 +14,8 @@ struct ShakingSuite {
     std::vector<std::string> event; ///< the earthquake a record is of: records of one event are no independent samples
     std::vector<double> weight;     ///< > 0, of any sum
     std::vector<double> intensity;  ///< of the motion as the scene scales it; SI, > 0
+    std::vector<std::string> notes; ///< what was left out, and what is measured
+    std::string made;               ///< records that were made of their seeds for this run, and where; empty: none
     double power = 1.0;             ///< the intensity grows with this power of a factor on the record: 2 of I_A, else 1
 };
 

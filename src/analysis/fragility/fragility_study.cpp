@@ -219,7 +219,9 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
     answer.estimate = estimate_fragility(plan, runs, study.hazard ? &*study.hazard : nullptr,
                                          input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
     answer.conditioned = conditioned;
-    if (conditioned) answer.notes = conditioned->notes;
+    answer.notes = study.suite.notes;
+    if (conditioned)
+        answer.notes.insert(answer.notes.end(), conditioned->notes.begin(), conditioned->notes.end());
     if (runs.complete()) {
         capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);
         const bool cloud = input.intensity.design == FragilityDesign::cloud;

@@ -1,15 +1,16 @@
 #include "analysis/prepare/record_list.hpp"
 
+#include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
+#include "records/generate/seed_list.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
 #include <glob.h>
 #include <map>
-#include <sstream>
 
 namespace damslip {
 
@@ -32,6 +33,8 @@ Kind kind_of(const std::string& word)
         if (word == horizontal) return Kind::horizontal;
     return Kind::none;
 }
+
+constexpr const char* columns_of_a_list = "horizontal, vertical, other_horizontal, event, weight, magnitude, scale";
 
 bool is_digit(char c)
 {
@@ -99,6 +102,8 @@ RecordList paired(const std::vector<std::filesystem::path>& files)
             });
             if (taken > 0) record.name += fmt::format(" ({})", taken + 1);
             if (station.vertical.size() == 1) record.vertical = station.vertical.front();
+            if (station.horizontal.size() == 2)
+                record.other_horizontal = station.horizontal[&file == &station.horizontal.front() ? 1 : 0];
             list.records.push_back(std::move(record));
             list.events.push_back(names[key]);
             list.weights.push_back(1.0);
@@ -110,6 +115,24 @@ RecordList paired(const std::vector<std::filesystem::path>& files)
                                                                             : "and not the only one of its station"));
     }
     return list;
+}
+
+RecordList records_of_a_seed_list(const std::filesystem::path& list)
+{
+    RecordList files;
+    const records::SeededSuite suite = records::records_of_seeds(list);
+    for (const records::SeededPair& pair : suite.pairs) {
+        RecordFiles record = record_of(pair.horizontal);
+        record.name = pair.name;
+        record.vertical = pair.vertical;
+        files.records.push_back(std::move(record));
+        files.events.push_back(pair.event);
+        files.weights.push_back(pair.weight);
+    }
+    if (suite.made > 0)
+        files.made = fmt::format("{}: {} of {} artificial records were made of their seeds, in {}", list.string(),
+                                 suite.made, suite.pairs.size(), suite.folder.string());
+    return files;
 }
 
 RecordList records_of_pattern(const std::string& pattern, bool folder)
@@ -125,42 +148,22 @@ RecordList records_of_pattern(const std::string& pattern, bool folder)
     return paired(files);
 }
 
-std::vector<std::string> cells_of(const std::string& line)
+RecordList records_of_list(const std::filesystem::path& list, const std::string& text)
 {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) {
-        const std::size_t first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
-        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    return cells;
-}
-
-RecordList records_of_list(const std::filesystem::path& list)
-{
-    static const std::vector<std::string> known = {"horizontal", "vertical", "event", "weight", "magnitude", "scale"};
+    static const std::vector<std::string> known = {"horizontal", "vertical", "other_horizontal", "event", "weight",
+                                                   "magnitude",  "scale"};
     const auto refused = [&](int line, const std::string& problem, const std::string& expected) {
         return InputError(Diagnostic{list.string(), line, 0, problem, expected, "correct this line"});
     };
     RecordList files;
-    std::vector<std::string> columns;
-    std::istringstream in(read_file(list));
-    int number = 0;
-    for (std::string line; std::getline(in, line);) {
-        ++number;
-        const std::vector<std::string> cells = cells_of(line);
-        if (cells.empty() || line.starts_with("#")) continue;
-        if (columns.empty()) {
-            columns = cells;
-            for (const std::string& column : columns)
-                if (std::find(known.begin(), known.end(), column) == known.end())
-                    throw refused(number, fmt::format("unknown column \"{}\".", column),
-                                  "horizontal, vertical, event, weight, magnitude, scale");
-            if (std::find(columns.begin(), columns.end(), "horizontal") == columns.end())
-                throw refused(number, "there is no column horizontal.",
-                              "horizontal, vertical, event, weight, magnitude, scale");
-            continue;
-        }
+    const CsvTable table = parse_csv(text);
+    const std::vector<std::string>& columns = table.heading.cells;
+    for (const std::string& column : columns)
+        if (std::find(known.begin(), known.end(), column) == known.end())
+            throw refused(table.heading.number, fmt::format("unknown column \"{}\".", column), columns_of_a_list);
+    if (std::find(columns.begin(), columns.end(), "horizontal") == columns.end())
+        throw refused(table.heading.number, "there is no column horizontal.", columns_of_a_list);
+    for (const auto& [number, cells] : table.rows) {
         RecordFiles record;
         std::string event;
         double weight = 1.0;
@@ -168,12 +171,14 @@ RecordList records_of_list(const std::filesystem::path& list)
             const std::string& cell = cells[k];
             if (cell.empty()) continue;
             const std::filesystem::path file = list.parent_path() / cell;
-            if (columns[k] == "horizontal" || columns[k] == "vertical") {
+            if (columns[k] == "horizontal" || columns[k] == "vertical" || columns[k] == "other_horizontal") {
                 if (!std::filesystem::exists(file))
                     throw refused(number, fmt::format("{} is not there.", file.string()),
                                   "a record, from the folder of this list");
                 if (columns[k] == "vertical")
                     record.vertical = file;
+                else if (columns[k] == "other_horizontal")
+                    record.other_horizontal = file;
                 else {
                     record.horizontal = file;
                     record.name = file.stem().string();
@@ -223,9 +228,12 @@ RecordList record_list(const std::string& pattern)
 {
     const std::filesystem::path path = pattern;
     if (std::filesystem::is_directory(path)) return records_of_pattern((path / "*").string(), true);
-    const bool is_list = path.extension() == ".csv" && std::filesystem::is_regular_file(path) &&
-                         read_file(path).find("horizontal") != std::string::npos;
-    return is_list ? records_of_list(path) : records_of_pattern(pattern, false);
+    if (path.extension() == ".csv" && std::filesystem::is_regular_file(path)) {
+        const std::string text = read_file(path);
+        if (records::is_seed_list(text)) return records_of_a_seed_list(path);
+        if (text.find("horizontal") != std::string::npos) return records_of_list(path, text);
+    }
+    return records_of_pattern(pattern, false);
 }
 
 } // namespace damslip

@@ -25,10 +25,12 @@ struct RecordList {
     std::vector<std::string> events; ///< of each record: what its horizontal components share
     std::vector<double> weights;     ///< of each record
     std::vector<std::string> notes;  ///< verticals without a horizontal one, which are left out
+    std::string made;                ///< of a list of seeds whose records were not there: what was made, and where
 };
 
 /// @param pattern  a folder; a pattern such as "suite/*.AT2"; or a CSV with the column horizontal and, as far as they are wanted,
-/// vertical, event, weight, magnitude, scale, paths in it from its folder. Without records where nothing fits. In a folder, files whose
+/// vertical, other_horizontal, event, weight, magnitude, scale, paths in it from its folder; or a list of seeds (records/generate/seed_list.hpp),
+/// whose records are made when they are not there yet. Without records where nothing fits. In a folder, files whose
 /// extension is that of a page, picture, scene or list are passed over.
 /// @throws InputError for a CSV with other columns, missing files or numbers that are none; with file and line
 RecordList record_list(const std::string& pattern);

@@ -69,6 +69,7 @@ void put_record_list(const RunInputs& inputs, Scene& scene, std::vector<Diagnost
         refuse_usage(fmt::format("--records {}: there is no record.", inputs.record_list),
                      "a folder, a pattern in quotes, or a CSV with the column horizontal",
                      "for example  --records 'suite/*.AT2'");
+    if (!list.made.empty()) notes.push_back({"", 0, 0, list.made, "", ""});
     for (const std::string& note : list.notes) notes.push_back({"", 0, 0, note, "", ""});
     scene.motion.records = std::move(list.records);
     scene.motion.sequence.clear();
