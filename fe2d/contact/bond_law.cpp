@@ -14,9 +14,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// κ of a pair that has just reached its strength: 999 times the stiffness of a bond half broken. The law's limit κ -> 0 is
-/// rigid; this much gives way by a thousandth of w and costs a thousandth of the fracture work.
-constexpr double smallest_damage = 1e-3;
 constexpr double damage_tolerance = 1e-9; ///< |κ - ε| of a solution [-]
 constexpr double step_damage_tolerance =
     1e-7; ///< the same within a step in time: of its strength a pair is off by this share
@@ -62,7 +59,8 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
     return b;
 }
 
-BondLaw::BondLaw(std::vector<BondStrength> pairs) : strength_(std::move(pairs))
+BondLaw::BondLaw(std::vector<BondStrength> pairs, double first_damage)
+    : strength_(std::move(pairs)), smallest_damage_(first_damage)
 {
     const auto m = static_cast<Index>(strength_.size());
     damage_ = reference_ = path_ = start_damage_ = slip_ = VectorXd::Zero(m);
@@ -85,7 +83,7 @@ bool BondLaw::plastic(Index pair) const
 double BondLaw::initial_stiffness(Index pair) const
 {
     const BondStrength& b = strength_[static_cast<std::size_t>(pair)];
-    return softness(smallest_damage) * b.shear / b.slip;
+    return softness(smallest_damage_) * b.shear / b.slip;
 }
 
 /// Slip from where the bond of plastic unloading carries no shear [m].
@@ -195,11 +193,11 @@ JointFit BondLaw::revise_pair(Index pair, const ContactSolution& solution)
     const double now = damage_[pair];
     if (now == 0.0) {
         if (first_damage(pair, solution) <= 1.0 + 1e-10) return JointFit::fits;
-        damage_[pair] = smallest_damage;
+        damage_[pair] = smallest_damage_;
         return JointFit::changed;
     }
     if (revise_yield(pair, solution)) return JointFit::changed;
-    const double least = std::max(start_damage_[pair], smallest_damage);
+    const double least = std::max(start_damage_[pair], smallest_damage_);
     const double strain_now = strain(pair, solution).size();
     double wanted = std::clamp(strain_now, least, 1.0);
     if (solutions_ > free_solutions) wanted = std::max(wanted, now);
@@ -224,7 +222,7 @@ JointFit BondLaw::revise(const ContactSolution& solution)
     if (solutions_ > free_solutions)
         for (Index i = 0; i < damage_.size(); ++i)
             if (damage_[i] >
-                std::max({strain(i, solution).size(), start_damage_[i], smallest_damage}) + largest_overshoot)
+                std::max({strain(i, solution).size(), start_damage_[i], smallest_damage_}) + largest_overshoot)
                 return JointFit::too_far;
     return static_ || unique(solution) ? fit : JointFit::too_far;
 }
@@ -331,7 +329,7 @@ VectorXd BondLaw::excess(const ContactSolution& solution) const
 void BondLaw::damage_more(Index pair, double share)
 {
     double& damage = damage_[pair];
-    damage = damage == 0.0 ? smallest_damage : std::min(1.0, (1.0 + share) * damage);
+    damage = damage == 0.0 ? smallest_damage_ : std::min(1.0, (1.0 + share) * damage);
 }
 
 std::unique_ptr<BondLaw> BondLaw::released() const

@@ -42,7 +42,10 @@ BondStrength bond_strength(double area, double friction, double cohesion, const 
 /// definite on the pairs that break: there it may have more than one answer. V grows as 1/Δt².
 class BondLaw final : public JointLaw {
 public:
-    explicit BondLaw(std::vector<BondStrength> pairs);
+    /// @param first_damage  κ₀ of a pair that has just reached its strength: it gives way by κ₀ w before it softens, with
+    /// (1 - κ₀)/κ₀ times the stiffness of a bond half broken. The law's limit κ₀ -> 0 is rigid; loads and energies are off
+    /// by a share of about κ₀.
+    explicit BondLaw(std::vector<BondStrength> pairs, double first_damage = 1e-3);
 
     std::unique_ptr<JointLaw> clone() const override { return std::make_unique<BondLaw>(*this); }
     void begin(const JointStart& start) override;
@@ -87,6 +90,7 @@ private:
     bool plastic(Eigen::Index pair) const;
 
     std::vector<BondStrength> strength_;
+    double smallest_damage_;    ///< κ₀
     Eigen::VectorXd damage_;    ///< κ
     Eigen::VectorXd reference_; ///< slip without shear in the bond: moves where it unloads plastically [m]
     Eigen::VectorXd path_;      ///< plastic slip so far, its way [m]

@@ -10,12 +10,12 @@
 
 namespace damslip::records {
 
-/// Measures and spectra of a suite's records, worked out once and kept in `.damslip-index.csv` beside them: a line for each motion, found again by
+/// Measures and spectra of a suite's records, worked out once and kept in a file `.damslip-index.csv`: a line for each motion, found again by
 /// the SHA-256 of its samples and its step, so that a record that changed is measured anew. Numbers are written so that they read back as the same
 /// double: it changes times, no results.
 class SuiteIndex {
 public:
-    /// @param folder  of the records; what is no index there is passed over and written anew. Empty: nothing is kept
+    /// @param folder  of the suite; what is no index there is passed over and written anew. Empty: nothing is kept
     explicit SuiteIndex(const std::filesystem::path& folder);
 
     /// As records::measure().

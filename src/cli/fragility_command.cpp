@@ -88,13 +88,11 @@ std::size_t parts_in(const std::filesystem::path& folder)
 }
 
 /// The rows of all parts.
-FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan& plan, const SweepIdentity& identity)
+FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan& plan, const SweepIdentity& identity,
+                          Yields yields)
 {
     const std::size_t n = parts_in(out);
-    FragilityRuns runs;
-    runs.rows.resize(plan.samples.size());
-    runs.yield.assign(plan.draws.size(), std::nan(""));
-    runs.wanted = plan.samples.size();
+    FragilityRuns runs = no_runs(plan, plan.samples.size(), yields);
     for (std::size_t i = 0; i < n; ++i) {
         const Shard shard{i, n};
         const std::filesystem::path file = journal_file(out, shard);
@@ -102,11 +100,7 @@ FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan&
             refuse(file, "this part is missing.", fmt::format("the journals of all {} parts", n),
                    fmt::format("run  --shard {}/{}", i, n));
         const Journal journal(file, identity, shard, JournalStart::resume);
-        for (FinishedRow& row : journal.finished_rows(0, plan.samples.size())) {
-            const std::size_t id = row.id;
-            runs.rows[id] = std::move(row);
-            ++runs.found;
-        }
+        take_finished(journal, 0, plan.samples.size(), runs);
     }
     if (!runs.complete())
         refuse(out, fmt::format("{} of {} runs are finished.", runs.finished(), runs.wanted), "all runs of all parts",
@@ -114,11 +108,23 @@ FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan&
     return runs;
 }
 
+/// Some thousand rows at a time.
+void write_samples(const std::filesystem::path& file, const FragilityView& view,
+                   const std::vector<std::string>& comments)
+{
+    constexpr std::size_t at_once = 4096;
+    FileWriter writer(file);
+    writer.write(csv(sample_table(view, 0, at_once), comments));
+    for (std::size_t first = at_once; first < view.plan.samples.size(); first += at_once)
+        writer.write(csv_rows(sample_table(view, first, first + at_once)));
+    writer.finish();
+}
+
 void write_files(const std::filesystem::path& out, const FragilityView& view, const SweepIdentity& identity)
 {
     const std::vector<std::string> comments = {"damslip " + identity.version + " fragility", "scene " + identity.scene,
                                                "runs " + hash_of(identity)};
-    write_file(out / "samples.csv", csv(sample_table(view), comments));
+    write_samples(out / "samples.csv", view, comments);
     write_file(out / "fragility.csv", csv(fragility_table(view), comments));
     if (const Table rates = rate_part_table(view); !rates.rows.empty())
         write_file(out / "hazard.csv", csv(rates, comments));
@@ -226,7 +232,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     const FragilityPlan plan = conditioned ? conditioned->plan : study.plan(samples);
     const SweepIdentity identity = fragility_identity(plan, text, study.method.id);
     if (a.merge) {
-        const FragilityRuns runs = merged_runs(a.out, plan, identity);
+        const FragilityRuns runs = merged_runs(a.out, plan, identity, study.yields());
         const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
         name_report(a.out, streams);
         return code;
@@ -237,7 +243,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
         journal.emplace(journal_file(a.out, shard), identity, shard,
                         a.resume ? JournalStart::resume : JournalStart::fresh);
     const FragilityRuns runs = run_fragility(plan, text, study.method, wanted_samples(plan, shard),
-                                             journal ? &*journal : nullptr, a.jobs, watch);
+                                             journal ? &*journal : nullptr, a.jobs, watch, study.yields());
     if (!streams.quiet && runs.found) streams.talk << fmt::format("{} runs were finished before\n", runs.found);
     if (!runs.complete()) {
         streams.talk << fmt::format("interrupted: {} of {} runs are finished{}\n", runs.finished(), runs.wanted,

@@ -69,7 +69,7 @@ MeasuredSuite measured(const std::string& pattern)
     if (suite.list.records.empty())
         refuse(pattern, "there is no record here.",
                "a folder, a pattern such as 'suite/*.AT2', or a CSV with horizontal", "correct the pattern");
-    suite.index = records::SuiteIndex(suite.list.records.front().horizontal.parent_path());
+    suite.index = records::SuiteIndex(suite.list.folder);
     for (std::size_t i = 0; i < suite.list.records.size(); ++i) {
         const RecordFiles& files = suite.list.records[i];
         Record record = records::read_record(files.horizontal, {files.unit, files.dt, {}, files.column});

@@ -1,6 +1,7 @@
 #include "core/file.hpp"
 
 #include "core/input_error.hpp"
+#include "core/sha256.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <openssl/evp.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -225,12 +225,9 @@ std::string file_word(std::string_view name)
 
 std::string sha256(std::string_view bytes)
 {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int length = 0;
-    EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
-    std::string hex;
-    for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-    return hex;
+    Sha256 hash;
+    hash.add(bytes);
+    return hash.finish();
 }
 
 } // namespace damslip

@@ -25,7 +25,8 @@ struct FragilityResult final : Result {
     FragilityPlan plan;
     FragilityRuns runs;
     FragilityAnswer answer;
-    std::vector<double> slip, max_slip; ///< of each run [m]; NaN: none
+    std::vector<FragilitySample> samples; ///< of the plan, for arrays to lie on
+    std::vector<double> slip, max_slip;   ///< of each run [m]; NaN: none
 
     pages::FragilityView view() const { return pages::view_of(*study, plan, runs, answer); }
 
@@ -70,11 +71,13 @@ void compute(const OpenedScene& opened, const Asked& asked, Watch& watch, Fragil
     result.conditioned = condition_on_friction(study, asked.conditioning, samples, asked.extras.jobs, watch);
     const ConditionedPlan* const by_friction = result.conditioned ? &*result.conditioned : nullptr;
     result.plan = by_friction ? by_friction->plan : study.plan(samples);
+    for (const FragilitySample& sample : result.plan.samples) result.samples.push_back(sample);
     result.runs = run_fragility(result.plan, study.text, study.method, wanted_samples(result.plan), nullptr,
                                 asked.extras.jobs, watch);
     result.answer = answer_fragility(study, result.plan, result.runs, asked.extras, watch, by_friction);
     const auto number = [](const std::optional<double>& value) { return value.value_or(std::nan("")); };
-    for (const std::optional<FinishedRow>& row : result.runs.rows) {
+    for (std::size_t id = 0; id < result.runs.rows.size(); ++id) {
+        const std::optional<FinishedRow> row = result.runs.rows[id];
         result.slip.push_back(row ? number(row->results.slip) : std::nan(""));
         result.max_slip.push_back(row ? number(row->results.max_slip) : std::nan(""));
     }
@@ -136,7 +139,7 @@ py::array interval_of_levels(const py::object& curve)
 template <auto Member>
 py::array of_samples(const py::object& result)
 {
-    const std::vector<FragilitySample>& samples = result.cast<const FragilityResult&>().plan.samples;
+    const std::vector<FragilitySample>& samples = result.cast<const FragilityResult&>().samples;
     return column_of(samples, samples.empty() ? nullptr : &(samples.front().*Member), result);
 }
 

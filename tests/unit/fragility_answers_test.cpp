@@ -208,8 +208,9 @@ TEST(FragilityAnswers, FiniteElementsGiveOpeningAndFactor)
     Watch watch;
     const FragilityRuns runs =
         run_fragility(plan, text, sweep_method("fe-whole-steps"), wanted_samples(plan), nullptr, 1, watch);
-    for (const FragilitySample& s : plan.samples) {
-        const RowResults& r = runs.rows[static_cast<std::size_t>(&s - plan.samples.data())]->results;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample s = plan.samples[id];
+        const RowResults r = runs.rows[id]->results;
         ASSERT_TRUE(r.factor_after && r.opening && r.critical_friction) << r.status;
         const double friction = std::get<double>(plan.draws[s.draw].changes.front().value);
         EXPECT_NEAR(*r.factor_after * *r.critical_friction / friction, 1.0, 1e-6);

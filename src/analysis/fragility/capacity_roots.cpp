@@ -81,17 +81,16 @@ bool capacities_by_roots(FragilityEstimate& estimate, const FragilityPlan& plan,
         std::vector<char> by_root(brackets.size());
         parallel_for(brackets.size(), jobs, [&](std::size_t i) {
             if (!brackets[i].first) return;
-            const FragilitySample& s = plan.samples[*brackets[i].first];
-            const FragilitySample* below = brackets[i].below ? &plan.samples[*brackets[i].below] : nullptr;
+            const FragilitySample s = plan.samples[*brackets[i].first];
+            const double below = brackets[i].below ? plan.samples[*brackets[i].below].factor : 0.0;
             const double yield = yields[s.draw];
             const sliding::SkippingMotion& motion = *motions.at({s.record, s.polarity});
             capacity[i] = s.x;
-            const std::optional<double>& ran = runs.rows[*brackets[i].first]->results.slip;
+            const std::optional<double> ran = runs.rows[*brackets[i].first]->results.slip;
             if (!ran || !(yield > 0.0)) return;
             const double slip = slip_at_factor(motion, yield, s.factor);
             if (!(std::abs(slip - *ran) <= 1e-9 * slip && slip > limit.limit.value)) return;
-            const double factor =
-                factor_with_slip(motion, yield, limit.limit.value, below ? below->factor : 0.0, s.factor);
+            const double factor = factor_with_slip(motion, yield, limit.limit.value, below, s.factor);
             capacity[i] = plan.suite.intensity[s.record] * std::pow(factor, plan.suite.power);
             by_root[i] = 1;
         });

@@ -96,16 +96,15 @@ public:
         plan.whole_suite = false;
         return plan;
     }
-    /// @returns the sample that was added
-    FragilitySample& add(FragilityPlan& plan, const FragilitySample& motion, double mu) const
+    /// Adds a sample: that of the motion, with this friction.
+    void add(FragilityPlan& plan, FragilitySample motion, double mu) const
     {
         FragilityDraw draw = base.draws[motion.draw];
         draw.values.insert(draw.values.begin() + static_cast<std::ptrdiff_t>(place_), law_.drawn(mu));
         draw.changes.push_back({"contact.friction", mu});
-        FragilitySample s = motion;
-        s.draw = plan.draws.size();
+        motion.draw = plan.draws.size();
         plan.draws.push_back(std::move(draw));
-        return plan.samples.emplace_back(s);
+        plan.samples.push_back(motion);
     }
     std::string words(const FragilitySample& s) const
     {
@@ -125,7 +124,7 @@ private:
 
 LimitAnswer answer_of(const FragilityRuns& runs, const LimitInput& limit, std::size_t id)
 {
-    return answer_to(limit, runs.rows[id] ? &*runs.rows[id] : nullptr);
+    return answer_to(limit, runs.rows[id]);
 }
 
 bool slid_too_far(LimitAnswer answer)
@@ -143,7 +142,7 @@ public:
         std::map<std::string, std::size_t> seen; // motions of equal draws are searched once
         for (const FragilitySample& s : others.base.samples) {
             const auto [at, fresh] = seen.emplace(others.words(s), samples_.size());
-            if (fresh) samples_.push_back(&s);
+            if (fresh) samples_.push_back(s);
             place_.push_back(at->second);
         }
     }
@@ -158,7 +157,7 @@ public:
         std::vector<FrictionMotion> motions(samples_.size());
         std::vector<std::vector<double>> low(samples_.size()), high(samples_.size());
         for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const auto& row = runs.rows[i];
+            const std::optional<FinishedRow> row = runs.rows[i];
             const double critical = row && row->results.critical_friction ? *row->results.critical_friction : 0.0;
             motions[i].stands_from = std::isfinite(critical) ? std::max(0.0, critical) : 0.0;
             low[i].assign(limits.size(), std::log(std::max(law.lowest(), motions[i].stands_from)));
@@ -204,7 +203,7 @@ public:
                     const LimitAnswer answer = answer_of(runs, limit, i * n + k);
                     odd |= answer == LimitAnswer::missing || (survived && slid_too_far(answer));
                     survived |= answer == LimitAnswer::survives;
-                    const auto& row = runs.rows[i * n + k];
+                    const std::optional<FinishedRow> row = runs.rows[i * n + k];
                     odd |= row && row->results.upstream_slip.value_or(0.0) != 0.0;
                 }
             }
@@ -224,7 +223,7 @@ private:
         stop_if_asked(watch_.stop(), "the search for the friction at which the rigid block slides too far");
         FragilityPlan plan = others_.empty_plan();
         for (std::size_t i = 0; i < samples_.size(); ++i)
-            for (std::size_t k = 0; k < each; ++k) others_.add(plan, *samples_[i], friction(i, k));
+            for (std::size_t k = 0; k < each; ++k) others_.add(plan, samples_[i], friction(i, k));
         Watch silent;
         FragilityRuns runs = run_fragility(plan, text_, rigid_, wanted_samples(plan), nullptr, jobs_, silent);
         seconds_ += runs.seconds;
@@ -236,7 +235,7 @@ private:
     const SweepMethod& rigid_;
     int jobs_;
     Watch& watch_;
-    std::vector<const FragilitySample*> samples_;
+    std::vector<FragilitySample> samples_;
     std::vector<std::size_t> place_; ///< of each sample in samples_
     double seconds_ = 0.0;
 };
@@ -525,12 +524,12 @@ void draw_cells(ConditionedPlan& to, const WithoutFriction& others, const std::v
         while (at + 1 < cells.size() && passed + cells[at].sampled <= target) passed += cells[at++].sampled;
         const MotionCell& c = cells[at];
         const double u = c.from + (c.to - c.from) * stream.uniform(static_cast<std::uint32_t>(j + 1));
-        FragilitySample& s =
-            others.add(to.plan, others.base.samples[motions[c.motion].sample], others.law().friction(u));
-        s.replicate = replicate;
         FrictionCell cell = c.cell;
         cell.weight = c.share * sum / c.sampled; // counts are in runs: w times the number of runs
+        FragilitySample s = others.base.samples[motions[c.motion].sample];
+        s.replicate = replicate;
         s.weight = cell.weight;
+        others.add(to.plan, s, others.law().friction(u));
         to.cells.push_back(std::move(cell));
     }
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace damslip {
 
@@ -23,9 +24,9 @@ FragilityPlan whole_suite_at(const FragilityPlan& plan, std::size_t level, std::
     FragilityPlan p = plan;
     p.samples.clear();
     for (std::size_t d = 0; d < draws.size(); ++d)
-        for (const auto& [way, sample] : ways) {
+        for (auto [way, sample] : ways) {
+            sample.draw = d;
             p.samples.push_back(sample);
-            p.samples.back().draw = d;
         }
     p.draws = std::move(draws);
     return p;
@@ -36,11 +37,11 @@ std::vector<double> probabilities(const FragilityPlan& p, const FragilityRuns& r
 {
     std::vector<double> failing(p.draws.size()), all(p.draws.size());
     for (std::size_t id = 0; id < p.samples.size(); ++id) {
-        const LimitAnswer answer = answer_to(limit, runs.rows[id] ? &*runs.rows[id] : nullptr);
-        const double weight = p.suite.weight[p.samples[id].record];
-        all[p.samples[id].draw] += weight;
-        if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure)
-            failing[p.samples[id].draw] += weight;
+        const LimitAnswer answer = answer_to(limit, runs.rows[id]);
+        const FragilitySample s = p.samples[id];
+        const double weight = p.suite.weight[s.record];
+        all[s.draw] += weight;
+        if (answer == LimitAnswer::fails || answer == LimitAnswer::static_failure) failing[s.draw] += weight;
     }
     for (std::size_t d = 0; d < all.size(); ++d) failing[d] = all[d] > 0.0 ? failing[d] / all[d] : 0.0;
     return failing;
@@ -200,16 +201,15 @@ std::vector<NeededYield> needed_yield(const FragilityPlan& plan, const SceneText
     std::vector<NeededYield> needed;
     if (plan.input.intensity.design == FragilityDesign::cloud) return needed;
     const Ready base = prepare(text.scene(), Method::rigid_block, plan.suite.pairs);
+    std::map<std::tuple<std::size_t, std::size_t, int>, double> factors; // of level, record, polarity
+    for (const FragilitySample& s : plan.samples) factors.emplace(std::tuple(s.level, s.record, s.polarity), s.factor);
     for (std::size_t level = 0; level < plan.levels; ++level) {
         std::vector<double> k;
         for (std::size_t r = 0; r < plan.suite.pairs->size(); ++r)
             for (const int polarity : {1, -1}) {
-                const auto used = [&](const FragilitySample& s) {
-                    return s.level == level && s.record == r && s.polarity == polarity;
-                };
-                const auto sample = std::find_if(plan.samples.begin(), plan.samples.end(), used);
-                if (sample == plan.samples.end()) continue;
-                GroundMotion motion = horizontal_only(base.motion((*plan.suite.pairs)[r], sample->factor, polarity));
+                const auto used = factors.find({level, r, polarity});
+                if (used == factors.end()) continue;
+                GroundMotion motion = horizontal_only(base.motion((*plan.suite.pairs)[r], used->second, polarity));
                 double low = 0.0, high = 0.0;
                 for (const double a : motion.accel_h) high = std::max(high, a);
                 const sliding::SkippingMotion shaking(std::move(motion));

@@ -41,25 +41,41 @@ Events events_of(const ShakingSuite& suite)
     return events;
 }
 
-const FinishedRow* row_of_sample(const FragilityRuns& runs, std::size_t id)
-{
-    return runs.rows[id] ? &*runs.rows[id] : nullptr;
-}
-
-LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
-                        const Events& events)
-{
-    LimitCounts counts(plan.levels, plan.replicates, events.count, plan.replicates * plan.outer);
-    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        const FragilitySample& s = plan.samples[id];
-        const LimitAnswer answer = answer_to(limit, row_of_sample(runs, id));
-        const auto put = [&](RunCount& c) { add_run(c, answer, s.weight, plan.input.probability.static_failure); };
-        put(counts.all[s.level]);
-        put(counts.replicate[s.level][s.replicate]);
-        put(counts.cluster[s.level][events.of_record[s.record]]);
-        put(counts.outer[s.level][s.outer]);
+/// Counts of the samples of a limit, one after the other.
+class LimitCounter {
+public:
+    /// @param levels, replicates  that there are counts of
+    LimitCounter(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit, std::size_t levels,
+                 std::size_t replicates)
+        : runs_(runs), limit_(limit), events_(events_of(plan.suite)), rule_(plan.input.probability.static_failure),
+          counts_(levels, replicates, events_.count, replicates * plan.outer)
+    {
     }
-    return counts;
+    void add(std::size_t id, const FragilitySample& s, std::size_t level)
+    {
+        const LimitAnswer answer = answer_to(limit_, runs_.rows[id]);
+        for (RunCount* c : {&counts_.all[level], &counts_.replicate[level][s.replicate],
+                            &counts_.cluster[level][events_.of_record[s.record]], &counts_.outer[level][s.outer]})
+            add_run(*c, answer, s.weight, rule_);
+    }
+    const LimitCounts& counts() const { return counts_; }
+
+private:
+    const FragilityRuns& runs_;
+    const LimitInput& limit_;
+    Events events_;
+    StaticFailure rule_;
+    LimitCounts counts_;
+};
+
+LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit)
+{
+    LimitCounter counter(plan, runs, limit, plan.levels, plan.replicates);
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample s = plan.samples[id];
+        counter.add(id, s, s.level);
+    }
+    return counter.counts();
 }
 
 /// The one draw of a scene without variables, under the whole suite: P is that of the suite itself.
@@ -176,7 +192,7 @@ void fit_cloud_of(const FragilityPlan& plan, const FragilityRuns& runs, LimitEst
     std::vector<probability::CloudPoint> points;
     double error = 0.0;
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        const FinishedRow* row = row_of_sample(runs, id);
+        const std::optional<FinishedRow> row = runs.rows[id];
         if (!row) continue;
         const LimitAnswer answer = answer_to(limit.limit, row);
         const bool failed =
@@ -297,6 +313,11 @@ LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row)
     }
 }
 
+LimitAnswer answer_to(const LimitInput& limit, const std::optional<FinishedRow>& row)
+{
+    return answer_to(limit, row ? &*row : nullptr);
+}
+
 std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const FragilityRuns& runs,
                                                const LimitInput& limit)
 {
@@ -312,7 +333,7 @@ std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const 
     for (const auto& [key, curve] : curves) {
         std::vector<LimitAnswer> answers;
         for (const auto& id : curve)
-            answers.push_back(id ? answer_to(limit, row_of_sample(runs, *id)) : LimitAnswer::missing);
+            answers.push_back(id ? answer_to(limit, runs.rows[*id]) : LimitAnswer::missing);
         if (answers.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
         CapacityBracket& bracket = brackets.emplace_back();
         const auto first = std::find(answers.begin(), answers.end(), LimitAnswer::fails);
@@ -335,17 +356,31 @@ double LimitEstimate::missing_share() const
     return n > 0.0 ? missing / n : 0.0;
 }
 
+LevelEstimate estimate_first(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
+                             std::size_t level, std::size_t replicates,
+                             const std::function<bool(const FragilitySample&, std::size_t place)>& kept)
+{
+    LimitCounter counter(plan, runs, limit, 1, replicates);
+    std::size_t place = 0;
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample s = plan.samples[id];
+        if (s.level != level) continue;
+        if (!kept(s, place++)) break;
+        counter.add(id, s, 0);
+    }
+    return estimate_level(plan, counter.counts(), 0, plan.input.intensity.levels[level], false);
+}
+
 FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityRuns& runs,
                                      const probability::HazardCurve* hazard, std::optional<double> all_events,
                                      const ConditionedPlan* conditioned)
 {
     FragilityEstimate estimate;
-    const Events events = events_of(plan.suite);
-    estimate.clusters = events.count;
+    estimate.clusters = events_of(plan.suite).count;
     std::vector<char> draw_counted(plan.draws.size());
     std::size_t draws = 0, fallen = 0;
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        const FinishedRow* row = row_of_sample(runs, id);
+        const std::optional<FinishedRow> row = runs.rows[id];
         ++estimate.statuses[row ? row->results.status : word(Status::interrupted)];
         const std::optional<Status> status = row ? status_of(*row) : std::nullopt;
         if (!status || draw_counted[plan.samples[id].draw]++) continue;
@@ -360,7 +395,7 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
         LimitEstimate& limit = estimate.limits.emplace_back();
         limit.limit = wanted;
         const LimitCounts counts = conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1)
-                                               : count_limit(plan, runs, wanted, events);
+                                               : count_limit(plan, runs, wanted);
         if (design == FragilityDesign::cloud) {
             fit_cloud_of(plan, runs, limit);
             for (const double x : plan.input.intensity.levels) {

@@ -24,6 +24,7 @@ bool is_of_slip(const LimitInput& limit);
 
 /// A run still sliding whose largest slip exceeds the limit is a failure; what slid off its base, too. @param row  nullptr: not run
 LimitAnswer answer_to(const LimitInput& limit, const FinishedRow* row);
+LimitAnswer answer_to(const LimitInput& limit, const std::optional<FinishedRow>& row);
 
 /// One limit at one level.
 struct LevelEstimate {
@@ -80,6 +81,12 @@ struct CapacityBracket {
 };
 std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const FragilityRuns& runs,
                                                const LimitInput& limit);
+
+/// One level of a limit by its first samples alone. @param kept  asked of each sample of the level and its place there, until it says no
+/// @param replicates  that those are of
+LevelEstimate estimate_first(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit,
+                             std::size_t level, std::size_t replicates,
+                             const std::function<bool(const FragilitySample&, std::size_t place)>& kept);
 
 /// @param hazard  nullptr: no rates. Its intensities in SI @param all_events  rate of all its earthquakes, if known
 /// @param conditioned  how the runs were drawn where friction was conditioned on (its plan is `plan`); nullptr: every run counts as its weight

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 namespace damslip {
@@ -95,24 +96,27 @@ public:
     /// Writes the uniform numbers of point i of a set into `u`, which has a place for every variable.
     class Points {
     public:
-        Points(const KindOfVariables& kind, probability::UnitPoints points) : kind_(kind), points_(std::move(points)) {}
-        void put(std::uint32_t i, std::vector<double>& u) const
+        Points(const KindOfVariables& kind, probability::UnitPoints points) : kind_(&kind), points_(std::move(points))
         {
-            if (kind_.empty()) return;
-            const std::vector<double> dependent = kind_.copula_.dependent(points_.point(i));
-            for (std::size_t k = 0; k < dependent.size(); ++k) u[kind_.places_[k]] = dependent[k];
+        }
+        void put(std::size_t i, std::vector<double>& u) const
+        {
+            if (kind_->empty()) return;
+            const std::vector<double> dependent = kind_->copula_.dependent(points_.point(static_cast<std::uint32_t>(i)));
+            for (std::size_t k = 0; k < dependent.size(); ++k) u[kind_->places_[k]] = dependent[k];
         }
 
     private:
-        const KindOfVariables& kind_;
+        const KindOfVariables* kind_;
         probability::UnitPoints points_;
     };
-    Points points(std::uint32_t n, std::uint32_t replicate) const
+    Points points(std::size_t n, std::uint32_t replicate) const
     {
         std::vector<std::string> names;
         for (const std::size_t place : places_) names.push_back(input_.probability.variables[place].name);
         const auto sampling = empty() ? probability::Sampling::random : sampling_of(input_.probability.sampling);
-        return {*this, {sampling, input_.probability.seed, names, n, replicate}};
+        return {*this,
+                {sampling, input_.probability.seed, names, static_cast<std::uint32_t>(n), replicate}};
     }
 
 private:
@@ -254,6 +258,98 @@ void check_scale(FragilityPlan& plan, const std::filesystem::path& file)
         "take stronger records, lower levels, a larger suite.max_scale, or --allow-scaling"});
 }
 
+/// Draws and samples of a plan, each from its place.
+class DrawnPlan {
+public:
+    /// @param plan  with its sizes, without draws and samples
+    DrawnPlan(const FragilityPlan& plan, ShakenWays ways, std::uint32_t stream, const std::filesystem::path& file,
+              const NumberInFile& written)
+        : input_(plan.input), design_(input_.intensity.design), intensity_(plan.suite.intensity),
+          power_(plan.suite.power), ways_(std::move(ways)), replicates_(plan.replicates), outer_(plan.outer),
+          inner_(plan.inner), levels_(plan.levels), aleatory_draws_(plan.aleatory), whole_suite_(plan.whole_suite),
+          epistemic_(input_, VariableKind::epistemic, file), aleatory_(input_, VariableKind::aleatory, file),
+          values_(input_, file, written)
+    {
+        mean_weight_ = std::accumulate(ways_.weight.begin(), ways_.weight.end(), 0.0) /
+                       static_cast<double>(ways_.weight.size());
+        const bool replaced = input_.suite && input_.suite->draw == SuiteDraw::with_replacement;
+        const auto order = replaced ? probability::RecordOrder::with_replacement : probability::RecordOrder::balanced;
+        const std::size_t first = std::size_t{stream} * (1u << 24);
+        for (std::size_t r = 0; r < replicates_; ++r)
+            outer_points_.push_back(epistemic_.points(outer_, static_cast<std::uint32_t>(first + r)));
+        const std::size_t sets = replicates_ * (own_levels() ? levels_ : 1);
+        way_.reserve(sets * inner_);
+        for (std::size_t set = 0; set < sets; ++set) {
+            const auto number = static_cast<std::uint32_t>(first + set);
+            inner_points_.push_back(aleatory_.points(inner_, number));
+            const probability::RecordDraw records(order, input_.probability.seed, ways_.weight, number);
+            for (std::size_t i = 0; i < inner_; ++i)
+                way_.push_back(
+                    static_cast<std::uint32_t>(whole_suite_ ? i : records(static_cast<std::uint32_t>(i))));
+        }
+    }
+    DrawnPlan(const DrawnPlan&) = delete; // its parts point to one another
+    DrawnPlan& operator=(const DrawnPlan&) = delete;
+
+    std::size_t samples() const { return replicates_ * outer_ * levels_ * inner_; }
+    std::size_t draws() const
+    {
+        return replicates_ * outer_ * (aleatory_draws_ ? inner_ * (own_levels() ? levels_ : 1) : 1);
+    }
+
+    FragilityDraw draw(std::size_t place) const
+    {
+        std::vector<double> u(input_.probability.variables.size());
+        const std::size_t each = draws() / (replicates_ * outer_), outer = place / each, inside = place % each;
+        const std::size_t r = outer / outer_;
+        outer_points_[r].put(outer % outer_, u);
+        inner_points_[set_of(r, inside / inner_)].put(inside % inner_, u);
+        return values_(u);
+    }
+
+    FragilitySample sample(std::size_t id) const
+    {
+        const std::size_t outer = id / (levels_ * inner_), inside = id % (levels_ * inner_);
+        const bool by_draw = aleatory_draws_ && !own_levels(); // levels of one draw lie side by side
+        FragilitySample s;
+        s.replicate = outer / outer_;
+        s.outer = outer;
+        s.inner = by_draw ? inside / levels_ : inside % inner_;
+        s.level = by_draw ? inside % levels_ : inside / inner_;
+        s.draw = !aleatory_draws_ ? outer : by_draw ? outer * inner_ + s.inner : id;
+        const std::size_t way = way_[set_of(s.replicate, s.level) * inner_ + s.inner];
+        s.record = ways_.record[way];
+        s.polarity = ways_.polarity[way];
+        if (whole_suite_) s.weight = ways_.weight[way] / mean_weight_;
+        const double own = intensity_[s.record];
+        const bool cloud = design_ == FragilityDesign::cloud;
+        s.x = cloud ? own : input_.intensity.levels[s.level];
+        s.factor = cloud ? 1.0 : std::pow(s.x / own, 1.0 / power_);
+        return s;
+    }
+
+private:
+    /// The inner draws of each level are its own.
+    bool own_levels() const { return design_ == FragilityDesign::stripes; }
+    std::size_t set_of(std::size_t replicate, std::size_t level) const
+    {
+        return own_levels() ? replicate * levels_ + level : replicate;
+    }
+
+    FragilityInput input_;
+    FragilityDesign design_;
+    std::vector<double> intensity_; ///< of the records
+    double power_;                  ///< ShakingSuite::power
+    ShakenWays ways_;
+    double mean_weight_ = 1.0;
+    std::size_t replicates_, outer_, inner_, levels_;
+    bool aleatory_draws_, whole_suite_;
+    KindOfVariables epistemic_, aleatory_;
+    ValuesOfDraw values_;
+    std::vector<KindOfVariables::Points> outer_points_, inner_points_; ///< of each replicate; of each inner set
+    std::vector<std::uint32_t> way_; ///< of each inner draw of each inner set
+};
+
 } // namespace
 
 FragilityDraw draw_of(const FragilityInput& input, std::span<const double> u, const std::filesystem::path& scene_file,
@@ -302,66 +398,15 @@ FragilityPlan plan_fragility(const FragilityInput& input, ShakingSuite suite, co
     FragilityPlan plan;
     plan.input = input;
     plan.suite = std::move(suite);
-    const KindOfVariables epistemic(plan.input, VariableKind::epistemic, scene_file),
-        aleatory(plan.input, VariableKind::aleatory, scene_file);
-    const ValuesOfDraw values(plan.input, scene_file, written);
     const ShakenWays ways = shaken_ways(plan.input, plan.suite);
     const bool replaced = plan.input.suite && plan.input.suite->draw == SuiteDraw::with_replacement;
-    const FragilityDesign design = plan.input.intensity.design;
-    plan.epistemic = !epistemic.empty();
-    plan.aleatory = !aleatory.empty();
-    plan.levels = design == FragilityDesign::cloud ? 1 : plan.input.intensity.levels.size();
+    plan.epistemic = !variables_of_kind(plan.input, VariableKind::epistemic).empty();
+    plan.aleatory = !variables_of_kind(plan.input, VariableKind::aleatory).empty();
+    plan.levels = plan.input.intensity.design == FragilityDesign::cloud ? 1 : plan.input.intensity.levels.size();
     choose_sizes(plan, ways.record.size(), sizes, replaced);
-
-    const auto order = replaced ? probability::RecordOrder::with_replacement : probability::RecordOrder::balanced;
-    const double mean_weight =
-        std::accumulate(ways.weight.begin(), ways.weight.end(), 0.0) / static_cast<double>(ways.weight.size());
-    std::vector<double> u(plan.variables().size());
-    for (std::size_t r = 0; r < plan.replicates; ++r) {
-        const auto stream_of = [&](std::size_t level) { // independent from level to level where the levels are stripes
-            const std::size_t own = design == FragilityDesign::stripes ? r * plan.levels + level : r;
-            return static_cast<std::uint32_t>(own + std::size_t{sizes.stream} * (1u << 24));
-        };
-        const auto outer_points =
-            epistemic.points(static_cast<std::uint32_t>(plan.outer),
-                             static_cast<std::uint32_t>(r + std::size_t{sizes.stream} * (1u << 24)));
-        for (std::size_t e = 0; e < plan.outer; ++e) {
-            std::vector<std::size_t> draw_at; // of each inner draw, where levels share it
-            for (std::size_t level = 0; level < plan.levels; ++level) {
-                const auto inner_points = aleatory.points(static_cast<std::uint32_t>(plan.inner), stream_of(level));
-                const probability::RecordDraw records(order, plan.input.probability.seed, ways.weight,
-                                                      stream_of(level));
-                for (std::size_t i = 0; i < plan.inner; ++i) {
-                    const bool again =
-                        (level > 0 && design == FragilityDesign::ida) || (!plan.aleatory && (level > 0 || i > 0));
-                    if (!again) {
-                        outer_points.put(static_cast<std::uint32_t>(e), u);
-                        inner_points.put(static_cast<std::uint32_t>(i), u);
-                        plan.draws.push_back(values(u));
-                        draw_at.push_back(plan.draws.size() - 1);
-                    }
-                    FragilitySample s;
-                    s.draw = !again ? plan.draws.size() - 1 : plan.aleatory ? draw_at[i] : draw_at.front();
-                    s.replicate = r;
-                    s.outer = r * plan.outer + e;
-                    s.inner = i;
-                    s.level = level;
-                    const std::size_t way = plan.whole_suite ? i : records(static_cast<std::uint32_t>(i));
-                    s.record = ways.record[way];
-                    s.polarity = ways.polarity[way];
-                    if (plan.whole_suite) s.weight = ways.weight[way] / mean_weight;
-                    const double own = plan.suite.intensity[s.record];
-                    s.factor = design == FragilityDesign::cloud
-                                   ? 1.0
-                                   : std::pow(plan.input.intensity.levels[level] / own, 1.0 / plan.suite.power);
-                    s.x = design == FragilityDesign::cloud ? own : plan.input.intensity.levels[level];
-                    plan.samples.push_back(s);
-                }
-            }
-        }
-    }
-    std::stable_sort(plan.samples.begin(), plan.samples.end(),
-                     [](const FragilitySample& a, const FragilitySample& b) { return a.draw < b.draw; });
+    const auto drawn = std::make_shared<const DrawnPlan>(plan, ways, sizes.stream, scene_file, written);
+    plan.draws = {drawn->draws(), [drawn](std::size_t place) { return drawn->draw(place); }};
+    plan.samples = {drawn->samples(), [drawn](std::size_t id) { return drawn->sample(id); }};
     check_scale(plan, scene_file);
     return plan;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/fragility/planned_list.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "probability/laws/distribution.hpp"
 #include "scene/fragility_input.hpp"
@@ -47,14 +48,17 @@ struct FragilitySizes {
 
 /// All runs of a fragility, fixed before the first one. The place of a sample is its id.
 ///
+/// Draws and samples of plan_fragility() are made from their places whenever they are asked for; held are four bytes a run for its record, and of Latin
+/// hypercubes and Sobol' points four bytes more for each variable. Other plans hold all of theirs.
+///
 /// Draws of lack of knowledge (epistemic) are outer, each with the same inner draws of what varies by itself (aleatory) and of records. Inner draws
 /// are those of the level (stripes), or the same at all levels (ida). A replicate is independent of all others; the inner draws of a
 /// replicate serve all its outer ones.
 struct FragilityPlan {
     FragilityInput input;
     ShakingSuite suite;
-    std::vector<FragilityDraw> draws;
-    std::vector<FragilitySample> samples; ///< by draw, ascending
+    PlannedList<FragilityDraw> draws;
+    PlannedList<FragilitySample> samples; ///< by draw, ascending
     std::size_t replicates = 1, outer = 1,
                 inner = 1;  ///< independent sets; epistemic draws of each; runs of each draw and level
     std::size_t levels = 1; ///< of a cloud 1

@@ -6,6 +6,7 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/processor_clock.hpp"
+#include "core/sha256.hpp"
 #include "core/stopwatch.hpp"
 #include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
@@ -76,25 +77,14 @@ class SampleStore {
 public:
     SampleStore(FragilityRuns& runs, Journal* journal, Watch& watch) : runs_(runs), journal_(journal), watch_(watch) {}
 
-    void take_finished(const std::vector<std::size_t>& wanted)
-    {
-        if (!journal_ || wanted.empty()) return;
-        for (FinishedRow& row : journal_->finished_rows(wanted.front(), wanted.back())) {
-            ++runs_.found;
-            const std::size_t id = row.id;
-            runs_.rows[id] = std::move(row);
-        }
-    }
-    void finish(std::vector<FinishedRow> rows)
+    void finish(const std::vector<FinishedRow>& rows)
     {
         if (journal_)
             journal_->append(rows);
         else
             watch_.results_at_hand();
-        for (FinishedRow& row : rows) {
-            const std::size_t id = row.id;
-            runs_.rows[id] = std::move(row);
-        }
+        const std::lock_guard lock(mutex_);
+        for (const FinishedRow& row : rows) runs_.rows.put(row);
     }
     void begin(std::span<const std::size_t> ids)
     {
@@ -105,6 +95,34 @@ private:
     FragilityRuns& runs_;
     Journal* journal_;
     Watch& watch_;
+    std::mutex mutex_;
+};
+
+/// Shared by draws of the same words: those asked for last are kept, others are made again.
+template <class Shared>
+class KeptByWords {
+public:
+    std::shared_ptr<Shared> of(const std::string& words)
+    {
+        constexpr std::size_t most = 256;
+        const auto [at, fresh] = kept_.try_emplace(words);
+        if (fresh) at->second.shared = std::make_shared<Shared>();
+        at->second.asked = ++asked_;
+        const std::shared_ptr<Shared> shared = at->second.shared;
+        if (kept_.size() > most)
+            kept_.erase(std::min_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
+                return a.second.asked < b.second.asked;
+            }));
+        return shared;
+    }
+
+private:
+    struct Entry {
+        std::shared_ptr<Shared> shared;
+        std::size_t asked = 0; ///< for the last time, counted over all
+    };
+    std::map<std::string, Entry> kept_;
+    std::size_t asked_ = 0;
 };
 
 /// Statics and seepage that rigid blocks of several draws share.
@@ -114,19 +132,15 @@ public:
     {
         const std::lock_guard lock(mutex_);
         PrepareOptions options;
-        auto& seepage = seepage_[words_of(draw, moves_no_water)];
-        if (!seepage) seepage = std::make_shared<SeepageSource>();
-        auto& statics = statics_[words_without_friction(draw)];
-        if (!statics) statics = std::make_shared<KeptStatics>();
-        options.seepage = seepage;
-        options.statics = statics;
+        options.seepage = seepage_.of(words_of(draw, moves_no_water));
+        options.statics = statics_.of(words_without_friction(draw));
         return options;
     }
 
 private:
     std::mutex mutex_;
-    std::map<std::string, std::shared_ptr<SeepageSource>> seepage_;
-    std::map<std::string, std::shared_ptr<KeptStatics>> statics_;
+    KeptByWords<SeepageSource> seepage_;
+    KeptByWords<KeptStatics> statics_;
 };
 
 /// The rigid runs of a plan.
@@ -140,7 +154,7 @@ public:
     }
 
     /// The scaled records of these samples, made once; none where the motion itself is drawn.
-    void make_motions(const std::vector<std::size_t>& wanted, int jobs)
+    void make_motions(const SampleIds& wanted, int jobs)
     {
         if (own_motion_) return;
         for (const std::size_t id : wanted) motions_[key(plan_.samples[id])];
@@ -216,42 +230,63 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<sliding::SkippingMotion>> motions_;
 };
 
-/// Wanted samples that are not finished, in runs of one draw each.
-std::vector<std::vector<std::size_t>> missing_by_draw(const FragilityPlan& plan, const std::vector<std::size_t>& wanted,
-                                                      const FragilityRuns& runs)
-{
-    std::vector<std::vector<std::size_t>> groups;
-    for (const std::size_t id : wanted) {
-        if (runs.rows[id]) continue;
-        if (groups.empty() || plan.samples[groups.back().front()].draw != plan.samples[id].draw) groups.emplace_back();
-        groups.back().push_back(id);
-    }
-    return groups;
-}
+/// Wanted samples that are not finished, in runs of one draw each, some thousand at a time.
+class MissingByDraw {
+public:
+    MissingByDraw(const FragilityPlan& plan, const SampleIds& wanted) : plan_(plan), wanted_(wanted) {}
 
-void run_rigid(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
-               const std::vector<std::size_t>& wanted, SampleStore& store, int jobs, Watch& watch, FragilityRuns& runs)
+    /// Those that come next; empty: there are no more.
+    std::vector<std::vector<std::size_t>> next(const FragilityRuns& runs)
+    {
+        constexpr std::size_t most = 4096;
+        std::vector<std::vector<std::size_t>> groups;
+        std::size_t last = 0;
+        for (; place_ < wanted_.size(); ++place_) {
+            const std::size_t id = wanted_[place_];
+            if (runs.rows.has(id)) continue;
+            const std::size_t draw = plan_.samples[id].draw;
+            if (groups.empty() || draw != last) {
+                if (groups.size() == most) break;
+                groups.emplace_back();
+            }
+            groups.back().push_back(id);
+            last = draw;
+        }
+        return groups;
+    }
+
+private:
+    const FragilityPlan& plan_;
+    const SampleIds& wanted_;
+    std::size_t place_ = 0;
+};
+
+void run_rigid(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method, const SampleIds& wanted,
+               SampleStore& store, int jobs, Watch& watch, FragilityRuns& runs)
 {
     constexpr std::size_t draws_at_once = 16; // written to the journal together
-    const auto groups = missing_by_draw(plan, wanted, runs);
     const ProcessorClock clock(ProcessorTimeOf::process);
     RigidSamples samples(plan, text, method);
     watch.begin(method.kind == SweepKind::rocking ? "fragility, rocking block" : "fragility, rigid block",
                 static_cast<double>(wanted.size()));
     samples.make_motions(wanted, jobs);
     std::atomic<std::size_t> done{runs.found};
-    parallel_for((groups.size() + draws_at_once - 1) / draws_at_once, jobs, [&](std::size_t block) {
-        if (watch.stop_asked()) return;
-        std::vector<FinishedRow> rows;
-        for (std::size_t g = block * draws_at_once; g < std::min(groups.size(), (block + 1) * draws_at_once); ++g)
-            for (FinishedRow& row : samples.run(groups[g], runs.yield[plan.samples[groups[g].front()].draw]))
-                rows.push_back(std::move(row));
-        const std::size_t n = rows.size();
-        store.finish(std::move(rows));
-        watch.at(static_cast<double>(done += n));
-    });
+    MissingByDraw missing(plan, wanted);
+    for (auto groups = missing.next(runs); !groups.empty() && !watch.stop_asked(); groups = missing.next(runs)) {
+        parallel_for((groups.size() + draws_at_once - 1) / draws_at_once, jobs, [&](std::size_t block) {
+            if (watch.stop_asked()) return;
+            std::vector<FinishedRow> rows;
+            for (std::size_t g = block * draws_at_once; g < std::min(groups.size(), (block + 1) * draws_at_once); ++g) {
+                double yield = 0.0;
+                for (FinishedRow& row : samples.run(groups[g], yield)) rows.push_back(std::move(row));
+                if (!runs.yield.empty()) runs.yield[plan.samples[groups[g].front()].draw] = yield;
+            }
+            store.finish(rows);
+            watch.at(static_cast<double>(done += rows.size()));
+        });
+        runs.set_ups += groups.size();
+    }
     watch.end();
-    runs.set_ups = groups.size();
     runs.seconds = clock.seconds();
 }
 
@@ -261,7 +296,7 @@ struct MotionGroup {
     std::vector<std::size_t> ids;
 };
 
-std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const std::vector<std::size_t>& wanted,
+std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const SampleIds& wanted,
                                        const FragilityRuns& runs)
 {
     std::map<std::tuple<std::string, std::size_t, std::size_t, int>, std::vector<std::size_t>> found;
@@ -269,7 +304,7 @@ std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const std::vec
     for (const FragilityDraw& draw : plan.draws) words.push_back(words_without_friction(draw));
     for (const std::size_t id : wanted) {
         const FragilitySample& s = plan.samples[id];
-        if (!runs.rows[id]) found[{words[s.draw], s.level, s.record, s.polarity}].push_back(id);
+        if (!runs.rows.has(id)) found[{words[s.draw], s.level, s.record, s.polarity}].push_back(id);
     }
     constexpr std::size_t most_together = 64; // what goes through an earthquake together, and into the journal at once
     std::vector<MotionGroup> groups;
@@ -313,7 +348,7 @@ public:
                 std::vector<FinishedRow> rows = rows_of(model, groups[i]);
                 std::erase_if(rows,
                               [](const FinishedRow& row) { return row.results.status == word(Status::interrupted); });
-                store.finish(std::move(rows));
+                store.finish(rows);
             } catch (const Interrupted&) { // in the set-up: these are not finished
             }
             meter_.end();
@@ -435,10 +470,23 @@ double seconds_in_solvers()
     return in_solvers;
 }
 
-std::size_t FragilityRuns::finished() const
+FragilityRuns no_runs(const FragilityPlan& plan, std::size_t wanted, Yields yields)
 {
-    return static_cast<std::size_t>(
-        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.has_value(); }));
+    FragilityRuns runs;
+    runs.rows = PackedRows(plan.samples.size());
+    if (yields == Yields::kept) runs.yield.assign(plan.draws.size(), std::numeric_limits<double>::quiet_NaN());
+    runs.wanted = wanted;
+    return runs;
+}
+
+void take_finished(const Journal& journal, std::size_t first, std::size_t last, FragilityRuns& runs)
+{
+    constexpr std::size_t at_once = 4096; // rows that are not packed yet
+    for (std::size_t from = first; from <= last; from += at_once)
+        for (const FinishedRow& row : journal.finished_rows(from, std::min(last, from + at_once - 1))) {
+            ++runs.found;
+            runs.rows.put(row);
+        }
 }
 
 SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& text, const std::string& method)
@@ -451,36 +499,40 @@ SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& tex
         contents +=
             pair.horizontal.source.sha256 + "\n" + (pair.vertical ? pair.vertical->source.sha256 : "none") + "\n";
     identity.records = sha256(contents);
-    std::string words;
+    Sha256 words;
     for (const FragilityDraw& draw : plan.draws)
-        words += words_of(draw, [](const std::string&) { return false; }) + ";";
+        words.add(words_of(draw, [](const std::string&) { return false; }) + ";");
     for (const FragilitySample& s : plan.samples)
-        words += fmt::format("{} {} {} {} {}\n", s.draw, s.level, s.record, s.polarity, s.factor);
+        words.add(fmt::format("{} {} {} {} {}\n", s.draw, s.level, s.record, s.polarity, s.factor));
     identity.grid = fmt::format("fragility by {}, {} draws, {} levels, plan {}", method, plan.draws.size(), plan.levels,
-                                sha256(words));
+                                words.finish());
     identity.rows = plan.samples.size();
     return identity;
 }
 
-std::vector<std::size_t> wanted_samples(const FragilityPlan& plan, const Shard& shard)
+SampleIds wanted_samples(const FragilityPlan& plan, const Shard& shard)
 {
-    const std::size_t n = plan.draws.size();
-    const std::size_t first = shard.index * n / shard.count, last = (shard.index + 1) * n / shard.count;
-    std::vector<std::size_t> ids;
-    for (std::size_t id = 0; id < plan.samples.size(); ++id)
-        if (plan.samples[id].draw >= first && plan.samples[id].draw < last) ids.push_back(id);
-    return ids;
+    const std::size_t draws = plan.draws.size();
+    const auto first_of = [&](std::size_t draw) { // samples lie by draw
+        std::size_t low = 0, high = plan.samples.size();
+        while (low < high) {
+            const std::size_t middle = low + (high - low) / 2;
+            const bool before = plan.samples[middle].draw < draw;
+            (before ? low : high) = before ? middle + 1 : middle;
+        }
+        return low;
+    };
+    const std::size_t first = first_of(shard.index * draws / shard.count),
+                      last = first_of((shard.index + 1) * draws / shard.count);
+    return {last - first, [first](std::size_t place) { return first + place; }};
 }
 
 FragilityRuns run_fragility(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
-                            const std::vector<std::size_t>& wanted, Journal* journal, int jobs, Watch& watch)
+                            const SampleIds& wanted, Journal* journal, int jobs, Watch& watch, Yields yields)
 {
-    FragilityRuns runs;
-    runs.rows.resize(plan.samples.size());
-    runs.yield.assign(plan.draws.size(), std::numeric_limits<double>::quiet_NaN());
-    runs.wanted = wanted.size();
+    FragilityRuns runs = no_runs(plan, wanted.size(), yields);
     SampleStore store(runs, journal, watch);
-    store.take_finished(wanted);
+    if (journal && !wanted.empty()) take_finished(*journal, wanted[0], wanted[wanted.size() - 1], runs);
     if (method.kind != SweepKind::finite_elements) {
         run_rigid(plan, text, method, wanted, store, jobs, watch, runs);
         return runs;

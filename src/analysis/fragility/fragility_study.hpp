@@ -22,6 +22,11 @@ struct FragilityStudy {
     /// Runs per level where nobody says how many.
     std::size_t usual_samples() const { return finite_elements() ? 128 : 1024; }
     FragilityPlan plan(std::size_t samples, std::uint32_t stream = 0) const;
+    /// Of rigid runs the answer asks for yields where it finds the roots of an incremental dynamic analysis.
+    Yields yields() const
+    {
+        return finite_elements() || input.intensity.design == FragilityDesign::ida ? Yields::kept : Yields::dropped;
+    }
     const SweepMethod& rigid() const; ///< the rigid block that goes with the records
 };
 

@@ -36,13 +36,20 @@ PartOfRuns part_of_runs(const FragilityPlan& plan, const FragilityRuns& runs, co
     part.plan.whole_suite = plan.whole_suite;
     part.runs.yield = runs.yield;
     std::size_t place = 0; // at the level
+    std::vector<std::size_t> ids;
     for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-        if (plan.samples[id].level != level) continue;
-        if (!kept(plan.samples[id], place++)) continue;
-        part.plan.samples.push_back(plan.samples[id]);
-        part.plan.samples.back().level = 0;
-        part.runs.rows.push_back(runs.rows[id]);
+        FragilitySample s = plan.samples[id];
+        if (s.level != level || !kept(s, place++)) continue;
+        s.level = 0;
+        part.plan.samples.push_back(s);
+        ids.push_back(id);
     }
+    part.runs.rows = PackedRows(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (std::optional<FinishedRow> row = runs.rows[ids[i]]) {
+            row->id = i;
+            part.runs.rows.put(*row);
+        }
     part.runs.wanted = part.plan.samples.size();
     part.runs.seconds =
         runs.seconds * static_cast<double>(part.plan.samples.size()) / static_cast<double>(plan.samples.size());
@@ -55,17 +62,22 @@ PartOfRuns first_runs(const FragilityPlan& plan, const FragilityRuns& runs, std:
                         [n](const FragilitySample&, std::size_t place) { return place < n; });
 }
 
-IntervalPoint point_of(const PartOfRuns& part, std::string estimator)
+IntervalPoint point_of(const LevelEstimate& e, std::size_t runs, double seconds, std::string estimator)
 {
-    const LevelEstimate e = estimate_fragility(part.plan, part.runs, nullptr, {}).limits.front().levels.front();
     IntervalPoint point;
     point.estimator = std::move(estimator);
-    point.runs = part.plan.samples.size();
-    point.seconds = part.runs.seconds;
+    point.runs = runs;
+    point.seconds = seconds;
     point.p = e.p;
     point.interval = e.sampling;
     if (e.n <= 0.0) point.remark = "no draw stands without an earthquake";
     return point;
+}
+
+IntervalPoint point_of(const PartOfRuns& part, std::string estimator)
+{
+    const LevelEstimate e = estimate_fragility(part.plan, part.runs, nullptr, {}).limits.front().levels.front();
+    return point_of(e, part.plan.samples.size(), part.runs.seconds, std::move(estimator));
 }
 
 /// The estimates of one scene at one level.
@@ -325,11 +337,15 @@ std::vector<IntervalPoint> own_prefixes(const FragilityPlan& plan, const Fragili
     const std::size_t at_level = plan.samples.size() / plan.levels;
     const std::size_t all = independent ? at_level : plan.replicates, least = independent ? 16 : 2;
     for (std::size_t n = all; n >= least; n /= 2) {
-        PartOfRuns part = part_of_runs(plan, runs, limit, level, [&](const FragilitySample& s, std::size_t place) {
-            return independent ? place < n : s.replicate < n;
-        });
-        if (!independent) part.plan.replicates = n;
-        points.push_back(point_of(part, limit.text));
+        std::size_t used = 0;
+        const LevelEstimate e = estimate_first(plan, runs, limit, level, independent ? plan.replicates : n,
+                                               [&](const FragilitySample& s, std::size_t place) {
+                                                   const bool kept = independent ? place < n : s.replicate < n;
+                                                   used += kept;
+                                                   return kept;
+                                               });
+        const double share = static_cast<double>(used) / static_cast<double>(plan.samples.size());
+        points.push_back(point_of(e, used, runs.seconds * share, limit.text));
     }
     std::reverse(points.begin(), points.end());
     return points;

@@ -39,7 +39,7 @@ struct ModelRuns {
 
     LimitAnswer answer(const LimitInput& limit, std::size_t id) const
     {
-        return answer_to(limit, runs->rows[id] ? &*runs->rows[id] : nullptr);
+        return answer_to(limit, runs->rows[id]);
     }
     bool stands(const LimitInput& limit, std::size_t id) const
     {
@@ -55,7 +55,7 @@ struct ModelRuns {
         std::vector<double> words{std::numeric_limits<double>::quiet_NaN()};
         if (has_yield) words.push_back(yield / s.factor);
         if (answer(limit, id) == LimitAnswer::missing) return words;
-        const RowResults& r = runs->rows[id]->results;
+        const RowResults r = runs->rows[id]->results;
         const double slip =
             std::abs((limit.quantity == LimitQuantity::slip ? r.slip : r.max_slip).value_or(beyond * limit.value));
         words.front() = std::asinh(std::min(slip / limit.value, beyond));
@@ -162,7 +162,7 @@ PilotOfLevel learn(const ModelRuns& dear, const std::vector<ModelRuns>& cheap, c
     return pilot;
 }
 
-FragilityRuns run_all_of(const FragilityPlan& plan, const std::vector<std::size_t>& wanted, const std::string& method,
+FragilityRuns run_all_of(const FragilityPlan& plan, const SampleIds& wanted, const std::string& method,
                          const SceneText& text, int jobs, Watch& watch)
 {
     return run_fragility(plan, text, sweep_method(method), wanted, nullptr, jobs, watch);
@@ -282,7 +282,7 @@ MfmcFragility run_mfmc(const FragilityPlan& plan, const FragilityRuns& dear, con
         for (const FragilityRuns& r : runs) models.push_back({&p, &r});
         return models;
     };
-    const auto run = [&](const FragilityPlan& p, const std::vector<std::size_t>& wanted, const std::string& method) {
+    const auto run = [&](const FragilityPlan& p, const SampleIds& wanted, const std::string& method) {
         FragilityRuns runs = run_all_of(p, wanted, method, text, options.jobs, watch);
         result.seconds += runs.seconds;
         return runs;
@@ -320,7 +320,7 @@ MfmcFragility run_mfmc(const FragilityPlan& plan, const FragilityRuns& dear, con
     const FragilityPlan further_plan = plan_of(std::max<std::size_t>(1, further.back() * runs_of_unit), further_stream);
     for (std::size_t m = 0; m < cheap.size(); ++m) {
         const bool asked = further[m] > 0; // by some level; else no answer of it is needed
-        beside_runs.push_back(run(plan, asked ? wanted_samples(plan) : std::vector<std::size_t>{}, cheap[m]));
+        beside_runs.push_back(run(plan, asked ? wanted_samples(plan) : SampleIds(), cheap[m]));
         further_runs.push_back(run(further_plan, first_units(further_plan, further[m]), cheap[m]));
     }
     for (std::size_t l = 0; l < plan.input.limits.size(); ++l) {

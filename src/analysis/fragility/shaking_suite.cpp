@@ -21,7 +21,7 @@ ShakingSuite suite_of_input(const Scene& scene, const FragilityInput& input)
     std::filesystem::path index; // of the scene's own records none: few, and a folder may hold others
     if (input.suite && !input.suite->files.empty()) {
         files = record_list(input.suite->files);
-        if (!files.records.empty()) index = files.records.front().horizontal.parent_path();
+        index = files.folder;
         of.motion.records = files.records;
         of.motion.sequence.clear();
     }

@@ -12,6 +12,33 @@ struct StageCount {
     double n = 0.0, z = 0.0;
 };
 
+using StageCounts = std::map<double, StageCount>; // by level of the water
+
+/// Of each limit and level.
+std::vector<std::vector<StageCounts>> stage_counts(const FragilityPlan& plan, const FragilityRuns& runs,
+                                                   std::size_t variable)
+{
+    const std::vector<LimitInput>& limits = plan.input.limits;
+    std::vector<std::vector<StageCounts>> counts(limits.size(), std::vector<StageCounts>(plan.levels));
+    for (std::size_t id = 0; id < plan.samples.size(); ++id) {
+        const FragilitySample s = plan.samples[id];
+        const KeyValue value = plan.draws[s.draw].values[variable];
+        const auto* stage = std::get_if<double>(&value);
+        if (!stage) continue;
+        for (std::size_t l = 0; l < limits.size(); ++l) {
+            const LimitAnswer answer = answer_to(limits[l], runs.rows[id]);
+            const bool fallen = answer == LimitAnswer::static_failure;
+            if (answer == LimitAnswer::missing ||
+                (fallen && plan.input.probability.static_failure == StaticFailure::given_standing))
+                continue;
+            StageCount& count = counts[l][s.level][*stage];
+            count.n += s.weight;
+            if (fallen || answer == LimitAnswer::fails) count.z += s.weight;
+        }
+    }
+    return counts;
+}
+
 std::optional<std::size_t> variable_of_the_level(const FragilityPlan& plan)
 {
     for (std::size_t v = 0; v < plan.variables().size(); ++v) {
@@ -62,22 +89,11 @@ std::vector<probability::UsaceLocation> stage_fragility(const FragilityPlan& pla
     std::vector<probability::UsaceLocation> locations;
     const std::optional<std::size_t> variable = variable_of_the_level(plan);
     if (!variable || plan.input.intensity.design == FragilityDesign::cloud) return locations;
-    for (const LimitInput& limit : plan.input.limits)
+    const std::vector<std::vector<StageCounts>> counts_of = stage_counts(plan, runs, *variable);
+    for (std::size_t l = 0; l < plan.input.limits.size(); ++l)
         for (std::size_t level = 0; level < plan.levels; ++level) {
-            std::map<double, StageCount> counts;
-            for (std::size_t id = 0; id < plan.samples.size(); ++id) {
-                const FragilitySample& s = plan.samples[id];
-                const auto* stage = std::get_if<double>(&plan.draws[s.draw].values[*variable]);
-                if (s.level != level || !stage) continue;
-                const LimitAnswer answer = answer_to(limit, runs.rows[id] ? &*runs.rows[id] : nullptr);
-                const bool fallen = answer == LimitAnswer::static_failure;
-                if (answer == LimitAnswer::missing ||
-                    (fallen && plan.input.probability.static_failure == StaticFailure::given_standing))
-                    continue;
-                StageCount& count = counts[*stage];
-                count.n += s.weight;
-                if (fallen || answer == LimitAnswer::fails) count.z += s.weight;
-            }
+            const LimitInput& limit = plan.input.limits[l];
+            const StageCounts& counts = counts_of[l][level];
             if (counts.size() < 2) continue;
             std::vector<double> stage, p, lower, upper, n;
             for (const auto& [at, count] : counts) {

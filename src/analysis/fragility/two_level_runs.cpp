@@ -17,9 +17,9 @@ std::vector<double> features(const FragilityPlan& plan, const FragilityRuns& run
 {
     constexpr double beyond = 1e4; // limits
     const FragilitySample& s = plan.samples[id];
-    const LimitAnswer answer = answer_to(limit, runs.rows[id] ? &*runs.rows[id] : nullptr);
+    const LimitAnswer answer = answer_to(limit, runs.rows[id]);
     if (answer == LimitAnswer::missing) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-    const RowResults& r = runs.rows[id]->results;
+    const RowResults r = runs.rows[id]->results;
     const double slip =
         std::abs((limit.quantity == LimitQuantity::slip ? r.slip : r.max_slip).value_or(beyond * limit.value));
     return {std::asinh(std::min(slip / limit.value, beyond)), runs.yield[s.draw] / s.factor};
@@ -73,7 +73,7 @@ TwoLevelFragility estimate_two_level(const FragilityPlan& plan, const FragilityR
     result.dear_seconds = per_run(dear);
     result.cheap_seconds = per_run(cheap);
     const auto answer = [](const LimitInput& limit, const FragilityRuns& runs, std::size_t id) {
-        return answer_to(limit, runs.rows[id] ? &*runs.rows[id] : nullptr);
+        return answer_to(limit, runs.rows[id]);
     };
     for (const LimitInput& limit : plan.input.limits) {
         TwoLevelLimit& of_limit = result.limits.emplace_back();

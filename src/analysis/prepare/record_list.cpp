@@ -66,6 +66,11 @@ bool is_something_else(const std::filesystem::path& file)
     return file.filename().string().starts_with(".");
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& path)
+{
+    return path.parent_path().empty() ? "." : path.parent_path();
+}
+
 RecordFiles record_of(const std::filesystem::path& horizontal)
 {
     RecordFiles record;
@@ -121,6 +126,7 @@ RecordList records_of_a_seed_list(const std::filesystem::path& list)
 {
     RecordList files;
     const records::SeededSuite suite = records::records_of_seeds(list);
+    files.folder = suite.folder;
     for (const records::SeededPair& pair : suite.pairs) {
         RecordFiles record = record_of(pair.horizontal);
         record.name = pair.name;
@@ -145,7 +151,9 @@ RecordList records_of_pattern(const std::string& pattern, bool folder)
                 !(folder && is_something_else(found.gl_pathv[i])))
                 files.emplace_back(found.gl_pathv[i]);
     ::globfree(&found);
-    return paired(files);
+    RecordList list = paired(files);
+    list.folder = folder_of(pattern);
+    return list;
 }
 
 RecordList records_of_list(const std::filesystem::path& list, const std::string& text)
@@ -156,6 +164,7 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
         return InputError(Diagnostic{list.string(), line, 0, problem, expected, "correct this line"});
     };
     RecordList files;
+    files.folder = folder_of(list);
     const CsvTable table = parse_csv(text);
     const std::vector<std::string>& columns = table.heading.cells;
     for (const std::string& column : columns)

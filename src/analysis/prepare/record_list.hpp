@@ -25,7 +25,9 @@ struct RecordList {
     std::vector<std::string> events; ///< of each record: what its horizontal components share
     std::vector<double> weights;     ///< of each record
     std::vector<std::string> notes;  ///< verticals without a horizontal one, which are left out
-    std::string made;                ///< of a list of seeds whose records were not there: what was made, and where
+    std::filesystem::path
+        folder; ///< that was named, that of the list, or that of the records made: what is known of them is kept there
+    std::string made; ///< of a list of seeds whose records were not there: what was made, and where
 };
 
 /// @param pattern  a folder; a pattern such as "suite/*.AT2"; or a CSV with the column horizontal and, as far as they are wanted,

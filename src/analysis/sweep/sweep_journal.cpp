@@ -47,36 +47,16 @@ std::string head_of(const SweepIdentity& i, const Shard& shard)
                        i.scene, i.records, i.grid, i.rows, shard.index, shard.count);
 }
 
-/// The numbers of a row, in the order of its line; the status stands among them.
-using R = RowResults;
-constexpr std::optional<double> R::*numbers[] = {&R::slip,
-                                                 &R::max_slip,
-                                                 &R::upstream_slip,
-                                                 &R::slip_low,
-                                                 &R::slip_high,
-                                                 &R::slip_error,
-                                                 &R::truncation_error,
-                                                 &R::critical_friction,
-                                                 &R::lift_slip,
-                                                 &R::walked,
-                                                 &R::thrust_over_friction,
-                                                 &R::hops,
-                                                 &R::hop_frequency,
-                                                 &R::unloaded_share,
-                                                 &R::end_rate,
-                                                 &R::slip_shaking,
-                                                 &R::slip_at_rest,
-                                                 &R::opening,
-                                                 &R::factor_after};
-constexpr std::size_t status_place = 8, result_count = std::size(numbers) + 1;
+/// The status stands among the numbers.
+constexpr std::size_t status_place = 8, result_count = row_numbers.size() + 1;
 
 RowResults results_of(nlohmann::json cells)
 {
     RowResults results;
     if (cells[status_place].is_string()) results.status = cells[status_place].get<std::string>();
     cells.erase(status_place);
-    for (std::size_t i = 0; i < std::size(numbers); ++i)
-        if (cells[i].is_number()) results.*numbers[i] = cells[i].get<double>();
+    for (std::size_t i = 0; i < row_numbers.size(); ++i)
+        if (cells[i].is_number()) results.*row_numbers[i] = cells[i].get<double>();
     return results;
 }
 
@@ -110,13 +90,13 @@ void read_extras(const nlohmann::json& json, RowResults& results)
 std::string line_of(const FinishedRow& row)
 {
     std::string text = fmt::format("[{},{},[", row.id, row.good);
-    for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    for (std::size_t i = 0; i < row_numbers.size(); ++i) {
         if (i == status_place) {
             const std::string& status = row.results.status;
             text += (status.empty() ? "null" : nlohmann::json(status).dump()) + ",";
         }
-        add_number(text, row.results.*numbers[i]);
-        text += i + 1 < std::size(numbers) ? "," : "]";
+        add_number(text, row.results.*row_numbers[i]);
+        text += i + 1 < row_numbers.size() ? "," : "]";
     }
     if (row.history.interval > 0.0) {
         text += ",";
@@ -185,18 +165,60 @@ std::string differences(const std::string& mine, const std::string& theirs)
     return words;
 }
 
-/// Nothing is lost with it: its table is written, or it has no row yet.
-bool replaceable(const std::string& content)
-{
-    if (!content.starts_with(first_line)) return false;
-    if (content.ends_with("\n" + std::string(done_line))) return true;
-    std::size_t rows = 0, line = 0;
-    for (std::size_t at = 0; at < content.size(); ++line) {
-        const std::size_t end = std::min(content.find('\n', at), content.size() - 1) + 1;
-        rows += line >= head_lines && !content.substr(at, begun_word.size()).starts_with(begun_word);
-        at = end;
+/// The lines of a file one after the other, each with its line end; the last one may be torn and have none. Some of the file is held at a time.
+class LinesOfFile {
+public:
+    LinesOfFile(int descriptor, const std::filesystem::path& file) : descriptor_(descriptor), file_(file) {}
+
+    /// To the next one. @returns false: there is none
+    bool next()
+    {
+        at_ += length_;
+        begin_ += length_;
+        std::size_t end = held_.find('\n', begin_);
+        while (end == std::string::npos && read_on()) end = held_.find('\n', begin_);
+        length_ = std::min(end, held_.size() - 1) + 1 - begin_;
+        return begin_ < held_.size();
     }
-    return rows == 0;
+    std::string_view line() const { return std::string_view(held_).substr(begin_, length_); }
+    std::uint64_t at() const { return at_; } ///< its first byte
+    bool torn() const { return !line().ends_with('\n'); }
+
+private:
+    /// Drops what is behind and reads on. @returns false: at the end of the file
+    bool read_on()
+    {
+        constexpr std::size_t some = 1u << 20;
+        held_.erase(0, begin_);
+        begin_ = 0;
+        const std::size_t before = held_.size();
+        held_.resize(before + some);
+        const ssize_t n = ::pread(descriptor_, held_.data() + before, some, static_cast<off_t>(at_ + before));
+        if (n < 0)
+            refuse(file_, fmt::format("cannot be read: {}.", std::strerror(errno)), "a file with read permission",
+                   "choose another --out");
+        held_.resize(before + static_cast<std::size_t>(n));
+        return n > 0;
+    }
+
+    int descriptor_;
+    const std::filesystem::path& file_;
+    std::string held_;
+    std::size_t begin_ = 0, length_ = 0; ///< of the line in held_
+    std::uint64_t at_ = 0;
+};
+
+/// Nothing is lost with it: its table is written, or it has no row yet.
+bool replaceable(LinesOfFile lines)
+{
+    if (!lines.next() || !lines.line().starts_with(first_line)) return false;
+    std::size_t rows = 0;
+    bool done = false;
+    for (std::size_t line = 1; lines.next(); ++line) {
+        rows += line >= head_lines && !lines.line().starts_with(begun_word);
+        done = lines.line() == done_line;
+    }
+    return done || rows == 0;
 }
 
 /// Ids of a line that begin() wrote; a damaged one gives others or none, which only costs time.
@@ -234,14 +256,13 @@ Journal::Journal(std::filesystem::path file, const SweepIdentity& identity, cons
     descriptor_ = open_locked(file_);
     if (!there) return;
     try {
-        const std::string content = read_file(file_, std::uintmax_t{1} << 40);
-        if (start == JournalStart::fresh && replaceable(content)) {
+        if (start == JournalStart::fresh && replaceable({descriptor_, file_})) {
             write_file(file_, head); // a new file in its place: whole at any moment
             const int old = std::exchange(descriptor_, open_locked(file_));
             ::close(old);
             return;
         }
-        read(content, head, identity.rows);
+        read(head, identity.rows);
         if (start == JournalStart::fresh)
             refuse(file_, fmt::format("{} rows of this sweep are finished here.", finished_.size()),
                    "--resume to go on, or another --out", "add  --resume ; to begin again delete this file");
@@ -259,26 +280,30 @@ Journal::~Journal()
     ::close(descriptor_); // the lock goes with it
 }
 
-void Journal::read(const std::string& content, const std::string& head, std::size_t rows)
+void Journal::read(const std::string& head, std::size_t rows)
 {
-    if (!content.starts_with(head)) {
-        const bool journal = content.starts_with(std::string(first_line) + "\n");
+    LinesOfFile lines(descriptor_, file_);
+    std::string begins;
+    while (begins.size() < head.size() && lines.next()) begins += lines.line();
+    if (begins != head) {
+        const bool journal = begins.starts_with(std::string(first_line) + "\n");
+        while (journal && std::count(begins.begin(), begins.end(), '\n') < std::ptrdiff_t{head_lines} && lines.next())
+            begins += lines.line();
         refuse(file_,
-               journal ? "this journal belongs to a sweep of other inputs: " + differences(head, content) + "."
+               journal ? "this journal belongs to a sweep of other inputs: " + differences(head, begins) + "."
                        : std::string("this is not a journal of a sweep."),
                "the journal of the same scene, records, grid, part and version",
                "choose another --out, or delete this file to begin again");
     }
     std::vector<bool> seen(rows);
-    std::size_t at = head.size();
-    while (at < content.size()) {
-        const std::size_t end = content.find('\n', at);
-        if (end == std::string::npos) {
+    whole_bytes_ = head.size();
+    while (lines.next()) {
+        if (lines.torn()) {
             ++damaged_;
             break;
         }
-        const std::string_view line = std::string_view(content).substr(at, end + 1 - at);
-        std::optional<FinishedRow> row = row_of(line.substr(0, line.size() - 1), rows);
+        const std::string_view line = lines.line();
+        const std::optional<FinishedRow> row = row_of(line.substr(0, line.size() - 1), rows);
         if (line == done_line)
             done_ = true;
         else if (line.starts_with(begun_word))
@@ -287,11 +312,10 @@ void Journal::read(const std::string& content, const std::string& head, std::siz
             ++damaged_;
         else if (!seen[row->id]) {
             seen[row->id] = true;
-            finished_.push_back({row->id, at, static_cast<std::uint32_t>(line.size() - 1)});
+            finished_.push_back({row->id, lines.at(), static_cast<std::uint32_t>(line.size() - 1)});
         }
-        at = end + 1;
+        whole_bytes_ = lines.at() + line.size();
     }
-    whole_bytes_ = at;
     rows_ = rows;
     std::sort(finished_.begin(), finished_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
     std::erase_if(stopped_, [&](const auto& entry) { return entry.first >= rows || seen[entry.first]; });

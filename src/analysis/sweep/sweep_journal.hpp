@@ -3,6 +3,7 @@
 #include "analysis/sweep/slip_history.hpp"
 #include "analysis/sweep/sweep_identity.hpp"
 
+#include <array>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -45,6 +46,28 @@ struct RowResults {
 
     friend bool operator==(const RowResults&, const RowResults&) = default;
 };
+
+/// The numbers of a row, in the order of a journal's line.
+inline constexpr std::array<std::optional<double> RowResults::*, 19> row_numbers = {
+    &RowResults::slip,
+    &RowResults::max_slip,
+    &RowResults::upstream_slip,
+    &RowResults::slip_low,
+    &RowResults::slip_high,
+    &RowResults::slip_error,
+    &RowResults::truncation_error,
+    &RowResults::critical_friction,
+    &RowResults::lift_slip,
+    &RowResults::walked,
+    &RowResults::thrust_over_friction,
+    &RowResults::hops,
+    &RowResults::hop_frequency,
+    &RowResults::unloaded_share,
+    &RowResults::end_rate,
+    &RowResults::slip_shaking,
+    &RowResults::slip_at_rest,
+    &RowResults::opening,
+    &RowResults::factor_after};
 
 struct FinishedRow {
     std::size_t id = 0;
@@ -91,7 +114,7 @@ public:
 
 private:
     void write(std::string_view lines);
-    void read(const std::string& content, const std::string& head, std::size_t rows);
+    void read(const std::string& head, std::size_t rows);
 
     std::filesystem::path file_;
     int descriptor_ = -1;

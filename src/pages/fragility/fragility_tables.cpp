@@ -15,8 +15,9 @@ using units::mm;
 
 struct SampleRow {
     std::size_t id;
-    const FragilitySample& sample;
-    const FinishedRow* row;
+    FragilitySample sample;
+    FragilityDraw draw;
+    std::optional<FinishedRow> row;
 };
 
 Cell cell_of_value(const KeyValue& value)
@@ -54,11 +55,13 @@ Column intensity_column(const FragilityView& view)
 
 } // namespace
 
-Table sample_table(const FragilityView& view)
+Table sample_table(const FragilityView& view, std::size_t first, std::size_t end)
 {
     std::vector<SampleRow> rows;
-    for (std::size_t id = 0; id < view.plan.samples.size(); ++id)
-        rows.push_back({id, view.plan.samples[id], view.runs.rows[id] ? &*view.runs.rows[id] : nullptr});
+    for (std::size_t id = first; id < std::min(end, view.plan.samples.size()); ++id) {
+        const FragilitySample sample = view.plan.samples[id];
+        rows.push_back({id, sample, view.plan.draws[sample.draw], view.runs.rows[id]});
+    }
     const auto result = [](auto member, double unit) {
         return [=](const SampleRow& r) { return r.row ? optional_cell(r.row->results.*member, unit) : Cell(); };
     };
@@ -74,9 +77,7 @@ Table sample_table(const FragilityView& view)
         {{"polarity", "polarity"}, [](const SampleRow& r) { return std::int64_t{r.sample.polarity}; }},
         {{"factor", "factor", "–"}, [](const SampleRow& r) { return r.sample.factor; }}};
     for (std::size_t v = 0; v < view.plan.variables().size(); ++v)
-        columns.push_back({{view.plan.variables()[v].name, view.plan.variables()[v].name}, [&, v](const SampleRow& r) {
-                               return cell_of_value(view.plan.draws[r.sample.draw].values[v]);
-                           }});
+        columns.push_back({{view.plan.variables()[v].name, view.plan.variables()[v].name}, [v](const SampleRow& r) { return cell_of_value(r.draw.values[v]); }});
     columns.insert(
         columns.end(),
         {{{"method", "method"}, [&](const SampleRow&) { return view.method; }},

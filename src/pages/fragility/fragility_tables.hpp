@@ -3,10 +3,14 @@
 #include "core/table.hpp"
 #include "pages/fragility/fragility_view.hpp"
 
+#include <limits>
+
 namespace damslip::pages {
 
 /// One row a run: draw, record, level, answer. The same whatever the number of threads, parts and stops.
-Table sample_table(const FragilityView& view);
+/// @param first, end  the runs first ... end - 1 alone
+Table sample_table(const FragilityView& view, std::size_t first = 0,
+                   std::size_t end = std::numeric_limits<std::size_t>::max());
 /// One row for each limit and level: counts, P, intervals, bands.
 Table fragility_table(const FragilityView& view);
 /// One row for each limit: the lognormal curve, or why there is none.

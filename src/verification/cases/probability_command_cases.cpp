@@ -233,9 +233,11 @@ std::vector<Check> lost_runs()
         FragilityRuns runs = full.runs;
         double lost = 0.0;
         for (std::size_t id = 0; id < n; ++id) {
-            const bool fails = answer_to(full.plan.input.limits.front(), &*full.runs.rows[id]) == LimitAnswer::fails;
+            const bool fails = answer_to(full.plan.input.limits.front(), full.runs.rows[id]) == LimitAnswer::fails;
             if (!way.is_lost(id, fails)) continue;
-            runs.rows[id]->results.status = word(Status::not_resolved);
+            FinishedRow row = *runs.rows[id];
+            row.results.status = word(Status::not_resolved);
+            runs.rows.put(row);
             lost += 1.0;
         }
         const LevelEstimate level = estimate_fragility(full.plan, runs, nullptr, {}).limits[0].levels[0];
@@ -349,13 +351,12 @@ std::vector<Check> same_bits()
     Watch watch;
     const FragilityRuns threads =
         run_fragility(one.plan, text, sweep_method("rigid"), wanted_samples(one.plan), nullptr, 4, watch);
-    FragilityRuns parts = threads;
-    for (auto& row : parts.rows) row.reset();
+    FragilityRuns parts = no_runs(one.plan, one.plan.samples.size());
     for (std::size_t i = 0; i < 3; ++i) {
-        FragilityRuns part =
+        const FragilityRuns part =
             run_fragility(one.plan, text, sweep_method("rigid"), wanted_samples(one.plan, {i, 3}), nullptr, 1, watch);
         for (std::size_t id = 0; id < part.rows.size(); ++id)
-            if (part.rows[id]) parts.rows[id] = std::move(part.rows[id]);
+            if (part.rows.has(id)) parts.rows.put(*part.rows[id]);
     }
     FragilityInput more = input;
     more.probability.variables.insert(more.probability.variables.begin(),
