@@ -117,20 +117,20 @@ TEST(ProbabilityLaws, LogarithmsOfTailsAreFiniteAndContinuous)
 
 TEST(ProbabilityLaws, CorrelationsThatContradictOneAnotherAreRefused)
 {
-    const std::array<RankCorrelation, 3> bad{{{0, 1, 0.9}, {1, 2, 0.9}, {0, 2, -0.9}}};
+    const std::array<damslip::probability::RankCorrelation, 3> bad{{{0, 1, 0.9}, {1, 2, 0.9}, {0, 2, -0.9}}};
     try {
         (void)GaussianCopula(3, bad);
         FAIL() << "accepted";
     } catch (const NotPositiveDefinite& error) {
         EXPECT_LT(error.smallest_eigenvalue(), 0.0);
     }
-    const std::array<RankCorrelation, 2> twice{{{0, 1, 0.5}, {1, 0, 0.5}}};
+    const std::array<damslip::probability::RankCorrelation, 2> twice{{{0, 1, 0.5}, {1, 0, 0.5}}};
     EXPECT_THROW(GaussianCopula(2, twice), ParameterError);
 }
 
 TEST(ProbabilityLaws, ConditionalDrawsHaveTheCorrelationOfTheCopula)
 {
-    const std::array<RankCorrelation, 2> ranks{{{0, 1, 0.6}, {1, 2, -0.4}}};
+    const std::array<damslip::probability::RankCorrelation, 2> ranks{{{0, 1, 0.6}, {1, 2, -0.4}}};
     const GaussianCopula copula(3, ranks);
     // Variable 1 drawn, 0 and 2 drawn given it: together they have the law of the copula, so z_0 and z_1 correlate by r_01.
     constexpr std::uint32_t n = 20000;
