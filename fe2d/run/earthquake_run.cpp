@@ -317,6 +317,25 @@ std::string EarthquakeRun::missed_tolerance(const RunResult& result) const
                        where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance);
 }
 
+namespace {
+
+/// Friction only takes energy. Over a step its work goes by the mean of the forces at both ends, so a dam that leaves the rock
+/// within a step after a hard landing is thrown back by the friction of that landing: steps that are too long for it.
+/// @returns a sentence where friction gave back more than a hundredth of the largest kinetic energy; else nothing
+std::string friction_gave_back(const RunHistory& history)
+{
+    double kinetic = 0.0;
+    for (const Energy& energy : history.energy) kinetic = std::max(kinetic, energy.kinetic);
+    const double gave = history.energy.empty() ? 0.0 : -history.energy.back().friction;
+    if (!(gave > 0.01 * kinetic)) return "";
+    return fmt::format(
+        " Friction gave {:.3g} J/m back, which it cannot: its force turns or ends within steps too long for that, "
+        "as where the dam hops. Use a smaller step (time.dt_s or time.substeps).",
+        gave);
+}
+
+} // namespace
+
 void EarthquakeRun::judge(RunResult& result) const
 {
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;
@@ -370,6 +389,9 @@ void EarthquakeRun::judge(RunResult& result) const
     default:
         break;
     }
+    // Where contact gives way before it slips, what that stores comes back through friction.
+    if (scene_.contact.enforcement == ContactEnforcement::exact && scene_.contact.normal == NormalContact::hard)
+        result.message += friction_gave_back(result.history);
     if (result.events_left > 0 && !result.between.empty() && result.rest().status != StageStatus::ok)
         result.message += fmt::format(" {} of the sequence {} not run.",
                                       result.events_left == 1 ? std::string("1 record")

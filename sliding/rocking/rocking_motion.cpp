@@ -96,13 +96,40 @@ void RockingMotion::accelerate(const CornerEquations& e, bool turns, double mu, 
 }
 
 /// Clockwise moment about a corner that the block would have to turn with if it stood on it now, without turning yet: with the
-/// uplift of the joint that is open to there, which also presses it less where it slides.
+/// uplift of the joint that is open to there. While it slides the wetter of both joints, the open and the shut one, says by what
+/// friction: a joint that would be drier once open is still shut until what the block slides with tips it.
 double RockingMotion::tipping_moment(Stance stance, double bond, const BaseAcceleration& a, const State& y) const
 {
-    const CornerEquations e = equations(corner_of(stance), 0.0, 0.0, a);
+    const Corner& open = corner_of(stance);
+    const Corner& shut = bases_[stage_];
+    const CornerEquations e = equations(open, 0.0, 0.0, a);
     Instant now;
-    accelerate(e, false, pressed_ ? friction(y[path]) : 0.0, bond, now);
+    accelerate(open.force_n < shut.force_n ? equations(shut, 0.0, 0.0, a) : e, false,
+               pressed_ ? friction(y[path]) : 0.0, bond, now);
     return e.turn - e.tr * now.slip_accel;
+}
+
+/// Does more water stand under the block on that corner than under the block on its base?
+bool RockingMotion::fills(Stance stance) const
+{
+    return corner_of(stance).force_n > bases_[stage_].force_n;
+}
+
+/// Flat on its base the block slides with the crack that its own acceleration opens. Where it would tip if it slid by the
+/// friction of the shut joint, and not by that of the open one, the crack lies between: water comes in until the block slides
+/// so fast that its resultant stays at the corner, over_toe = 0.
+void RockingMotion::slide_with_crack(double mu, const BaseAcceleration& a, Instant& now) const
+{
+    const Stance ahead = direction_ > 0.0 ? Stance::toe : Stance::heel;
+    if (!fills(ahead)) return;
+    const CornerEquations e = equations(corner_of(ahead), 0.0, 0.0, a);
+    Instant through;
+    accelerate(e, false, mu, 0.0, through);
+    const double balanced = std::min(direction_ * e.turn / e.tr, direction_ * through.slip_accel);
+    if (!(balanced > direction_ * now.slip_accel)) return;
+    now.slip_accel = direction_ * balanced;
+    now.resistance = std::max(0.0, direction_ * (e.push - e.tt * now.slip_accel));
+    now.normal = now.resistance / mu;
 }
 
 RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
@@ -118,6 +145,7 @@ RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
     now.drive = e.push - e.tr * (sliding_ ? 0.0 : now.turn_accel);
     now.resistance = mu * std::max(0.0, now.normal);
     if (stance_ == Stance::base) {
+        if (sliding_ && kept == 0.0 && mu > 0.0) slide_with_crack(mu, a, now);
         now.from_toe = -(e.turn - e.tr * now.slip_accel);
         now.over_toe = block_.uplift_on_toe ? tipping_moment(Stance::toe, bond, a, y) : -now.from_toe;
         now.over_heel = tipping_moment(Stance::heel, bond, a, y);
@@ -321,10 +349,10 @@ void RockingMotion::apply(Event event)
         land();
         break;
     case Event::lift_toe:
-        stand_on(Stance::toe);
+        lift(Stance::toe);
         break;
     case Event::lift_heel:
-        stand_on(Stance::heel);
+        lift(Stance::heel);
         break;
     case Event::press:
         pressed_ = !pressed_;
@@ -434,6 +462,31 @@ bool RockingMotion::agrees(Stance stance, double direction) const
     if (direction != 0.0 && y_[slip_rate] == 0.0 && !(direction * now.slip_accel > 0.0)) return false;
     if (stance == Stance::base) return now.over_toe <= 0.0 && now.over_heel >= 0.0;
     return trial.standing().sense * now.turn_accel > 0.0;
+}
+
+/// The base opens from end to end: the block stands on the corner, unless it would slide there and by that come back at once.
+void RockingMotion::lift(Stance stance)
+{
+    lose_bond();
+    const double direction = stance == Stance::toe ? 1.0 : -1.0;
+    if (!sliding_ && fills(stance) && (direction > 0.0 || options_.two_way) && !agrees_at_limit(stance))
+        start(direction);
+    else
+        stand_on(stance);
+}
+
+/// Does a block at rest that is about to tip stay on that corner? Not where the friction of the open joint lets it go, and
+/// sliding presses its base back on the rock.
+bool RockingMotion::agrees_at_limit(Stance stance) const
+{
+    RockingMotion trial(*this);
+    trial.stance_ = stance;
+    const Instant held = trial.instant(0.0, y_);
+    if (std::abs(held.drive) <= held.resistance) return true;
+    trial.sliding_ = true;
+    trial.direction_ = held.drive < 0.0 ? -1.0 : 1.0;
+    return trial.direction_ != trial.standing().sense ||
+           trial.standing().sense * trial.instant(0.0, y_).turn_accel >= 0.0;
 }
 
 void RockingMotion::stand_on(Stance stance)

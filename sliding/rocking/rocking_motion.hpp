@@ -57,6 +57,8 @@ private:
     BaseAcceleration ground(double x) const;
     Instant instant(double x, const State& y) const;
     void accelerate(const CornerEquations& e, bool turns, double friction, double bond, Instant& now) const;
+    bool fills(Stance stance) const;
+    void slide_with_crack(double friction, const BaseAcceleration& ground, Instant& now) const;
     bool brittle(const State& y) const;
     double bonded_length(const Instant& now) const;
     State rates(double x, const State& y) const;
@@ -72,6 +74,7 @@ private:
     void apply(Event event);
     void stop();
     void start(double drive);
+    void lift(Stance stance);
     void stand_on(Stance stance);
     void land();
     void move_at(double v);
@@ -80,6 +83,7 @@ private:
     void settle_slip();
     void settle_on_base();
     bool agrees(Stance stance, double direction) const;
+    bool agrees_at_limit(Stance stance) const;
     void lose_bond();
 
     const Corner& corner_of(Stance stance) const;

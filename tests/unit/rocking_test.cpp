@@ -244,14 +244,101 @@ TEST(Rocking, FallsBackOnTheUpliftOfTheOpenJoint)
     EXPECT_LT(std::abs(full.energy.imbalance), 1e-9);
 }
 
-// Sliding and rocking at once: the energy closes, and below its start nothing rocks. Above a dry joint sliding friction tips the
-// block where mu > b/h = 0.4, whatever the uplift that it stood on before; below that it slides and stays flat.
+/// The wet tower under a full joint whose friction, mu < b/h, lets go of it before it can stand on a corner: at rest it tips at
+/// a_t = 0.7 g b/h, then the crack lets in so much water that it slides with the rest of the acceleration: a_t is its yield.
+RockingBlock tower_on_a_full_joint()
+{
+    const double weight = tower(1.0).mass * g;
+    return wet_tower(UpliftResultant{0.3 * weight, 0.6 * weight}, 0.39);
+}
+
+// Between A (1 - t/t_d) >= a_t and rest the slip is (2/3) t_d^2 (A - a_t)^3/A^2, as of a sliding block that yields at a_t. With
+// the water of the shut joint it would not slide below 0.351 g, with that of the open one from 0.273 g on.
+TEST(Rocking, SlidesFlatWithTheCrackThatKeepsItsBalance)
+{
+    const double tips = 0.7 * g * 0.4, start = 0.4 * g, decay = 1.5;
+    const double exact = 2.0 / 3.0 * decay * decay * std::pow(start - tips, 3) / (start * start);
+    for (const double sense : {1.0, -1.0}) {
+        SlideOptions two_way;
+        two_way.sliding.two_way = true;
+        const GroundMotion ramp = ground_of([=](double t) { return sense * start * (1.0 - t / decay); }, decay, 37);
+        const RockingResult r = rock_and_slide(ramp, tower_on_a_full_joint(), two_way);
+        EXPECT_NEAR(r.slide.slip, sense * exact, 1e-10 * exact);
+        EXPECT_NEAR(r.slide.first_slip_time, 0.0, 1e-12);
+        EXPECT_EQ(r.slide.phases, 1);
+        EXPECT_EQ(r.rocks, 0);
+        EXPECT_EQ(r.slide.status, Status::at_rest);
+        EXPECT_NEAR(r.energy.friction, tower(1.0).mass * tips * exact, 1e-9 * r.energy.friction);
+        EXPECT_LT(std::abs(r.energy.imbalance), 1e-9);
+    }
+}
+
+/// The same block with water that takes time to come and go: its share w of the full joint grows with the moment that would tip
+/// the block on the full joint, w' = (10 (a - s'') - 0.7 g 4)/(10 g lag), in [0, 1]. Explicit steps of lag/10.
+struct LateWater {
+    double lag; ///< [s]
+    double slip = 0.0, rate = 0.0, accel = 0.0, share = 0.0;
+    void step(double ground, double dt)
+    {
+        share = std::clamp(share + dt / lag * ((ground - accel) / g - 0.28), 0.0, 1.0);
+        const double held = 0.39 * g * (0.9 - 0.2 * share);
+        const bool rests = rate == 0.0 && std::abs(ground) <= held;
+        accel = rests ? 0.0 : ground - std::copysign(held, rate != 0.0 ? rate : ground);
+        double next = rate + accel * dt;
+        if (rate * next < 0.0) next = accel = 0.0; // it stops
+        slip += 0.5 * (rate + next) * dt;
+        rate = next;
+    }
+};
+
+// The limit of fast water is reached in proportion to its lag.
+TEST(Rocking, SlidesAsWaterThatTakesAMomentLetsIt)
+{
+    const GroundMotion motion =
+        ground_of([](double t) { return 1.2 + 2.4 * std::sin(7.0 * t) * std::sin(0.5 * t); }, 6.0, 6000);
+    SlideOptions brief;
+    brief.sliding.run_out_max = 0.0;
+    const RockingResult r = rock_and_slide(motion, tower_on_a_full_joint(), brief);
+    ASSERT_EQ(r.rocks, 0);
+    ASSERT_GT(r.slide.phases, 3);
+    const auto off_by = [&](int parts) {
+        const double dt = motion.dt / parts;
+        LateWater block{10.0 * dt};
+        for (std::size_t k = 0; k + 1 < motion.accel_h.size(); ++k)
+            for (int i = 0; i < parts; ++i) {
+                const double share = (i + 0.5) / parts;
+                block.step((1.0 - share) * motion.accel_h[k] + share * motion.accel_h[k + 1], dt);
+            }
+        return block.slip / r.slide.slip - 1.0;
+    };
+    const double fast = off_by(400), faster = off_by(4000);
+    EXPECT_NEAR(fast / faster, 10.0, 0.5);
+    EXPECT_NEAR((10.0 * faster - fast) / 9.0, 0.0, 2e-5); // without lag; what is left is of its square
+}
+
+// A thrust on top, shaken so that it rocks, too: on its toe it would slide, come back, stand, and tip again without end.
+TEST(Rocking, AFullJointEndsWithoutEndlessLandings)
+{
+    RockingBlock block = tower_on_a_full_joint();
+    block.force_t = 0.1 * block.mass * g;
+    block.moment += 3.0 * block.force_t;
+    for (const double peak : {4.0, 7.0, 10.0}) {
+        const RockingResult r = rock_and_slide(shaking(peak), block, {});
+        EXPECT_EQ(r.slide.status, Status::at_rest) << peak;
+        EXPECT_GT(r.slide.slip, 0.0) << peak;
+        EXPECT_LT(r.landings, 2000) << peak;
+        EXPECT_LT(std::abs(r.energy.imbalance), 1e-9) << peak;
+    }
+}
+
+// Sliding and rocking at once: the energy closes, and below its start nothing rocks. A joint that would be
+// dry once open is shut and wet until then: sliding tips the block where 0.9 mu > b/h = 0.4, and below that it stays flat.
 TEST(Rocking, SlidesAndRocksOnBothRules)
 {
     const double weight = tower(1.0).mass * g;
     const UpliftResultant dry{0.0, 0.0}, full{0.3 * weight, 0.6 * weight};
     for (const UpliftResultant& open : {dry, full}) {
-        const RockingBlock block = wet_tower(open, 0.41);
+        const RockingBlock block = wet_tower(open, open.force == 0.0 ? 0.45 : 0.41);
         const RockingResult r = rock_and_slide(shaking(9.0), block, {});
         EXPECT_GT(r.rocks, 2) << open.force;
         EXPECT_LT(std::abs(r.energy.imbalance), 1e-9) << open.force;
@@ -260,9 +347,23 @@ TEST(Rocking, SlidesAndRocksOnBothRules)
     EXPECT_GT(rock_and_slide(shaking(9.0), wet_tower(full, 0.41), {}).slide.phases, 2);
     SlideOptions two_way;
     two_way.sliding.two_way = true;
-    const RockingResult flat = rock_and_slide(shaking(9.0), wet_tower(dry, 0.38), two_way);
+    const RockingResult flat = rock_and_slide(shaking(9.0), wet_tower(dry, 0.44), two_way);
     EXPECT_EQ(flat.rocks, 0);
     EXPECT_GT(flat.slide.phases, 2);
+}
+
+// Between b/h and that the block that stood on a dry joint would be held by more friction than the one that slides on the shut one:
+// it would stop, come back and start again without end.
+TEST(Rocking, AJointThatDriesEndsWithoutEndlessLandings)
+{
+    RockingBlock block = wet_tower(UpliftResultant{0.0, 0.0}, 0.42);
+    block.force_t = 0.1 * block.mass * g;
+    block.moment += 3.0 * block.force_t;
+    for (const double peak : {7.0, 10.0, 14.0}) {
+        const RockingResult r = rock_and_slide(shaking(peak), block, {});
+        EXPECT_EQ(r.slide.status, Status::at_rest) << peak;
+        EXPECT_LT(std::abs(r.energy.imbalance), 1e-9) << peak;
+    }
 }
 
 TEST(Rocking, IsAMethodOfSweepsAndARungOfTheLadder)
