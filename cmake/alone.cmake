@@ -7,6 +7,12 @@ set(DAMSLIP_ALONE
   sliding/block/base_equations.cpp sliding/block/slide.cpp sliding/empirical/regression_list.cpp sliding/empirical/regression_table.cpp
   src/cli/command_list.cpp src/scene/added_mass_list.cpp src/scene/effect_list.cpp src/scene/uplift_list.cpp)
 
+# Files of folders that are cold otherwise, through which every row of a sweep goes: compiled like the hot ones, by themselves.
+set(DAMSLIP_PER_ROW
+  src/analysis/prepare/rigid_model.cpp src/analysis/sweep/sweep_journal.cpp src/analysis/sweep/sweep_rows.cpp
+  src/analysis/sweep/sweep_run.cpp src/analysis/sweep/sweep_tasks.cpp
+  src/pages/report/csv_lines.cpp src/pages/sweep/sweep_rows_view.cpp src/pages/sweep/sweep_tables.cpp)
+
 # For the tests that rely on it.
 function(damslip_must_be_alone source)
   if(NOT source IN_LIST DAMSLIP_ALONE)

@@ -56,6 +56,10 @@ FRICTIONS = "0.66,0.70,0.77,1.00"
 RIGID = ["sweep", "{scene}", "-q", "--method", "rigid", "--friction", "0.65:1.0:0.0001", "--scale", "0.5,1,2",
          "--polarity", "1,-1", "-j", "1", "--out", "{folder}/rows.csv"]
 RIGID_ROWS = 3501 * 3 * 2
+SCALES = "0.5,0.6,0.7,0.8,0.9,1,1.1,1.2,1.3,1.4,1.5,2"
+MILLION = ["sweep", "{scene}", "-q", "--method", "rigid", "--friction", "0.65:0.983336:0.000008", "--scale", SCALES,
+           "--polarity", "1,-1", "-j", "1", "--out", "{folder}/rows.csv"]
+MILLION_ROWS = 41668 * 12 * 2
 REDUCED = ["sweep", "{scene}", "-q", "--method", "fe-reduced", "--friction", FRICTIONS, "-j", "1"]
 WHOLE = ["sweep", "{scene}", "-q", "--method", "fe-whole-steps", "--friction", FRICTIONS, "-j", "1"]
 
@@ -72,6 +76,8 @@ CASES = {
     "default-massless": Case("default accuracy, massless + acoustic, both", Side(ACOUSTIC, FE_BEFORE),
                              Side(both(MASSLESS, ACOUSTIC), FE)),
     "rigid": Case(f"rigid sweep, a row of {RIGID_ROWS}", Side({}, RIGID), Side({}, RIGID), units=RIGID_ROWS, bar="0.20"),
+    "million": Case(f"rigid sweep, a row of {MILLION_ROWS}; at most 200 MB", Side({}, MILLION), Side({}, MILLION),
+                    units=MILLION_ROWS, bar="0.20"),
     "whole-steps": Case("whole steps, massless, a row of 4", Side(ADDED, WHOLE), Side(both(MASSLESS, ADDED), WHOLE),
                         units=4, bar="0.7"),
     "screen": Case("screen", Side({}, ["screen", "{scene}", "-q"]), Side({}, ["screen", "{scene}", "-q"])),

@@ -20,6 +20,17 @@ constexpr double smallest_pivot = 1e-13;      ///< of a new row against its own 
 constexpr double row_aim = 1e-13;       ///< of the released rows, relative to the largest stuck force: refine above
 constexpr double row_tolerance = 1e-10; ///< the same: refuse above
 
+/// force -= V x of some columns of V: four at a time, each row by its columns in their order.
+void take_off(const Eigen::MatrixXd& stiffness, const std::vector<Index>& columns, const VectorXd& x, VectorXd& force)
+{
+    const auto column = [&](Index k) { return stiffness.col(columns[static_cast<std::size_t>(k)]); };
+    Index k = 0;
+    for (; k + 4 <= x.size(); k += 4)
+        force =
+            force - x[k] * column(k) - x[k + 1] * column(k + 1) - x[k + 2] * column(k + 2) - x[k + 3] * column(k + 3);
+    for (; k < x.size(); ++k) force -= x[k] * column(k);
+}
+
 } // namespace
 
 ReleasedSystem::ReleasedSystem(const Eigen::MatrixXd& stiffness)
@@ -246,11 +257,9 @@ bool ReleasedSystem::solve(const ContactLaw& law, const VectorXd& stuck_force, C
         for (int pass = 0; pass < 3 && largest > row_aim * scale; ++pass) {
             const auto size = static_cast<Index>(unknowns_.size());
             column_.noalias() = inverse_.topLeftCorner(size, size) * residual_;
-            for (Index k = 0; k < size; ++k) {
-                const Index unknown = unknowns_[static_cast<std::size_t>(k)];
-                solution.displacement[unknown] -= column_[k];
-                solution.force.noalias() -= column_[k] * stiffness_.col(unknown);
-            }
+            take_off(stiffness_, unknowns_, column_, solution.force);
+            for (Index k = 0; k < size; ++k)
+                solution.displacement[unknowns_[static_cast<std::size_t>(k)]] -= column_[k];
             largest = row_residual(law, solution, residual_);
         }
         if (largest <= row_tolerance * scale) return true;

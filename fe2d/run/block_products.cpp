@@ -1,5 +1,7 @@
 #include "fe2d/run/block_products.hpp"
 
+#include <algorithm>
+
 #if DAMSLIP_HAS_AVX2
 #include <immintrin.h>
 #endif
@@ -11,27 +13,43 @@ BlockProducts::BlockProducts(const SparseMatrix& stiffness, const SparseMatrix& 
     // Symmetric matrices: the columns of node j hold its row of blocks, transposed.
     const int nodes = static_cast<int>(stiffness.cols() / 2);
     std::vector<int> place(nodes, -1);
+    std::vector<Block> of_mass;
     begin_.push_back(0);
     for (int j = 0; j < nodes; ++j) {
         const std::size_t first = column_.size();
-        const auto add = [&](const SparseMatrix& matrix, double(Block::*values)[4]) {
+        of_mass.clear();
+        const auto add = [&](const SparseMatrix& matrix, bool is_mass) {
             for (const int c : {0, 1})
                 for (SparseMatrix::InnerIterator it(matrix, 2 * j + c); it; ++it) {
                     const int other = static_cast<int>(it.row() / 2);
                     if (place[other] < 0) {
                         place[other] = static_cast<int>(column_.size());
                         column_.push_back(other);
-                        block_.push_back({});
+                        stiffness_.push_back({});
+                        of_mass.push_back({});
                     }
+                    Block& block = is_mass ? of_mass[place[other] - first] : stiffness_[place[other]];
                     // entry (2 other + d, 2 j + c) = entry (2 j + c, 2 other + d)
-                    (block_[place[other]].*values)[2 * (it.row() % 2) + c] = it.value();
+                    block.v[2 * (it.row() % 2) + c] = it.value();
                 }
         };
-        add(stiffness, &Block::k);
-        add(mass, &Block::m);
+        add(stiffness, false);
+        add(mass, true);
         for (std::size_t k = first; k < column_.size(); ++k) place[column_[k]] = -1;
         begin_.push_back(static_cast<int>(column_.size()));
+        const bool alike = std::all_of(of_mass.begin(), of_mass.end(), [](const Block& b) {
+            return b.v[0] == b.v[3] && b.v[1] == 0.0 && b.v[2] == 0.0;
+        });
+        full_begin_.push_back(alike ? -1 : static_cast<int>(full_mass_.size()));
+        for (const Block& b : of_mass) mass_.push_back(b.v[0]);
+        if (!alike) full_mass_.insert(full_mass_.end(), of_mass.begin(), of_mass.end());
     }
+}
+
+std::size_t BlockProducts::bytes() const
+{
+    return (stiffness_.size() + full_mass_.size()) * sizeof(Block) + mass_.size() * sizeof(double) +
+           (column_.size() + begin_.size() + full_begin_.size()) * sizeof(int);
 }
 
 void BlockProducts::multiply(const ProductVectors& in, Products& out, [[maybe_unused]] VectorLevel level) const
@@ -54,13 +72,18 @@ void BlockProducts::multiply(const ProductVectors& in, Products& out, [[maybe_un
     for (int j = 0; j < nodes; ++j) {
         Pair k1 = Pair::Zero(), k2 = k1, m1 = k1, m2 = k1;
         for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
-            const Block& b = block_[e];
-            const double* const g = gathered + 8 * column_[e];
-            const Pair kx = Values(b.k), ky = Values(b.k + 2), mx = Values(b.m), my = Values(b.m + 2);
+            const double *const b = stiffness_[e].v, *const g = gathered + 8 * column_[e];
+            const Pair kx = Values(b), ky = Values(b + 2);
             k1 += kx * g[0] + ky * g[1];
             k2 += kx * g[2] + ky * g[3];
-            m1 += mx * g[4] + my * g[5];
-            m2 += mx * g[6] + my * g[7];
+            if (full_begin_[j] < 0) {
+                m1 += mass_[e] * Values(g + 4);
+                m2 += mass_[e] * Values(g + 6);
+            } else {
+                const double* const m = full_mass(j)[e - begin_[j]].v;
+                m1 += Values(m) * g[4] + Values(m + 2) * g[5];
+                m2 += Values(m) * g[6] + Values(m + 2) * g[7];
+            }
         }
         out.stiffness_1.segment<2>(2 * j) = k1.matrix();
         out.stiffness_2.segment<2>(2 * j) = k2.matrix();
@@ -83,10 +106,14 @@ void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffnes
     for (int j = 0; j < nodes; ++j) {
         Pair k = Pair::Zero(), m = k;
         for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
-            const Block& b = block_[e];
-            const double x0 = x[2 * column_[e]], x1 = x[2 * column_[e] + 1];
-            k += Values(b.k) * x0 + Values(b.k + 2) * x1;
-            m += Values(b.m) * x0 + Values(b.m + 2) * x1;
+            const double *const b = stiffness_[e].v, *const y = x.data() + 2 * column_[e];
+            k += Values(b) * y[0] + Values(b + 2) * y[1];
+            if (full_begin_[j] < 0) {
+                m += mass_[e] * Values(y);
+            } else {
+                const double* const of_mass = full_mass(j)[e - begin_[j]].v;
+                m += Values(of_mass) * y[0] + Values(of_mass + 2) * y[1];
+            }
         }
         stiffness.segment<2>(2 * j) = k.matrix();
         mass.segment<2>(2 * j) = m.matrix();
@@ -95,26 +122,50 @@ void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffnes
 
 #if DAMSLIP_HAS_AVX2
 
+namespace {
+
+/// A block by two vectors side by side, [x0, x1, y0, y1].
+DAMSLIP_AVX2 inline __m256d times_two(const double* const block, __m256d vectors)
+{
+    const __m256d x = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(block)),
+                  y = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(block + 2));
+    return _mm256_add_pd(_mm256_mul_pd(x, _mm256_movedup_pd(vectors)),
+                         _mm256_mul_pd(y, _mm256_permute_pd(vectors, 0b1111)));
+}
+
+/// A block by one vector.
+DAMSLIP_AVX2 inline __m128d times_one(const double* const block, const double* const x)
+{
+    const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(x));
+    const __m256d terms = _mm256_mul_pd(_mm256_load_pd(block), _mm256_permute_pd(both, 0b1100)); // x0, x0, x1, x1
+    return _mm_add_pd(_mm256_castpd256_pd128(terms), _mm256_extractf128_pd(terms, 1));
+}
+
+} // namespace
+
 /// Two vectors of one matrix side by side: [K x1, K x2] and [M x3, M x4].
 DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const gathered, Products& out) const
 {
     const int nodes = static_cast<int>(begin_.size()) - 1;
+    const int* column = column_.data();
+    const double *of_k = stiffness_.data()->v, *mass = mass_.data();
     double *const k1 = out.stiffness_1.data(), *const k2 = out.stiffness_2.data(), *const m1 = out.mass_1.data(),
                   *const m2 = out.mass_2.data();
     for (int j = 0; j < nodes; ++j) {
         __m256d k = _mm256_setzero_pd(), m = k;
-        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
-            const Block& b = block_[e];
-            const double* const g = gathered + 8 * column_[e];
-            const __m256d of_k = _mm256_loadu_pd(g), of_m = _mm256_loadu_pd(g + 4);
-            const __m256d kx = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.k)),
-                          ky = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.k + 2)),
-                          mx = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.m)),
-                          my = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(b.m + 2));
-            k = _mm256_add_pd(k, _mm256_add_pd(_mm256_mul_pd(kx, _mm256_movedup_pd(of_k)),
-                                               _mm256_mul_pd(ky, _mm256_permute_pd(of_k, 0b1111))));
-            m = _mm256_add_pd(m, _mm256_add_pd(_mm256_mul_pd(mx, _mm256_movedup_pd(of_m)),
-                                               _mm256_mul_pd(my, _mm256_permute_pd(of_m, 0b1111))));
+        const int* const end = column + (begin_[j + 1] - begin_[j]);
+        if (full_begin_[j] < 0) {
+            for (; column != end; ++column, of_k += 4, ++mass) {
+                const double* const g = gathered + 8 * *column;
+                k = _mm256_add_pd(k, times_two(of_k, _mm256_loadu_pd(g)));
+                m = _mm256_add_pd(m, _mm256_mul_pd(_mm256_broadcast_sd(mass), _mm256_loadu_pd(g + 4)));
+            }
+        } else {
+            for (const double* of_m = full_mass(j)->v; column != end; ++column, of_k += 4, ++mass, of_m += 4) {
+                const double* const g = gathered + 8 * *column;
+                k = _mm256_add_pd(k, times_two(of_k, _mm256_loadu_pd(g)));
+                m = _mm256_add_pd(m, times_two(of_m, _mm256_loadu_pd(g + 4)));
+            }
         }
         _mm_storeu_pd(k1 + 2 * j, _mm256_castpd256_pd128(k));
         _mm_storeu_pd(k2 + 2 * j, _mm256_extractf128_pd(k, 1));
@@ -123,23 +174,29 @@ DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const gathered, Pro
     }
 }
 
-/// Both matrices side by side: [K x, M x].
+/// K x and M x of one vector.
 DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const x, double* const stiffness, double* const mass) const
 {
     const int nodes = static_cast<int>(begin_.size()) - 1;
     for (int j = 0; j < nodes; ++j) {
-        __m256d sum = _mm256_setzero_pd();
-        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
-            const Block& b = block_[e];
-            const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(x + 2 * column_[e]));
-            const __m256d values = _mm256_permute_pd(both, 0b1100); // x0, x0, x1, x1
-            const __m256d k = _mm256_mul_pd(_mm256_load_pd(b.k), values),
-                          m = _mm256_mul_pd(_mm256_load_pd(b.m), values);
-            sum = _mm256_add_pd(sum,
-                                _mm256_add_pd(_mm256_permute2f128_pd(k, m, 0x20), _mm256_permute2f128_pd(k, m, 0x31)));
+        __m128d k = _mm_setzero_pd(), m = k;
+        const int begin = begin_[j], end = begin_[j + 1];
+        if (full_begin_[j] < 0) {
+            for (int e = begin; e < end; ++e) {
+                const double* const y = x + 2 * column_[e];
+                k = _mm_add_pd(k, times_one(stiffness_[e].v, y));
+                m = _mm_add_pd(m, _mm_mul_pd(_mm_set1_pd(mass_[e]), _mm_loadu_pd(y)));
+            }
+        } else {
+            const Block* const of_mass = full_mass(j);
+            for (int e = begin; e < end; ++e) {
+                const double* const y = x + 2 * column_[e];
+                k = _mm_add_pd(k, times_one(stiffness_[e].v, y));
+                m = _mm_add_pd(m, times_one(of_mass[e - begin].v, y));
+            }
         }
-        _mm_storeu_pd(stiffness + 2 * j, _mm256_castpd256_pd128(sum));
-        _mm_storeu_pd(mass + 2 * j, _mm256_extractf128_pd(sum, 1));
+        _mm_storeu_pd(stiffness + 2 * j, k);
+        _mm_storeu_pd(mass + 2 * j, m);
     }
 }
 

@@ -34,18 +34,26 @@ public:
     /// K x and M x of one vector.
     void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass,
                   VectorLevel level = vector_level()) const;
-    std::size_t bytes() const { return block_.size() * sizeof(Block) + (column_.size() + begin_.size()) * sizeof(int); }
+    std::size_t bytes() const;
 
 private:
-    struct alignas(64) Block { // a line of the cache
-        double k[4], m[4];     ///< xx, yx, xy, yy
+    struct alignas(32) Block {
+        double v[4]; ///< xx, yx, xy, yy
     };
 #if DAMSLIP_HAS_AVX2
     void multiply_avx2(const double* gathered, Products& out) const;
     void multiply_avx2(const double* x, double* stiffness, double* mass) const;
 #endif
+    const Block* full_mass(int node) const
+    {
+        return full_mass_.data() + full_begin_[node];
+    }
+
     std::vector<int> begin_, column_;
-    std::vector<Block> block_;
+    std::vector<Block> stiffness_;
+    std::vector<double> mass_;     ///< of nodes whose rows have m_xx = m_yy and no m_xy: one number for a block
+    std::vector<Block> full_mass_; ///< of the others, as those that move water
+    std::vector<int> full_begin_;  ///< where the row of a node begins in full_mass_; -1: it stands in mass_
 };
 
 } // namespace damslip::fe2d

@@ -104,9 +104,13 @@ void ContactLedger::add(const StepConstants& c, const StepState& state, const St
     gather(state, dam, rock, forces_);
     const VectorXd &v0 = before_.dam.velocity, &v1 = forces_.dam.velocity, &a0 = before_.dam.accel,
                    &a1 = forces_.dam.accel;
-    VectorXd du = step.dam; // of the dam
-    structure_.clear_water(du);
-    const VectorXd& dr = step.rock;
+    VectorXd without_water;
+    if (structure_.water()) {
+        without_water = step.dam;
+        structure_.clear_water(without_water);
+    }
+    const VectorXd &du = structure_.water() ? without_water : step.dam, // of the dam
+        &dr = step.rock;
 
     VectorXd slip, mean; // by plane
     if (slip_damping_.active()) {

@@ -112,10 +112,12 @@ const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock
     change_.dam.swap(free_.dam);
     change_.rock = rock.step(*op_, free_, change_.gap, tilde_);
 
-    const auto update = [&](const auto& step, auto& velocity, auto& acceleration) {
-        const VectorXd a1 = c.a0 * step - c.a2 * velocity - c.a3 * acceleration;
-        velocity = c.a1 * step - c.a4 * velocity - c.a5 * acceleration;
-        acceleration = a1;
+    const auto update = [&](const auto& step, VectorXd& velocity, VectorXd& acceleration) {
+        for (Index i = 0; i < velocity.size(); ++i) {
+            const double v = velocity[i], a = acceleration[i];
+            velocity[i] = c.a1 * step[i] - c.a4 * v - c.a5 * a;
+            acceleration[i] = c.a0 * step[i] - c.a2 * v - c.a3 * a;
+        }
     };
     update(change_.dam, state.v, state.a);
     update(change_.rock, state.rock_v, state.rock_a);

@@ -96,6 +96,7 @@ ContactStructure::ContactStructure(const Model& model, JointPath range, const Wa
             order_
                 .to_new(corner_and(SparseMatrix(model.added_mass.topLeftCorner(dam, dam)), SparseMatrix(size_, size_)))
                 .pruned();
+    of_added_mass_ = FewRows(added_mass_);
     inertia_x_ = order_.to_new(extended(part_of(model.inertia_x)));
     inertia_y_ = order_.to_new(extended(part_of(model.inertia_y)));
     VectorXd unit_x = VectorXd::Zero(mass_.rows()), unit_y = unit_x;
@@ -271,7 +272,7 @@ void ContactStructure::clear_rock(VectorXd& vector) const
 
 void ContactStructure::leave_dam_mass(VectorXd& product, const VectorXd& x) const
 {
-    if (added_mass_.nonZeros() > 0) product -= added_mass_ * x;
+    of_added_mass_.subtract_product(x, product);
     clear_water(product);
     clear_rock(product);
 }

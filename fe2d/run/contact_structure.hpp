@@ -2,6 +2,7 @@
 
 #include "fe2d/model/model.hpp"
 #include "fe2d/run/contact_planes.hpp"
+#include "fe2d/run/few_rows.hpp"
 #include "fe2d/run/interface_factor.hpp"
 #include "fe2d/run/pairing.hpp"
 #include "fe2d/run/water_body.hpp"
@@ -132,6 +133,7 @@ private:
     Eigen::Index rock_count_ = 0;
     Eigen::MatrixXd rock_stiffness_, rock_flexibility_;
     bool regular_ = false;
+    FewRows of_added_mass_; ///< of the wet face's nodes alone
 };
 
 } // namespace damslip::fe2d

@@ -1,6 +1,7 @@
 #include "fe2d/run/dynamic_operator.hpp"
 
 #include "core/defect.hpp"
+#include "fe2d/run/dense_product.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -154,7 +155,7 @@ StepContact DynamicOperator::contact_at(const Pairing::Matrix& trace) const
 void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
 {
     const Index interface = interface_flexibility_.rows();
-    free.interface.noalias() = interface_flexibility_ * free.dam.tail(interface);
+    set_product(interface_flexibility_, free.dam.tail(interface), free.interface);
     free.gap = gaps_ * free.interface;
     if (rock_gap.size() > 0) free.gap -= rock_gap;
     if (!slip_damping_.active()) return;
@@ -166,7 +167,7 @@ void DynamicOperator::stuck_force(const StepContact& contact, const Free& free, 
                                   VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    stuck.noalias() = contact.to_stuck * free.gap;
+    set_product(contact.to_stuck, free.gap, stuck);
     stuck += known / w;
     if (slip_damping_.active()) stuck.tail(structure_.pairs()) -= slip_damping_.weights * (free.mean / w);
 }
@@ -185,7 +186,7 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
         free.dam.head(inner).noalias() += momentum_.topRows(inner) * slip;
         free.interface.noalias() += interface_momentum_ * slip;
     }
-    free.interface.noalias() += pull_ * tilde;
+    add_product(pull_, tilde, free.interface);
     free.dam.tail(free.interface.size()) = free.interface;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cassert>
 
 #if DAMSLIP_HAS_AVX2
@@ -11,6 +12,27 @@
 namespace damslip::fe2d {
 
 using Eigen::Index;
+
+namespace {
+
+using Pair = Eigen::Array2d; ///< both unknowns of a node; two at a time is what every x86-64 does in one operation
+using Values = Eigen::Map<const Pair>;
+
+/// Of two blocks by columns: the first columns of both, then the second ones.
+void join(InterfaceFactor::Block& one, InterfaceFactor::Block& other)
+{
+    std::swap_ranges(one.v + 2, one.v + 4, other.v);
+}
+
+/// A_ii⁻¹ b less what stands behind. @param here  b of the node on entry
+inline void take_pivot(const InterfaceFactor::Pivot& p, double first, double second, double* const here)
+{
+    const double b0 = here[0], b1 = here[1];
+    here[0] = p.xx * b0 + p.xy * b1 - first;
+    here[1] = p.xy * b0 + p.yy * b1 - second;
+}
+
+} // namespace
 
 InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, int negative, int negative_nodes)
     : inner_(inner_nodes)
@@ -51,6 +73,7 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, in
             row_.push_back(static_cast<int>(node));
             block_.push_back({{v[0] - l * v[2], v[1] - l * v[3], v[2], v[3]}}); // times the inverse of [1 0; l 1]
         }
+        for (std::size_t k = begin_.back(); k + 1 < block_.size(); k += 2) join(block_[k], block_[k + 1]);
         begin_.push_back(static_cast<int>(row_.size()));
         const double first = 1.0 / d[2 * j], second = 1.0 / d[2 * j + 1];
         pivot_.push_back({first + l * l * second, -l * second, second});
@@ -68,13 +91,6 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, in
     schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 
-namespace {
-
-using Pair = Eigen::Array2d; ///< both unknowns of a node; two at a time is what every x86-64 does in one operation
-using Values = Eigen::Map<const Pair>;
-
-} // namespace
-
 // Both unknowns of a node stand together, lane after lane. Each lane sees the same operations in the same order
 // whatever the number of lanes.
 template <int lanes>
@@ -87,13 +103,18 @@ void InterfaceFactor::forward_lanes(double* const x) const
             x0[lane] = x[width * j + 2 * lane];
             x1[lane] = x[width * j + 2 * lane + 1];
         }
-        for (int k = begin_[j]; k < begin_[j + 1]; ++k) {
-            const double* const l = block_[k].v;
-            const Pair first = Values(l), second = Values(l + 2);
-            double* const y = x + width * row_[k];
+        const auto take_off = [&](int row, const double* const l, const double* const m) {
+            const Pair first = Values(l), second = Values(m);
+            double* const y = x + width * row;
             for (int lane = 0; lane < lanes; ++lane)
                 Eigen::Map<Pair>(y + 2 * lane) -= first * x0[lane] + second * x1[lane];
+        };
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
+            take_off(row_[k], block_[k].v, block_[k + 1].v);
+            take_off(row_[k + 1], block_[k].v + 2, block_[k + 1].v + 2);
         }
+        if (k < begin_[j + 1]) take_off(row_[k], block_[k].v, block_[k].v + 2);
     }
 }
 
@@ -111,8 +132,8 @@ void InterfaceFactor::backward_lanes(double* const x) const
             const double *const y = x + width * row_[k], *const z = x + width * row_[k + 1];
             for (int lane = 0; lane < lanes; ++lane) {
                 first[lane] += Values(l) * Values(y + 2 * lane);
-                second[lane] += Values(l + 2) * Values(y + 2 * lane);
-                first_odd[lane] += Values(m) * Values(z + 2 * lane);
+                second[lane] += Values(m) * Values(y + 2 * lane);
+                first_odd[lane] += Values(l + 2) * Values(z + 2 * lane);
                 second_odd[lane] += Values(m + 2) * Values(z + 2 * lane);
             }
         }
@@ -123,71 +144,160 @@ void InterfaceFactor::backward_lanes(double* const x) const
                 second[lane] += Values(l + 2) * Values(y + 2 * lane);
             }
         }
-        const Pivot& p = pivot_[j];
         for (int lane = 0; lane < lanes; ++lane) {
             const Pair a = first[lane] + first_odd[lane], b = second[lane] + second_odd[lane];
-            double* const here = x + width * j + 2 * lane;
-            const double b0 = here[0], b1 = here[1];
-            here[0] = p.xx * b0 + p.xy * b1 - (a[0] + a[1]);
-            here[1] = p.xy * b0 + p.yy * b1 - (b[0] + b[1]);
+            take_pivot(pivot_[j], a[0] + a[1], b[0] + b[1], x + width * j + 2 * lane);
         }
     }
 }
 
 #if DAMSLIP_HAS_AVX2
 
-/// Blocks two by two: their rows are different nodes.
+namespace {
+
+/// Two nodes side by side; their rows are different.
+DAMSLIP_AVX2 inline __m256d both(const double* const y, const double* const z)
+{
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(y)), _mm_loadu_pd(z), 1);
+}
+
+} // namespace
+
+// The addresses are kept aside: a store of vector numbers may alias them as far as the compiler knows.
 DAMSLIP_AVX2 void InterfaceFactor::forward_avx2(double* const x) const
 {
-    for (int j = 0; j < inner_; ++j) {
-        const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(x + 2 * j));
-        const __m256d values = _mm256_permute_pd(both, 0b1100); // x0, x0, x1, x1
-        int k = begin_[j];
-        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
-            const __m256d l = _mm256_mul_pd(_mm256_load_pd(block_[k].v), values),
-                          m = _mm256_mul_pd(_mm256_load_pd(block_[k + 1].v), values);
-            const __m256d sum = _mm256_add_pd(_mm256_permute2f128_pd(l, m, 0x20), _mm256_permute2f128_pd(l, m, 0x31));
-            double *const y = x + 2 * row_[k], *const z = x + 2 * row_[k + 1];
-            const __m128d of_y = _mm_sub_pd(_mm_loadu_pd(y), _mm256_castpd256_pd128(sum)),
-                          of_z = _mm_sub_pd(_mm_loadu_pd(z), _mm256_extractf128_pd(sum, 1));
-            _mm_storeu_pd(y, of_y);
-            _mm_storeu_pd(z, of_z);
+    const int *row = row_.data(), *begin = begin_.data();
+    const double* l = block_.data()->v;
+    for (int j = 0, inner = inner_; j < inner; ++j) {
+        const __m256d x0 = _mm256_broadcast_sd(x + 2 * j), x1 = _mm256_broadcast_sd(x + 2 * j + 1);
+        const int count = begin[j + 1] - begin[j];
+        for (const int* const end = row + (count & ~1); row != end; row += 2, l += 8) {
+            const __m256d sum =
+                _mm256_add_pd(_mm256_mul_pd(_mm256_load_pd(l), x0), _mm256_mul_pd(_mm256_load_pd(l + 4), x1));
+            double *const y = x + 2 * row[0], *const z = x + 2 * row[1];
+            const __m256d left = _mm256_sub_pd(both(y, z), sum);
+            _mm_storeu_pd(y, _mm256_castpd256_pd128(left));
+            _mm_storeu_pd(z, _mm256_extractf128_pd(left, 1));
         }
-        if (k < begin_[j + 1]) {
-            const __m256d l = _mm256_mul_pd(_mm256_load_pd(block_[k].v), values);
-            double* const y = x + 2 * row_[k];
-            _mm_storeu_pd(
-                y, _mm_sub_pd(_mm_loadu_pd(y), _mm_add_pd(_mm256_castpd256_pd128(l), _mm256_extractf128_pd(l, 1))));
-        }
+        if (count % 2 == 0) continue;
+        const __m128d sum = _mm_add_pd(_mm_mul_pd(_mm_load_pd(l), _mm256_castpd256_pd128(x0)),
+                                       _mm_mul_pd(_mm_load_pd(l + 2), _mm256_castpd256_pd128(x1)));
+        double* const y = x + 2 * *row;
+        _mm_storeu_pd(y, _mm_sub_pd(_mm_loadu_pd(y), sum));
+        ++row;
+        l += 4;
     }
 }
 
-/// Both columns of a block side by side: [first, second] of backward_lanes().
+/// Sums of even and of odd blocks side by side.
 DAMSLIP_AVX2 void InterfaceFactor::backward_avx2(double* const x) const
 {
+    const int *const rows = row_.data(), *const begin = begin_.data();
+    const Block* const blocks = block_.data();
     for (int j = inner_ - 1; j >= 0; --j) {
-        __m256d even = _mm256_setzero_pd(), odd = even;
-        const auto node = [x](int row) { return reinterpret_cast<const __m128d*>(x + 2 * row); };
+        __m256d first = _mm256_setzero_pd(), second = first;
+        const int count = begin[j + 1] - begin[j];
+        const int* row = rows + begin[j];
+        const double* l = blocks[begin[j]].v;
+        for (const int* const end = row + (count & ~1); row != end; row += 2, l += 8) {
+            const __m256d values = both(x + 2 * row[0], x + 2 * row[1]);
+            first = _mm256_add_pd(first, _mm256_mul_pd(_mm256_load_pd(l), values));
+            second = _mm256_add_pd(second, _mm256_mul_pd(_mm256_load_pd(l + 4), values));
+        }
+        __m128d a = _mm256_castpd256_pd128(first), b = _mm256_castpd256_pd128(second);
+        if (count % 2 != 0) {
+            const __m128d values = _mm_loadu_pd(x + 2 * *row);
+            a = _mm_add_pd(a, _mm_mul_pd(_mm_load_pd(l), values));
+            b = _mm_add_pd(b, _mm_mul_pd(_mm_load_pd(l + 2), values));
+        }
+        a = _mm_add_pd(a, _mm256_extractf128_pd(first, 1));
+        b = _mm_add_pd(b, _mm256_extractf128_pd(second, 1));
+        take_pivot(pivot_[j], a[0] + a[1], b[0] + b[1], x + 2 * j);
+    }
+}
+
+/// Two lanes side by side.
+template <int lanes>
+DAMSLIP_AVX2 void InterfaceFactor::forward_lanes_avx2(double* const x) const
+{
+    constexpr int width = 2 * lanes, halves = lanes / 2;
+    for (int j = 0; j < inner_; ++j) {
+        __m256d x0[halves], x1[halves];
+        for (int h = 0; h < halves; ++h) {
+            const __m256d here = _mm256_loadu_pd(x + width * j + 4 * h);
+            x0[h] = _mm256_movedup_pd(here);
+            x1[h] = _mm256_permute_pd(here, 0b1111);
+        }
+        const auto take_off = [&](int row, const double* const l, const double* const m) DAMSLIP_AVX2 {
+            const __m256d first = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(l)),
+                          second = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(m));
+            double* const y = x + width * row;
+            for (int h = 0; h < halves; ++h) {
+                const __m256d sum = _mm256_add_pd(_mm256_mul_pd(first, x0[h]), _mm256_mul_pd(second, x1[h]));
+                _mm256_storeu_pd(y + 4 * h, _mm256_sub_pd(_mm256_loadu_pd(y + 4 * h), sum));
+            }
+        };
         int k = begin_[j];
         for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
-            even = _mm256_add_pd(even, _mm256_mul_pd(_mm256_load_pd(block_[k].v), _mm256_broadcast_pd(node(row_[k]))));
-            odd = _mm256_add_pd(odd,
-                                _mm256_mul_pd(_mm256_load_pd(block_[k + 1].v), _mm256_broadcast_pd(node(row_[k + 1]))));
+            take_off(row_[k], block_[k].v, block_[k + 1].v);
+            take_off(row_[k + 1], block_[k].v + 2, block_[k + 1].v + 2);
         }
-        if (k < begin_[j + 1])
-            even = _mm256_add_pd(even, _mm256_mul_pd(_mm256_load_pd(block_[k].v), _mm256_broadcast_pd(node(row_[k]))));
-        const __m256d sum = _mm256_add_pd(even, odd);
-        alignas(32) double s[4];
-        _mm256_store_pd(s, sum);
-        const Pivot& p = pivot_[j];
-        double* const here = x + 2 * j;
-        const double b0 = here[0], b1 = here[1];
-        here[0] = p.xx * b0 + p.xy * b1 - (s[0] + s[1]);
-        here[1] = p.xy * b0 + p.yy * b1 - (s[2] + s[3]);
+        if (k < begin_[j + 1]) take_off(row_[k], block_[k].v, block_[k].v + 2);
+    }
+}
+
+template <int lanes>
+DAMSLIP_AVX2 void InterfaceFactor::backward_lanes_avx2(double* const x) const
+{
+    constexpr int width = 2 * lanes, halves = lanes / 2;
+    for (int j = inner_ - 1; j >= 0; --j) {
+        __m256d first[2][halves], second[2][halves]; // of even and of odd blocks
+        for (int parity = 0; parity < 2; ++parity)
+            for (int h = 0; h < halves; ++h) first[parity][h] = second[parity][h] = _mm256_setzero_pd();
+        const auto add = [&](int parity, int row, const double* const l, const double* const m) DAMSLIP_AVX2 {
+            const __m256d of_l = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(l)),
+                          of_m = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(m));
+            const double* const y = x + width * row;
+            for (int h = 0; h < halves; ++h) {
+                const __m256d values = _mm256_loadu_pd(y + 4 * h);
+                first[parity][h] = _mm256_add_pd(first[parity][h], _mm256_mul_pd(of_l, values));
+                second[parity][h] = _mm256_add_pd(second[parity][h], _mm256_mul_pd(of_m, values));
+            }
+        };
+        int k = begin_[j];
+        for (const int end = begin_[j + 1]; k + 1 < end; k += 2) {
+            add(0, row_[k], block_[k].v, block_[k + 1].v);
+            add(1, row_[k + 1], block_[k].v + 2, block_[k + 1].v + 2);
+        }
+        if (k < begin_[j + 1]) add(0, row_[k], block_[k].v, block_[k].v + 2);
+        for (int h = 0; h < halves; ++h) {
+            const __m256d a = _mm256_add_pd(first[0][h], first[1][h]), b = _mm256_add_pd(second[0][h], second[1][h]);
+            double* const here = x + width * j + 4 * h;
+            take_pivot(pivot_[j], a[0] + a[1], b[0] + b[1], here);
+            take_pivot(pivot_[j], a[2] + a[3], b[2] + b[3], here + 2);
+        }
     }
 }
 
 #endif
+
+template <int lanes>
+void InterfaceFactor::forward_together(double* const x) const
+{
+#if DAMSLIP_HAS_AVX2
+    if (vector_level() == VectorLevel::avx2) return forward_lanes_avx2<lanes>(x);
+#endif
+    forward_lanes<lanes>(x);
+}
+
+template <int lanes>
+void InterfaceFactor::backward_together(double* const x) const
+{
+#if DAMSLIP_HAS_AVX2
+    if (vector_level() == VectorLevel::avx2) return backward_lanes_avx2<lanes>(x);
+#endif
+    backward_lanes<lanes>(x);
+}
 
 void InterfaceFactor::forward_one(double* const x, [[maybe_unused]] VectorLevel level) const
 {
@@ -261,15 +371,15 @@ void in_groups(std::span<Eigen::VectorXd* const> vectors, One one, Two two, Four
 void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b) const
 {
     in_groups(
-        b, [this](double* x) { forward_one(x, vector_level()); }, [this](double* x) { forward_lanes<2>(x); },
-        [this](double* x) { forward_lanes<4>(x); });
+        b, [this](double* x) { forward_one(x, vector_level()); }, [this](double* x) { forward_together<2>(x); },
+        [this](double* x) { forward_together<4>(x); });
 }
 
 void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b) const
 {
     in_groups(
-        b, [this](double* x) { backward_one(x, vector_level()); }, [this](double* x) { backward_lanes<2>(x); },
-        [this](double* x) { backward_lanes<4>(x); });
+        b, [this](double* x) { backward_one(x, vector_level()); }, [this](double* x) { backward_together<2>(x); },
+        [this](double* x) { backward_together<4>(x); });
 }
 
 double InterfaceFactor::inner_product(const Eigen::Ref<const Eigen::VectorXd>& a,

@@ -41,23 +41,33 @@ public:
     Eigen::Index inner_unknowns() const { return 2 * inner_; }
     std::size_t bytes() const;
 
-private:
+    /// L(2i, 2j), L(2i+1, 2j), L(2i, 2j+1), L(2i+1, 2j+1): by columns. Two that follow each other in a column of blocks share
+    /// their places: the first columns of both, then the second ones. The last of an odd number stands alone.
     struct alignas(32) Block {
-        double v[4]; ///< L(2i, 2j), L(2i+1, 2j), L(2i, 2j+1), L(2i+1, 2j+1): by columns
+        double v[4];
     };
     struct Pivot {
         double xx, xy, yy; ///< inverse of the diagonal block
     };
 
+private:
     template <int lanes>
     void forward_lanes(double* x) const;
     template <int lanes>
     void backward_lanes(double* x) const;
+    template <int lanes>
+    void forward_together(double* x) const;
+    template <int lanes>
+    void backward_together(double* x) const;
     void forward_one(double* x, VectorLevel level) const;
     void backward_one(double* x, VectorLevel level) const;
 #if DAMSLIP_HAS_AVX2
     void forward_avx2(double* x) const;
     void backward_avx2(double* x) const;
+    template <int lanes>
+    void forward_lanes_avx2(double* x) const;
+    template <int lanes>
+    void backward_lanes_avx2(double* x) const;
 #endif
 
     int inner_;

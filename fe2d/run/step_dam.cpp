@@ -4,6 +4,15 @@ namespace damslip::fe2d {
 
 using Eigen::VectorXd;
 
+namespace {
+
+bool drags(const GroundAcceleration& ground)
+{
+    return ground.drag_h != 0.0 || ground.drag_v != 0.0;
+}
+
+} // namespace
+
 StepDam::StepDam(const StepOperators& operators, VectorXd load, const DynamicState& start)
     : operators_(operators), structure_(operators.structure()), damping_(operators.damping()), load_(std::move(load))
 {
@@ -42,8 +51,7 @@ void StepDam::end_step(const StepConstants& c, const DynamicState& state)
 VectorXd StepDam::ground_force(const GroundAcceleration& ground) const
 {
     VectorXd force = ground.h * structure_.inertia_x() - ground.v * structure_.inertia_y();
-    if (ground.drag_h != 0.0 || ground.drag_v != 0.0)
-        force += ground.drag_h * structure_.dam_inertia_x() - ground.drag_v * structure_.dam_inertia_y();
+    if (drags(ground)) force += ground.drag_h * structure_.dam_inertia_x() - ground.drag_v * structure_.dam_inertia_y();
     return force;
 }
 
@@ -52,9 +60,15 @@ void StepDam::right_hand_side(const StepConstants& c, const DynamicState& state,
 {
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
     const double a_m = damping_.constants.mass;
-    b = load_ + w * ground_force(ground) - alpha * ground_force(state.ground) - products_.stiffness_1 +
-        products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 + (a_m * cv) * products_.dam_mass_1 +
-        (a_m * ca) * products_.dam_mass_2;
+    const auto without_drag = [this](const GroundAcceleration& g) {
+        return g.h * structure_.inertia_x() - g.v * structure_.inertia_y();
+    };
+    if (drags(ground) || drags(state.ground))
+        b = load_ + w * ground_force(ground) - alpha * ground_force(state.ground);
+    else
+        b = load_ + w * without_drag(ground) - alpha * without_drag(state.ground);
+    b = b - products_.stiffness_1 + products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 +
+        (a_m * cv) * products_.dam_mass_1 + (a_m * ca) * products_.dam_mass_2;
     if (structure_.gyrates()) b += structure_.gyration() * VectorXd(cv * state.v + ca * state.a);
     if (!structure_.water()) return;
     const auto weighted = [&](double GroundAcceleration::*part) {

@@ -1,5 +1,7 @@
 #include "fe2d/run/step_rock.hpp"
 
+#include "fe2d/run/dense_product.hpp"
+
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -165,7 +167,7 @@ void StepRock::end_step(const DynamicState& state)
 {
     if (motion_) return;
     force_before_ = force_;
-    if (structure_.has_rock()) force_.noalias() = structure_.rock_stiffness() * state.rock;
+    if (structure_.has_rock()) set_product(structure_.rock_stiffness(), state.rock, force_);
 }
 
 VectorXd StepRock::damping_force(const VectorXd& velocity) const

@@ -191,7 +191,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
                 k = next;
             }
             if (!history && !between && k < last) {
-                const std::size_t next = block.pass(motion, polarity, k, last, n);
+                const std::size_t next = block.pass(motion, polarity, k, last, n, blocks);
                 n += next - k;
                 k = next;
             }

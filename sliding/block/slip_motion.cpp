@@ -653,6 +653,7 @@ void SlipMotion::elapse(double h)
         span_ = 0.0;
         a_h_.now = a_h_.end;
         a_v_.now = a_v_.end;
+        if (pressed_) return; // no water in an opening base
         opening_down_.now = opening_down_.end;
         opening_up_.now = opening_up_.end;
         wet_down_.now = wet_down_.end;
@@ -661,6 +662,10 @@ void SlipMotion::elapse(double h)
     }
     a_h_.now = a_h_.at(h / span_);
     a_v_.now = a_v_.at(h / span_);
+    if (pressed_) {
+        span_ -= h;
+        return;
+    }
     opening_down_.now = opening_down_.at(h / span_);
     opening_up_.now = opening_up_.at(h / span_);
     wet_down_.now = wet_down_.at(h / span_);

@@ -24,8 +24,10 @@ public:
     /// Goes through whole intervals in which nothing happens: the block rests all along, or slides all along in one
     /// direction. What cross() would do, bit by bit, at a fraction of the price.
     /// @param k, last  intervals k ... last - 1 of the motion  @param before  intervals so far, for the time
+    /// @param blocks  of the same motion; null: every sample is looked at
     /// @returns the first interval that is cross()'s business
-    std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before);
+    std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before,
+                     const SkippingMotion* blocks = nullptr);
 
     /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.
     void stand_on(const SlipStages& stages);
@@ -90,7 +92,8 @@ private:
 
     static StageForms forms_of(const RigidBlock& block);
     bool stays_pressed() const;
-    std::size_t pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last) const;
+    std::size_t pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
+                             const SkippingMotion* blocks) const;
     std::size_t pass_sliding(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last);
     const SlipStage& stage() const { return anchors_.empty() ? stages_[stage_] : anchored_[stage_]; }
     const StageForms& forms() const { return forms_[stage_]; }

@@ -45,17 +45,18 @@ Samples samples_of(const GroundMotion& motion, double polarity)
 } // namespace
 
 std::size_t SlipMotion::pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
-                             std::size_t before)
+                             std::size_t before, const SkippingMotion* blocks)
 {
     if (!touching_ || airborne_ || !plain_[stage_]) return k;
     const std::size_t next =
-        moving_ ? pass_sliding(motion, polarity, k, last) : pass_resting(motion, polarity, k, last);
+        moving_ ? pass_sliding(motion, polarity, k, last) : pass_resting(motion, polarity, k, last, blocks);
     if (next > k) time_ = static_cast<double>(before + (next - k) - 1) * motion.dt + motion.dt;
     return next;
 }
 
 /// What is linear between two samples and below zero at both is so all along.
-std::size_t SlipMotion::pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last) const
+std::size_t SlipMotion::pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
+                                     const SkippingMotion* blocks) const
 {
     const StageForms& f = forms();
     const Samples ground = samples_of(motion, polarity);
@@ -66,8 +67,16 @@ std::size_t SlipMotion::pass_resting(const GroundMotion& motion, double polarity
             rest_range(f.equations.drive, f.friction * f.equations.normal.constant + f.bond, options_.two_way);
         if (polarity < 0.0) range = {-range.high, -range.low};
         const auto plainly_rests = [&](std::size_t i) { return range.low < ground.h[i] && ground.h[i] < range.high; };
+        const auto all_rest = [&](const AccelRange& r) { return range.low < r.h_min && r.h_max < range.high; };
         if (!plainly_rests(k)) return k;
-        while (k < last && plainly_rests(k + 1)) ++k;
+        while (k < last) {
+            if (blocks && k % SkippingMotion::block == 0) {
+                k = std::min(blocks->skip(k, all_rest), last);
+                if (k == last) break;
+            }
+            if (!plainly_rests(k + 1)) break;
+            ++k;
+        }
         return k;
     }
     const auto rests = [&](std::size_t i) {
@@ -96,22 +105,38 @@ std::size_t SlipMotion::pass_sliding(const GroundMotion& motion, double polarity
     };
     if (!pressed(k)) return k;
     span_ = dt;
+    const bool one_stage = next_stage_path() == never;
+    double& along = downstream ? slid_.downstream : slid_.upstream;
+    const double against = downstream ? slid_.upstream : slid_.downstream;
+    double rate = rate_, path = path_, slid = along, largest = slid_.largest, peak_rate = slid_.peak_rate;
     Line accel;
     accel.end = ground.of(excess, k) / mass;
     for (; k < last && pressed(k + 1); ++k) {
         accel = {accel.end, ground.of(excess, k + 1) / mass};
-        const double jerk = (accel.end - accel.now) / dt;
-        // A rate that rises at both ends of the interval does not fall to zero in it.
+        const auto jerk = [&] { return (accel.end - accel.now) / dt; };
+        // Not even with its lowest acceleration all along does the rate come near zero; else it is looked at closely.
+        const bool goes_on = rate + dt * std::min(accel.now, accel.end) > 1e-6 * rate;
         const bool rises = accel.now > 0.0 && accel.end > 0.0;
-        if (!rises && !(time_of_stop(rate_, accel.now, jerk) > dt)) break;
-        const double path = dt * (rate_ + dt * (2.0 * accel.now + accel.end) / 6.0);
-        if (next_stage_path() != never && time_of_stage(dt, accel) != never) break;
+        if (!goes_on && !rises && !(time_of_stop(rate, accel.now, jerk()) > dt)) break;
+        if (!one_stage) {
+            rate_ = rate;
+            path_ = path;
+            if (time_of_stage(dt, accel) != never) break;
+        }
         if (accel.now > 0.0 && accel.end < 0.0)
-            slid_.peak_rate = std::max(slid_.peak_rate, rate_ - accel.now * accel.now / (2.0 * jerk));
-        add_slip(path);
-        rate_ = std::max(0.0, rate_ + 0.5 * dt * (accel.now + accel.end));
-        slid_.peak_rate = std::max(slid_.peak_rate, rate_);
+            peak_rate = std::max(peak_rate, rate - accel.now * accel.now / (2.0 * jerk()));
+        const double way = std::max(dt * (rate + dt * (2.0 * accel.now + accel.end) / 6.0), 0.0);
+        path += way;
+        slid += way;
+        largest = std::max(largest, std::abs(slid - against));
+        rate = std::max(0.0, rate + 0.5 * dt * (accel.now + accel.end));
+        peak_rate = std::max(peak_rate, rate);
     }
+    rate_ = rate;
+    path_ = path;
+    along = slid;
+    slid_.largest = largest;
+    slid_.peak_rate = peak_rate;
     span_ = 0.0;
     return k;
 }

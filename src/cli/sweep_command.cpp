@@ -6,6 +6,7 @@
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
+#include "pages/report/csv_lines.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/needed_friction_table.hpp"
 #include "pages/sweep/opening_water_table.hpp"
@@ -69,6 +70,7 @@ void put(const std::filesystem::path& file, const std::string& text, const Strea
 }
 
 constexpr std::size_t largest_report = 300'000; ///< rows
+constexpr std::size_t drawn_rows = 50'000;      ///< of a sweep of more rows only some frictions are drawn
 
 /// The report beside the table (results.csv -> results.html), and on paper, as asked for.
 void put_pages(const SweepArguments& arguments, const SweepReportInput& in, const Streams& streams)
@@ -232,37 +234,43 @@ public:
         if (!job.out.empty() && !job.shard) file_.emplace(job.out);
     }
 
-    void add(const Table& table)
+    void begin(const std::vector<Column>& columns)
     {
-        const bool first = rows_ == 0;
-        rows_ += table.rows.size();
-        if (!first)
-            put(csv_rows(table));
-        else
-            put(job_.shard ? csv(table) : csv(table, csv_comments(identity_)));
+        waiting_ = job_.shard ? csv_head(columns) : csv_head(columns, csv_comments(identity_));
+    }
+    void add(const std::vector<Cell>& row)
+    {
+        constexpr std::size_t written_at_once = 1 << 16;
+        lines_.add(row, waiting_);
+        ++rows_;
+        if (waiting_.size() >= written_at_once) write();
     }
     void finish(std::size_t bad)
     {
+        write();
         if (file_) file_->finish();
         if (job_.shard) write_file(job_.out, part_text(identity_, *job_.shard, body_, rows_, bad));
     }
 
 private:
-    void put(const std::string& text)
+    void write()
     {
         if (job_.shard)
-            body_ += text;
+            body_ += waiting_;
         else if (file_)
-            file_->write(text);
+            file_->write(waiting_);
         else
-            streams_.out << text;
+            streams_.out << waiting_;
+        waiting_.clear();
     }
 
     const Job& job_;
     const SweepIdentity& identity_;
     const Streams& streams_;
     std::optional<FileWriter> file_;
-    std::string body_; ///< of a shard
+    CsvLines lines_;
+    std::string waiting_; ///< to be written
+    std::string body_;    ///< of a shard
     std::size_t rows_ = 0;
 };
 
@@ -283,23 +291,31 @@ int stopped(std::size_t finished, std::size_t wanted, const Streams& streams)
 int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity, const std::vector<std::size_t>& wanted,
              Journal* journal, const Streams& streams)
 {
-    const bool reported = reports(job.arguments) && !job.shard && wanted.size() <= largest_report;
+    const std::size_t every = (wanted.size() + drawn_rows - 1) / drawn_rows;
+    const bool reported =
+        reports(job.arguments) && !job.shard &&
+        wanted.size() / job.tasks.friction * ((job.tasks.friction + every - 1) / every) <= largest_report;
     RowsOut rows(job, identity, streams);
-    Table listed;
-    SweepViewMaker all, unanswered;
+    Grid grid = begin_grid(job.scene, job.axes, job.tasks, inputs.records);
+    Table listed{"", sweep_columns(grid), {}, {}};
+    SweepViewMaker all(listed.columns, every);
+    UnansweredRows unanswered;
+    const std::size_t rows_of_friction = job.tasks.rows() / job.tasks.friction;
+    rows.begin(listed.columns);
     TerminalWatch watch(streams);
     const SweepTotals totals = run_long_sweep(
-        inputs, begin_grid(job.scene, job.axes, job.tasks, inputs.records), wanted, journal, job.arguments.jobs, watch,
-        [&](const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& part) {
+        inputs, std::move(grid), wanted, journal, job.arguments.jobs, watch,
+        [&](const Grid& held, const std::vector<std::size_t>& ids, const SweepOutcome& part) {
             if (journal && !part.complete()) return;
-            Table table = sweep_table(grid, ids, part);
-            rows.add(table);
-            if (reported) all.add(table);
-            if (!part.all_good()) unanswered.add(table);
-            if (listed.rows.empty()) {
-                listed = std::move(table);
-                listed.rows.resize(std::min(listed.rows.size(), listed_rows));
-            }
+            auto id = ids.begin();
+            for_each_sweep_row(held, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
+                rows.add(row);
+                const bool drawn = *id++ / rows_of_friction % every == 0;
+                if (reported) drawn ? all.add(row) : all.leave_out(row);
+                if (listed.rows.size() < listed_rows) listed.rows.push_back(row);
+                if (finished && !finished->good)
+                    unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
+            });
         });
     if (journal && totals.found && !streams.quiet)
         streams.talk << fmt::format("{} rows were finished before\n", totals.found);
@@ -308,7 +324,7 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     rows.finish(totals.bad);
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows{}\n", totals.rows, job.out.empty() ? "" : " in " + job.out.string());
-    if (totals.bad) streams.talk << unanswered_words(unanswered.view()) << "\n";
+    if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
         const SweepView view = all.view();
         put_pages(job.arguments, {&job.scene, listed, {}, *inputs.records, job.out, {}, &view}, streams);

@@ -6,7 +6,7 @@
 
 namespace damslip {
 
-Scene with_friction(Scene scene, double friction)
+void set_friction(Scene& scene, double friction)
 {
     if (!scene.contact.friction_table.empty())
         refuse_usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
@@ -20,6 +20,11 @@ Scene with_friction(Scene scene, double friction)
     scene.contact.friction = friction;
     if (scene.contact.residual_friction)
         scene.contact.residual_friction = std::min(*scene.contact.residual_friction, friction);
+}
+
+Scene with_friction(Scene scene, double friction)
+{
+    set_friction(scene, friction);
     return scene;
 }
 

@@ -8,5 +8,7 @@ namespace damslip {
 /// plane, and the second keeps its share of it (without friction on the first plane: both get it). @throws UsageError for a
 /// scene with a friction table
 Scene with_friction(Scene scene, double friction);
+/// The same in place.
+void set_friction(Scene& scene, double friction);
 
 } // namespace damslip

@@ -1,5 +1,7 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
 #include "fe2d/run/block_products.hpp"
+#include "fe2d/run/dense_product.hpp"
+#include "fe2d/run/few_rows.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
@@ -130,6 +132,49 @@ TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
     products.multiply(a, k_low, m_low, VectorLevel::sse2);
     products.multiply(a, k_high, m_high, VectorLevel::avx2);
     EXPECT_TRUE(k_low == k_high && m_low == m_high);
+
+    for (const Index columns : {Index(7), Index(127), Index(150)}) { // sums by blocks from 128 on
+        const MatrixXd matrix = uneven(55 * columns).reshaped(55, columns);
+        const VectorXd x = uneven(columns);
+        VectorXd y_low = uneven(55), y_high = y_low;
+        add_product(matrix, x, y_low, VectorLevel::sse2);
+        add_product(matrix, x, y_high, VectorLevel::avx2);
+        EXPECT_TRUE(y_low == y_high) << columns;
+        EXPECT_LT((y_high - uneven(55) - matrix * x).norm(), 1e-13 * matrix.norm() * x.norm());
+    }
+}
+
+// Vectors of several runs side by side go through the factor as each of them alone: 7 are 4, 2 and 1.
+TEST(FeRunParts, lanes_have_the_bits_of_one)
+{
+    const Model model = parts_model();
+    const ContactStructure structure(model);
+    const InterfaceFactor factor(4e4 * structure.mass() + structure.stiffness(), structure.order().inner);
+    std::vector<VectorXd> together, alone;
+    for (int lane = 0; lane < 7; ++lane) together.push_back((1.0 + 0.3 * lane) * uneven(structure.dam_unknowns()));
+    alone = together;
+    std::vector<VectorXd*> lanes;
+    for (VectorXd& vector : together) lanes.push_back(&vector);
+    factor.forward(lanes);
+    for (VectorXd& vector : alone) factor.forward(vector);
+    EXPECT_TRUE(together == alone);
+    factor.backward(lanes);
+    for (VectorXd& vector : alone) factor.backward(vector);
+    EXPECT_TRUE(together == alone);
+}
+
+TEST(FeRunParts, a_product_visits_the_rows_that_are_not_empty)
+{
+    SparseMatrix matrix(5, 5);
+    matrix.insert(1, 0) = 2.0;
+    matrix.insert(1, 4) = -3.0;
+    matrix.insert(4, 1) = 0.5;
+    matrix.makeCompressed();
+    VectorXd y = VectorXd::Constant(5, 10.0);
+    FewRows(matrix).subtract_product(VectorXd::LinSpaced(5, 1.0, 5.0), y);
+    EXPECT_EQ(y, (VectorXd(5) << 10.0, 23.0, 10.0, 10.0, 9.0).finished());
+    FewRows().subtract_product(y, y); // empty
+    EXPECT_EQ(y[1], 23.0);
 }
 
 TEST(FeRunParts, four_products_at_once)

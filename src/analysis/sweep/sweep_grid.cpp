@@ -29,6 +29,32 @@ void find_modes(Grid& grid, const Scene& scene)
     }
 }
 
+/// Rigid models of one variant, friction after friction: what does not depend on it is made once.
+class VariantModels {
+public:
+    VariantModels(Scene given, const Records& records, const PrepareOptions& options)
+        : ready_(prepare(std::move(given), Method::rigid_block, records, options)),
+          profile_(ready_.seepage->profile_of(ready_.scene)), here_(ready_.scene)
+    {
+    }
+
+    RigidModel at(double friction)
+    {
+        here_.contact = ready_.scene.contact;
+        here_.wedge = ready_.scene.wedge;
+        if (friction != ready_.given.contact.friction) {
+            if (!ready_.given.contact.friction_table.empty()) set_friction(ready_.given, friction); // refuses
+            set_friction(here_, friction);
+        }
+        return make_rigid_model(here_, profile_, std::nullopt, ready_.statics.get());
+    }
+
+private:
+    Ready ready_;
+    sliding::SeepageProfile profile_;
+    Scene here_;
+};
+
 } // namespace
 
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
@@ -72,18 +98,21 @@ void hold_models(Grid& grid, const Scene& scene, const Records& records, std::si
     const Axes& axes = grid.axes;
     const TaskList& tasks = grid.tasks;
     grid.first_friction = first;
+    const std::size_t variants = tasks.variants(), frictions = last - first + 1;
     grid.models.clear();
-    grid.models.resize((last - first + 1) * tasks.variants());
+    grid.models.resize(frictions * variants);
     const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
-    parallel_for(grid.models.size(), jobs, [&](std::size_t i) {
-        const GridIndex at = tasks.index((first * tasks.variants() + i) * rows_of_model);
-        Scene here = variant_of(scene, axes, at);
-        if (axes.friction[at.friction] != here.contact.friction)
-            here = with_friction(std::move(here), axes.friction[at.friction]);
+    const auto threads = static_cast<std::size_t>(thread_count(jobs));
+    const std::size_t parts = std::min(frictions, (threads + variants - 1) / variants); // of the frictions of a variant
+    parallel_for(variants * parts, jobs, [&](std::size_t i) {
+        const std::size_t part = i / variants, v = i % variants;
+        const GridIndex at = tasks.index(v * rows_of_model);
         PrepareOptions options;
         options.seepage = grid.seepage[at.size];
-        options.statics = grid.statics[tasks.variant(at)];
-        grid.models[i] = prepare(std::move(here), Method::rigid_block, records, options).rigid_model();
+        options.statics = grid.statics[v];
+        VariantModels models(variant_of(scene, axes, at), records, options);
+        for (std::size_t k = part * frictions / parts; k < (part + 1) * frictions / parts; ++k)
+            grid.models[k * variants + v] = models.at(axes.friction[first + k]);
     });
 }
 

@@ -1,15 +1,18 @@
 #include "analysis/sweep/sweep_journal.hpp"
 
+#include "core/append_number.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/number.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <sys/file.h>
@@ -25,20 +28,24 @@ constexpr std::string_view done_line = "done\n", begun_word = "begun";
 constexpr std::size_t checksum_digits = 16, head_lines = 7;
 
 /// 64-bit FNV-1a as hexadecimal digits: tells a torn or damaged line, and costs nothing beside the row.
-std::string checksum(std::string_view text)
+std::array<char, checksum_digits> checksum(std::string_view text)
 {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
-    return fmt::format("{:016x}", hash);
+    std::array<char, checksum_digits> digits;
+    for (std::size_t i = checksum_digits; i-- > 0; hash >>= 4) digits[i] = "0123456789abcdef"[hash & 0xF];
+    return digits;
 }
 
 /// As JSON has it, with all digits; null for none.
 void add_number(std::string& out, const std::optional<double>& value)
 {
-    if (value && std::isfinite(*value))
-        out += *value == 0.0 && std::signbit(*value) ? "-0.0" : shortest(*value);
-    else
+    if (!value || !std::isfinite(*value))
         out += "null";
+    else if (*value == 0.0)
+        out += std::signbit(*value) ? "-0.0" : "0";
+    else
+        append_shortest(out, *value);
 }
 
 std::string head_of(const SweepIdentity& i, const Shard& shard)
@@ -60,11 +67,11 @@ RowResults results_of(nlohmann::json cells)
     return results;
 }
 
-/// Slips after the events and anchors, as the last element of a line; empty where there are none.
-std::string extras(const RowResults& results)
+/// Slips after the events and anchors, as the last element of a line; nothing where there are none.
+void add_extras(const RowResults& results, std::string& text)
 {
-    if (results.event_slips.empty() && results.anchors.empty()) return "";
-    std::string text = ",{\"events\":[";
+    if (results.event_slips.empty() && results.anchors.empty()) return;
+    text += ",{\"events\":[";
     for (std::size_t k = 0; k < results.event_slips.size(); ++k) {
         if (k) text += ",";
         add_number(text, results.event_slips[k]);
@@ -75,10 +82,10 @@ std::string extras(const RowResults& results)
         add_number(text, results.anchors[k].largest_force);
         text += "," + nlohmann::json(results.anchors[k].state).dump() + "]";
     }
-    return text + "]}";
+    text += "]}";
 }
 
-/// @throws nlohmann::json::exception  for what extras() would not write
+/// @throws nlohmann::json::exception  for what add_extras() would not write
 void read_extras(const nlohmann::json& json, RowResults& results)
 {
     results.event_slips = json.at("events").get<std::vector<double>>();
@@ -87,37 +94,84 @@ void read_extras(const nlohmann::json& json, RowResults& results)
             {anchor.at(0).get<std::string>(), anchor.at(1).get<double>(), anchor.at(2).get<std::string>()});
 }
 
-std::string line_of(const FinishedRow& row)
-{
-    std::string text = fmt::format("[{},{},[", row.id, row.good);
-    for (std::size_t i = 0; i < row_numbers.size(); ++i) {
-        if (i == status_place) {
-            const std::string& status = row.results.status;
-            text += (status.empty() ? "null" : nlohmann::json(status).dump()) + ",";
-        }
-        add_number(text, row.results.*row_numbers[i]);
-        text += i + 1 < row_numbers.size() ? "," : "]";
+/// Lines of rows one after the other. A number or word that the row before had in the same place is copied from it.
+class RowLines {
+public:
+    void add(const FinishedRow& row, std::string& out)
+    {
+        const std::size_t begin = out.size();
+        out.append(checksum_digits, '0');
+        out += ' ';
+        const std::size_t text = out.size();
+        add_row(row, out);
+        const std::array<char, checksum_digits> sum = checksum(std::string_view(out).substr(text));
+        std::copy(sum.begin(), sum.end(), out.begin() + static_cast<std::ptrdiff_t>(begin));
+        out += '\n';
     }
-    if (row.history.interval > 0.0) {
-        text += ",";
-        add_number(text, row.history.interval);
-        text += ",[";
-        for (std::size_t k = 0; k < row.history.slip.size(); ++k) {
-            if (k) text += ",";
-            add_number(text, row.history.slip[k]);
-        }
-        text += "]";
-    }
-    text += extras(row.results) + "]";
-    return checksum(text) + " " + text + "\n";
-}
 
-/// Nothing for a line that is not what line_of wrote.
+private:
+    struct Number {
+        std::uint64_t bits = 0;
+        std::string text;
+    };
+
+    void add_row(const FinishedRow& row, std::string& out)
+    {
+        fmt::format_to(std::back_inserter(out), "[{},{},[", row.id, row.good);
+        for (std::size_t i = 0; i < row_numbers.size(); ++i) {
+            if (i == status_place) add_status(row.results.status, out);
+            if (const std::optional<double>& number = row.results.*row_numbers[i])
+                add_number_of(i, *number, out);
+            else
+                out += "null";
+            out += i + 1 < row_numbers.size() ? ',' : ']';
+        }
+        if (row.history.interval > 0.0) add_history(row.history, out);
+        add_extras(row.results, out);
+        out += ']';
+    }
+    void add_status(const std::string& status, std::string& out)
+    {
+        if (status != status_ || status_text_.empty()) {
+            status_ = status;
+            status_text_ = (status.empty() ? "null" : nlohmann::json(status).dump()) + ",";
+        }
+        out += status_text_;
+    }
+    void add_number_of(std::size_t place, double number, std::string& out)
+    {
+        const auto bits = std::bit_cast<std::uint64_t>(number);
+        Number& last = last_[place];
+        if (last.text.empty() || last.bits != bits) {
+            last.bits = bits;
+            last.text.clear();
+            add_number(last.text, number);
+        }
+        out += last.text;
+    }
+    static void add_history(const SlipHistory& history, std::string& out)
+    {
+        out += ',';
+        add_number(out, history.interval);
+        out += ",[";
+        for (std::size_t k = 0; k < history.slip.size(); ++k) {
+            if (k) out += ',';
+            add_number(out, history.slip[k]);
+        }
+        out += ']';
+    }
+
+    std::array<Number, row_numbers.size()> last_;
+    std::string status_, status_text_;
+};
+
+/// Nothing for a line that is not what RowLines wrote.
 std::optional<FinishedRow> row_of(std::string_view line, std::size_t rows)
 {
     if (line.size() < checksum_digits + 2 || line[checksum_digits] != ' ') return std::nullopt;
     const std::string_view text = line.substr(checksum_digits + 1);
-    if (checksum(text) != line.substr(0, checksum_digits)) return std::nullopt;
+    const std::array<char, checksum_digits> sum = checksum(text);
+    if (std::string_view(sum.data(), sum.size()) != line.substr(0, checksum_digits)) return std::nullopt;
     auto json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_array() || json.empty()) return std::nullopt;
     nlohmann::json more;
@@ -341,9 +395,10 @@ std::vector<FinishedRow> Journal::finished_rows(std::size_t first, std::size_t l
 
 void Journal::append(std::span<const FinishedRow> rows)
 {
-    std::string lines;
-    for (const FinishedRow& row : rows) lines += line_of(row);
-    write(lines);
+    std::string text;
+    RowLines lines;
+    for (const FinishedRow& row : rows) lines.add(row, text);
+    write(text);
 }
 
 void Journal::begin(std::span<const std::size_t> ids)

@@ -20,19 +20,13 @@ public:
     {
     }
 
-    void put(FinishedRow row)
-    {
-        const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), row.id);
-        if (at == wanted_.end() || *at != row.id) return; // not of this part
-        rows_[static_cast<std::size_t>(at - wanted_.begin())] = std::move(row);
-    }
     void finish(std::vector<FinishedRow> rows)
     {
         if (journal_)
             journal_->append(rows);
         else
             watch_.results_at_hand();
-        for (FinishedRow& row : rows) put(std::move(row));
+        put_all(std::move(rows));
     }
     void begin(std::span<const std::size_t> ids)
     {
@@ -42,7 +36,7 @@ public:
     void take_finished()
     {
         if (!journal_ || wanted_.empty()) return;
-        for (FinishedRow& row : journal_->finished_rows(wanted_.front(), wanted_.back())) put(std::move(row));
+        put_all(journal_->finished_rows(wanted_.front(), wanted_.back()));
     }
     std::map<std::size_t, int> stopped() const { return journal_ ? journal_->stopped() : std::map<std::size_t, int>{}; }
     std::vector<std::size_t> missing() const
@@ -55,12 +49,25 @@ public:
     std::vector<FinishedRow> finished()
     {
         std::vector<FinishedRow> rows;
+        rows.reserve(rows_.size());
         for (auto& row : rows_)
             if (row) rows.push_back(std::move(*row));
         return rows;
     }
 
 private:
+    /// Those of this part. Rows that follow each other mostly do so here, too.
+    void put_all(std::vector<FinishedRow> rows)
+    {
+        std::size_t at = 0;
+        for (FinishedRow& row : rows) {
+            if (at == wanted_.size() || wanted_[at] != row.id)
+                at = static_cast<std::size_t>(std::lower_bound(wanted_.begin(), wanted_.end(), row.id) -
+                                              wanted_.begin());
+            if (at < wanted_.size() && wanted_[at] == row.id) rows_[at++] = std::move(row);
+        }
+    }
+
     const std::vector<std::size_t>& wanted_;
     Journal* journal_;
     Watch& watch_;
@@ -104,6 +111,7 @@ void run_rigid_rows(const Scene& scene, const Grid& grid, const std::vector<std:
         if (watch.stop_asked()) return;
         const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
         std::vector<FinishedRow> rows;
+        rows.reserve(last - first);
         for (std::size_t i = first; i < last; ++i) rows.push_back(rigid_row(scene, grid, missing[i]));
         store.finish(std::move(rows));
         watch.at(static_cast<double>(done += last - first));

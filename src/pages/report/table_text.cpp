@@ -1,6 +1,6 @@
 #include "pages/report/table_text.hpp"
 
-#include "core/number.hpp"
+#include "pages/report/csv_lines.hpp"
 #include "pages/report/escape.hpp"
 
 #include <algorithm>
@@ -64,38 +64,6 @@ std::string framed(const Table& table, const std::string& body)
     std::string out = (table.title.empty() ? "" : visible(table.title, LineEnds::replaced) + "\n") + body;
     for (const std::string& note : table.notes) out += "  " + visible(note, LineEnds::replaced) + "\n";
     return out;
-}
-
-/// A spreadsheet takes a cell that begins so for a formula and runs it: an apostrophe in front says that it is text.
-std::string no_formula(const std::string& text)
-{
-    return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
-}
-
-void add_csv_field(std::string& out, const Cell& cell)
-{
-    struct Show {
-        std::string& out;
-        void operator()(std::monostate) const {}
-        void operator()(double v) const
-        {
-            if (std::isfinite(v)) out += shortest(v);
-        }
-        void operator()(std::int64_t v) const { out += std::to_string(v); }
-        void operator()(const std::string& v) const
-        {
-            const std::string safe = no_formula(visible(v, LineEnds::replaced));
-            if (safe.find_first_of(",\"\n\r") == std::string::npos) {
-                out += safe;
-                return;
-            }
-            out += '"';
-            for (char c : safe) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-            out += '"';
-        }
-        void operator()(bool v) const { out += v ? "true" : "false"; }
-    };
-    std::visit(Show{out}, cell);
 }
 
 } // namespace
@@ -162,22 +130,9 @@ std::string text_by_columns(const Table& table, std::size_t labels)
 
 std::string csv(const Table& table, const std::vector<std::string>& comments)
 {
-    std::string out;
-    for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
-    for (std::size_t j = 0; j < table.columns.size(); ++j) out += (j ? "," : "") + table.columns[j].key;
-    return out + "\n" + csv_rows(table);
-}
-
-std::string csv_rows(const Table& table)
-{
-    std::string out;
-    for (const auto& row : table.rows) {
-        for (std::size_t j = 0; j < row.size(); ++j) {
-            if (j) out += ',';
-            add_csv_field(out, row[j]);
-        }
-        out += '\n';
-    }
+    std::string out = csv_head(table.columns, comments);
+    CsvLines lines;
+    for (const std::vector<Cell>& row : table.rows) lines.add(row, out);
     return out;
 }
 

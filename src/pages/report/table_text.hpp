@@ -28,7 +28,4 @@ std::string text_by_columns(const Table& table, std::size_t labels);
 /// control characters are shown as their pictures. Numbers stay as they are.
 std::string csv(const Table& table, const std::vector<std::string>& comments = {});
 
-/// The rows alone, to follow csv() of the same columns.
-std::string csv_rows(const Table& table);
-
 } // namespace damslip::pages

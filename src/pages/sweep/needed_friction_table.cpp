@@ -44,13 +44,13 @@ std::vector<Worst> worst_by_friction(const SweepView& view, std::size_t variant,
 {
     std::vector<Worst> list;
     for (const double friction : view.frictions) {
-        const auto group = view.groups.find({variant, method, friction});
-        if (group == view.groups.end()) continue;
+        const auto group = view.group(variant, method, friction);
+        if (group.empty()) continue;
         Worst worst{friction, -1.0, "", 1};
-        for (const std::size_t i : group->second) {
+        for (const std::size_t i : group) {
             const SweepRow& row = view.rows[i];
             if (says_nothing(row) || counted_slip(row) <= worst.slip) continue;
-            worst = {friction, counted_slip(row), row.record, row.polarity};
+            worst = {friction, counted_slip(row), std::string(row.record), row.polarity};
         }
         if (worst.slip >= 0.0) list.push_back(worst);
     }

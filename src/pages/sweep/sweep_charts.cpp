@@ -27,10 +27,8 @@ Axis slip_axis(const std::string& label)
 /// The worse polarity's slip [mm] of each record that has one.
 std::vector<double> slips_of(const SweepView& view, std::size_t variant, const std::string& method, double friction)
 {
-    std::map<std::string, double> worst;
-    const auto group = view.groups.find({variant, method, friction});
-    if (group == view.groups.end()) return {};
-    for (const std::size_t i : group->second) {
+    std::map<std::string_view, double> worst;
+    for (const std::size_t i : view.group(variant, method, friction)) {
         const SweepRow& r = view.rows[i];
         if (!r.slip) continue;
         const auto [at, first] = worst.try_emplace(r.record, std::abs(*r.slip) / mm);
@@ -175,9 +173,9 @@ std::optional<Chart> slip_histories(const SweepView& view, std::size_t variant, 
 {
     std::vector<std::size_t> rows; // one for each friction that has a history
     for (const double friction : view.frictions) {
-        const auto group = view.groups.find({variant, method, friction});
-        if (group == view.groups.end()) continue;
-        const std::size_t first = group->second.front();
+        const auto group = view.group(variant, method, friction);
+        if (group.empty()) continue;
+        const std::size_t first = group.front();
         if (view.rows[first].slip && histories[first].interval > 0.0) rows.push_back(first);
     }
     if (rows.empty()) return std::nullopt;
@@ -228,7 +226,9 @@ Chart slip_over_yield_ratio(const SweepView& view)
 
 std::optional<Chart> fe_over_rigid(const SweepView& view)
 {
-    using Key = std::tuple<std::size_t, double, int, std::string>;
+    if (std::none_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); }))
+        return std::nullopt;
+    using Key = std::tuple<std::size_t, double, int, std::string_view>;
     std::map<Key, double> rigid;
     const auto key = [](const SweepRow& r) { return Key{r.variant, r.friction, r.polarity, r.record}; };
     for (const std::string method : {"rigid", "rigid-v"}) // the latter, where there is one, has the same motion as FE

@@ -129,6 +129,8 @@ const SweepRow* worst_of(const SweepView& view)
         if (!r.slip || !(fe ? r.finite_elements() : r.rigid())) continue;
         if (!worst || std::abs(*r.slip) > std::abs(*worst->slip)) worst = &r;
     }
+    if (const auto& other = view.largest_left_out; other && !fe && other->rigid())
+        if (!worst || std::abs(*other->slip) > std::abs(*worst->slip)) worst = &*other;
     return worst;
 }
 
@@ -137,9 +139,9 @@ Headline headline(const SweepView& view, const std::optional<double>& allowable)
     const std::string unanswered = unanswered_words(view);
     const SweepRow* worst = worst_of(view);
     std::string sentence =
-        worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.rows.size(),
+        worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.all(),
                             std::abs(*worst->slip) / mm, worst->method, worst->friction, worst->record)
-              : fmt::format("{} rows: none has a slip", view.rows.size());
+              : fmt::format("{} rows: none has a slip", view.all());
     double critical = 0.0;
     std::size_t failing = 0;
     for (const SweepRow& r : view.rows) {
@@ -164,6 +166,16 @@ Headline headline(const SweepView& view, const std::optional<double>& allowable)
     sentence += ".";
     if (!unanswered.empty()) return {sentence, Outcome::unresolved, unanswered + "."};
     return {sentence, Outcome::none, ""};
+}
+
+/// What the page leaves out of a sweep of many rows; empty: nothing.
+std::string thinned_words(const SweepView& view, const std::filesystem::path& csv)
+{
+    if (view.left_out == 0) return "";
+    return fmt::format(
+        "Drawn and counted on this page are {} of {} rows, those of one friction in {}; only the largest "
+        "slip and the rows without an answer are of all rows{}.",
+        view.rows.size(), view.all(), view.every, csv.empty() ? "" : ", which are in " + csv.filename().string());
 }
 
 std::vector<std::string> warnings(const SweepView& view)
@@ -340,7 +352,7 @@ Page sweep_page(const SweepReportInput& in)
     page.subtitle = about + "damslip " + program_version();
     if (in.scene) page = begin_page(*in.scene, about);
     page.headline = headline(view, allowable);
-    page.key_figures = {{"Rows", fmt::format("{}", view.rows.size())},
+    page.key_figures = {{"Rows", fmt::format("{}", view.all())},
                         {"Variants", fmt::format("{}", view.variants.size())},
                         {"Frictions", fmt::format("{}", view.frictions.size())},
                         {"Records", fmt::format("{}", view.records.size())},
@@ -353,6 +365,7 @@ Page sweep_page(const SweepReportInput& in)
             page.warnings.push_back(*rigid_base + ".");
         for (std::string& note : note_texts(in.scene->notes)) page.warnings.push_back(std::move(note));
     }
+    if (const std::string thinned = thinned_words(view, in.csv); !thinned.empty()) page.warnings.push_back(thinned);
     for (std::string& w : warnings(view)) page.warnings.push_back(std::move(w));
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     if (view.rows.empty()) return page;
@@ -367,7 +380,7 @@ Page sweep_page(const SweepReportInput& in)
     if (Chart chart = slip_over_yield_ratio(view); !chart.curves.empty()) methods.parts.emplace_back(std::move(chart));
     for (const Table& table : in.tables) methods.parts.push_back(TablePart{table, Layout::rows, 1, Fold::folded});
     page.sections.push_back(std::move(methods));
-    page.sections.push_back(rows_section(in, view.rows.size()));
+    page.sections.push_back(rows_section(in, view.all()));
     if (in.scene) {
         page.sections.push_back(section_of(*in.scene, view));
         if (!in.records.empty()) page.sections.push_back(record_section(*in.scene, in.records));

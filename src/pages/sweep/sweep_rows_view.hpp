@@ -3,11 +3,14 @@
 #include "core/status_count.hpp"
 #include "core/table.hpp"
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
-#include <tuple>
+#include <string_view>
 #include <vector>
 
 /// The rows of a sweep as its report reads them.
@@ -29,21 +32,36 @@ struct SweepRow {
     std::size_t variant = 0; ///< of SweepView::variants
     double friction = 0.0;
     int polarity = 1;
-    std::string record, method;
+    std::string_view record, method; ///< of SweepView::words
     double yield_acceleration = 0.0; ///< [m/s²]
     double pga = 0.0;                ///< [m/s²]
     std::optional<double> slip;      ///< of answers: largest on the way, else the final one [m]
     std::optional<double> error;     ///< of an FE slip by its steps [m]
     std::optional<double> low, high; ///< band of a regression [m]
     std::optional<double> critical_friction;
-    std::string status;          ///< as printed
+    std::string_view status;     ///< as printed
     std::optional<Status> state; ///< the same of the list; none: a remark of a method that does not apply
     bool error_known = true;     ///< false: an FE slip without an estimate of what the step leaves open
 
-    bool finite_elements() const { return method.rfind("fe", 0) == 0; }
-    bool rigid() const { return method.rfind("rigid", 0) == 0; }
+    bool finite_elements() const { return method.starts_with("fe"); }
+    bool rigid() const { return method.starts_with("rigid"); }
     bool fails_statically() const { return state && damslip::fails_statically(*state); }
     bool unanswered() const { return state && !is_answer(*state); }
+};
+
+/// Rows without an answer, counted one by one.
+class UnansweredRows {
+public:
+    /// @param state  of SweepRow
+    void add(std::int64_t id, const std::optional<Status>& state);
+    std::string words() const; ///< as unanswered_words()
+
+private:
+    struct Rows {
+        std::size_t count = 0;
+        std::string first; ///< ids
+    };
+    std::map<Status, Rows> rows_;
 };
 
 struct SweepView {
@@ -53,21 +71,43 @@ struct SweepView {
     std::vector<std::string> methods, records;
     std::vector<double> frictions; ///< ascending
 
-    using Group = std::tuple<std::size_t, std::string, double>; ///< variant, method, friction
-    std::map<Group, std::vector<std::size_t>> groups;           ///< rows of each
+    /// Rows of a variant, method and friction, ascending; empty: none.
+    std::span<const std::uint32_t> group(std::size_t variant, std::string_view method, double friction) const;
+
+    std::vector<std::uint32_t> by_group;  ///< rows by variant and method, of these by friction
+    std::vector<std::size_t> group_begin; ///< in by_group: of each variant and method, and the end of the last
+    UnansweredRows unanswered;            ///< of all rows, those left out included
+
+    // Of a sweep of too many rows to be drawn: those of every n-th friction are in the lists above.
+    std::size_t every = 1;
+    std::size_t left_out = 0;                 ///< other rows
+    std::optional<SweepRow> largest_left_out; ///< of them, by |slip|
+    std::size_t all() const { return rows.size() + left_out; }
+
+    using Words = std::set<std::string, std::less<>>;
+    std::shared_ptr<const Words> words; ///< that the rows look at
 };
 
-/// Makes the view of rows that come part by part.
+/// Makes the view of rows that come one by one.
 class SweepViewMaker {
 public:
-    /// @param table  columns by their keys, as `sweep` writes them, the same in each part; a column that is missing has its
-    /// default
-    void add(const Table& table);
+    /// @param columns  by their keys, as `sweep` writes them; one that is missing has its default
+    /// @param every  n where only the rows of every n-th friction are added; the others are left out
+    explicit SweepViewMaker(const std::vector<Column>& columns, std::size_t every = 1);
+    ~SweepViewMaker();
+    void add(const std::vector<Cell>& row);
+    void leave_out(const std::vector<Cell>& row);
     SweepView view(); ///< of all that was added; once
 
 private:
+    struct Parts;
+
+    std::size_t variant_of(const std::vector<Cell>& row);
+    SweepRow row_of(const std::vector<Cell>& row);
+    void group_rows();
+
     SweepView view_;
-    std::set<double> frictions_;
+    std::unique_ptr<Parts> parts_;
 };
 
 /// Of rows in one table.

@@ -21,7 +21,7 @@ struct SweepLine {
     const Grid& grid;
     std::size_t id;
     GridIndex at;
-    RowResults results;
+    const RowResults& results;
     std::optional<double> mean; ///< slip of both polarities [m]
 
     const Axes& axes() const { return grid.axes; }
@@ -150,23 +150,50 @@ AxisColumns columns_of(const Grid& grid, bool mean)
     return {has_opening_axis(axes), !axes.period.empty(), !axes.damping.empty(), grid.events, grid.anchors, mean};
 }
 
+std::vector<Column> headings(const std::vector<ColumnOf<SweepLine>>& columns)
+{
+    std::vector<Column> list;
+    for (const ColumnOf<SweepLine>& c : columns) list.push_back(c.column);
+    return list;
+}
+
 } // namespace
+
+void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
+                        const TakeRow& take)
+{
+    static const RowResults unreached = not_run();
+    const std::vector<ColumnOf<SweepLine>> list = columns(columns_of(grid, mean));
+    std::vector<Cell> cells(list.size());
+    auto next = outcome.rows.begin(); // both ascend
+    for (const std::size_t id : ids) {
+        while (next != outcome.rows.end() && next->id < id) ++next;
+        const FinishedRow* row = next != outcome.rows.end() && next->id == id ? &*next : nullptr;
+        const GridIndex at = grid.tasks.index(id);
+        const SweepLine line{grid, id, at, row ? row->results : unreached,
+                             mean ? mean_of_polarities(grid, at, outcome) : std::nullopt};
+        for (std::size_t j = 0; j < list.size(); ++j) cells[j] = list[j].value(line);
+        take(cells, row);
+    }
+}
 
 Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean)
 {
-    std::vector<SweepLine> lines;
-    for (const std::size_t id : ids) {
-        const FinishedRow* row = outcome.find(id);
-        const GridIndex at = grid.tasks.index(id);
-        lines.push_back({grid, id, at, row ? row->results : not_run(),
-                         mean ? mean_of_polarities(grid, at, outcome) : std::nullopt});
-    }
-    return table_of("", columns(columns_of(grid, mean)), lines);
+    Table table{"", sweep_columns(grid, mean), {}, {}};
+    table.rows.reserve(ids.size());
+    for_each_sweep_row(grid, ids, outcome, mean,
+                       [&](const std::vector<Cell>& cells, const FinishedRow*) { table.rows.push_back(cells); });
+    return table;
+}
+
+std::vector<Column> sweep_columns(const Grid& grid, bool mean)
+{
+    return headings(columns(columns_of(grid, mean)));
 }
 
 std::vector<Column> sweep_columns(const AxisColumns& with)
 {
-    return table_of("", columns(with), std::vector<SweepLine>{}).columns;
+    return headings(columns(with));
 }
 
 Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)

@@ -3,6 +3,7 @@
 #include "analysis/sweep/sweep_comparison.hpp"
 #include "core/table.hpp"
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 
 /// A sweep as tables.
@@ -12,6 +13,13 @@ namespace damslip::pages {
 /// what the method gave. @param mean  with the mean slip of both polarities, empty where one of them has none
 Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome,
                   bool mean = false);
+
+/// Takes the cells of a row, which are overwritten by those of the next. @param row  null: not reached
+using TakeRow = std::function<void(const std::vector<Cell>& cells, const FinishedRow* row)>;
+
+/// The rows of that table one after the other, none of them held. @param ids  ascending
+void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
+                        const TakeRow& take);
 
 /// What has columns in the table only where the sweep has it.
 struct AxisColumns {
@@ -25,6 +33,7 @@ struct AxisColumns {
 
 /// Its columns.
 std::vector<Column> sweep_columns(const AxisColumns& with = {});
+std::vector<Column> sweep_columns(const Grid& grid, bool mean = false);
 
 /// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.
 inline constexpr const char* no_error_estimate = "no error estimate: fixed sub-steps";

@@ -1,0 +1,85 @@
+#include "pages/report/csv_lines.hpp"
+
+#include "core/append_number.hpp"
+#include "pages/report/escape.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace damslip::pages {
+
+namespace {
+
+/// A spreadsheet takes a cell that begins so for a formula and runs it: an apostrophe in front says that it is text.
+std::string no_formula(const std::string& text)
+{
+    return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
+}
+
+void add_csv_field(std::string& out, const Cell& cell)
+{
+    struct Show {
+        std::string& out;
+        void operator()(std::monostate) const {}
+        void operator()(double v) const
+        {
+            if (std::isfinite(v)) append_shortest(out, v);
+        }
+        void operator()(std::int64_t v) const { out += std::to_string(v); }
+        void operator()(const std::string& v) const
+        {
+            const std::string safe = no_formula(visible(v, LineEnds::replaced));
+            if (safe.find_first_of(",\"\n\r") == std::string::npos) {
+                out += safe;
+                return;
+            }
+            out += '"';
+            for (char c : safe) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+            out += '"';
+        }
+        void operator()(bool v) const { out += v ? "true" : "false"; }
+    };
+    std::visit(Show{out}, cell);
+}
+
+/// Of the same text: zeros of both signs are told apart.
+bool same_cell(const Cell& a, const Cell& b)
+{
+    if (a.index() != b.index()) return false;
+    if (const double* x = std::get_if<double>(&a))
+        return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(std::get<double>(b));
+    return a == b;
+}
+
+} // namespace
+
+std::string csv_head(const std::vector<Column>& columns, const std::vector<std::string>& comments)
+{
+    std::string out;
+    for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
+    for (std::size_t j = 0; j < columns.size(); ++j) out += (j ? "," : "") + columns[j].key;
+    return out + "\n";
+}
+
+void CsvLines::add(const std::vector<Cell>& row, std::string& out)
+{
+    last_.resize(row.size());
+    for (std::size_t j = 0; j < row.size(); ++j) {
+        if (j) out += ',';
+        if (std::holds_alternative<std::monostate>(row[j])) continue;
+        Field& field = last_[j];
+        if (!same_cell(row[j], field.cell)) {
+            field.cell = row[j];
+            if (j > 0 && same_cell(row[j], row[j - 1])) {
+                field.text = last_[j - 1].text;
+            } else {
+                field.text.clear();
+                add_csv_field(field.text, row[j]);
+            }
+        }
+        out += field.text;
+    }
+    out += '\n';
+}
+
+} // namespace damslip::pages
