@@ -9,6 +9,7 @@
 #include "core/usage_error.hpp"
 #include "pages/fragility/fragility_report.hpp"
 #include "pages/fragility/fragility_tables.hpp"
+#include "pages/report/csv_lines.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/sweep_parts.hpp"
@@ -114,9 +115,13 @@ void write_samples(const std::filesystem::path& file, const FragilityView& view,
 {
     constexpr std::size_t at_once = 4096;
     FileWriter writer(file);
-    writer.write(csv(sample_table(view, 0, at_once), comments));
-    for (std::size_t first = at_once; first < view.plan.samples.size(); first += at_once)
-        writer.write(csv_rows(sample_table(view, first, first + at_once)));
+    CsvLines lines;
+    for (std::size_t first = 0; first == 0 || first < view.plan.samples.size(); first += at_once) {
+        const Table part = sample_table(view, first, first + at_once);
+        std::string text = first == 0 ? csv_head(part.columns, comments) : "";
+        for (const auto& row : part.rows) lines.add(row, text);
+        writer.write(text);
+    }
     writer.finish();
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A page with a session: runs every command of it, in order, and looks for every line of output that it shows. Other blocks than those of output
-# name their language after the ```. Without a Chromium --pdf is left out.
+# name their language after the ```. Without a Chromium --pdf is left out. How far a --budget of seconds gets is the machine's affair: there 4, not
+# within the tolerance, is an answer too.
 #   check_guide.sh DAMSLIP SOURCE PAGE FILE ...     FILE: that the commands leave in their folder
 set -euo pipefail
 program=$1 source=$2 page=$3
@@ -19,7 +20,8 @@ while IFS= read -r line; do
     case $shown$line in
     'no    damslip '*)
         [ "$printing" = yes ] || line=$(sed 's/ --pdf [^ ]*//' <<<"$line")
-        eval "$line" >answer 2>talk || fail "$line exits with $?: $(tail -n 3 talk)"
+        code=0; eval "$line" >answer 2>talk || code=$?
+        case $code$line in 0*|4*' --budget '*) ;; *) fail "$line exits with $code: $(tail -n 3 talk)" ;; esac
         squeezed answer >squeezed
         commands=$((commands + 1)) ;;
     'no```') shown=yes ;;
