@@ -195,7 +195,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
                 n += next - k;
                 k = next;
             }
-            if (k == last) break;
+            if (k == last || block.unresolved()) break;
             cross({a_h(k), a_h(k + 1)}, {a_v(k), a_v(k + 1)});
         }
         if (!motion.is_sequence()) break;

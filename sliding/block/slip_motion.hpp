@@ -22,7 +22,8 @@ public:
     void cross(double start, double dt, const Line& a_h, const Line& a_v);
 
     /// Goes through whole intervals in which nothing happens: the block rests all along, or slides all along in one
-    /// direction. What cross() would do, bit by bit, at a fraction of the price.
+    /// direction; through starts and stops too where the blocks tell that the motion never lifts it (PressedSlip). What
+    /// cross() would do, bit by bit, at a fraction of the price.
     /// @param k, last  intervals k ... last - 1 of the motion  @param before  intervals so far, for the time
     /// @param blocks  of the same motion; null: every sample is looked at
     /// @returns the first interval that is cross()'s business
@@ -49,6 +50,9 @@ public:
     bool stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
 
 private:
+    template <bool vertical>
+    friend class PressedSlip;
+
     /// What does not change within a stage.
     struct StageForms {
         BaseEquations equations;
@@ -91,6 +95,9 @@ private:
     double time_of_stage(double h, const Line& accel) const;
 
     static StageForms forms_of(const RigidBlock& block);
+    template <bool vertical>
+    std::size_t pass_pressed(const SkippingMotion& motion, double polarity, std::size_t k, std::size_t last,
+                             std::size_t before);
     bool stays_pressed() const;
     std::size_t pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
                              const SkippingMotion* blocks) const;

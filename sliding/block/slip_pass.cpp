@@ -1,3 +1,4 @@
+#include "sliding/block/pressed_slip.hpp"
 #include "sliding/block/roots.hpp"
 #include "sliding/block/slip_motion.hpp"
 
@@ -48,9 +49,26 @@ std::size_t SlipMotion::pass(const GroundMotion& motion, double polarity, std::s
                              std::size_t before, const SkippingMotion* blocks)
 {
     if (!touching_ || airborne_ || !plain_[stage_]) return k;
+    if (blocks && next_stage_path() == never) {
+        const std::size_t passed = blocks->has_vertical() ? pass_pressed<true>(*blocks, polarity, k, last, before)
+                                                          : pass_pressed<false>(*blocks, polarity, k, last, before);
+        if (passed > k) return passed;
+    }
     const std::size_t next =
         moving_ ? pass_sliding(motion, polarity, k, last) : pass_resting(motion, polarity, k, last, blocks);
     if (next > k) time_ = static_cast<double>(before + (next - k) - 1) * motion.dt + motion.dt;
+    return next;
+}
+
+/// @returns k where the motion might lift the block
+template <bool vertical>
+std::size_t SlipMotion::pass_pressed(const SkippingMotion& motion, double polarity, std::size_t k, std::size_t last,
+                                     std::size_t before)
+{
+    PressedSlip<vertical> slip(*this, motion, polarity);
+    if (!slip.stays_pressed(forms().free_normal, polarity)) return k;
+    const std::size_t next = slip.run(k, last, before);
+    slip.write(*this);
     return next;
 }
 

@@ -5,6 +5,7 @@
 #include <climits>
 #include <csignal>
 #include <cstring>
+#include <dlfcn.h>
 #include <iostream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -37,10 +38,19 @@ void start_with_one_blas_thread(int, char** arguments, char** environment)
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
                                                                              char**) = start_with_one_blas_thread;
 
+/// Ends the threads that OpenBLAS has started: they look for work in a loop for some tens of milliseconds, as long as a short
+/// command takes. Where finite elements set the number of threads, it starts them again.
+void end_blas_threads()
+{
+    using Shutdown = int (*)();
+    if (const auto shutdown = reinterpret_cast<Shutdown>(dlsym(RTLD_DEFAULT, "blas_thread_shutdown_"))) shutdown();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    end_blas_threads();
     gsl_set_error_handler_off(); // GSL's own handler ends the process; statuses are checked where it is called
     std::ios::sync_with_stdio(false);
     std::signal(SIGPIPE,

@@ -69,6 +69,42 @@ TEST(BlockFixedYield, agrees_with_the_general_integrator)
     }
 }
 
+// A block that is never lifted takes a way of its own; with a history every interval is crossed event by event.
+TEST(BlockFixedYield, a_pressed_block_slides_to_the_bits_of_the_general_integrator)
+{
+    GroundMotion ground = wild_motion(6.0, 0.01, 3000);
+    for (const bool vertical : {false, true}) {
+        if (vertical) ground.accel_v = wild_motion(-3.0, 0.01, 3000).accel_h;
+        const SkippingMotion motion(ground);
+        for (const double ratio : two_thirds)
+            for (const bool two_way : {false, true})
+                for (const double inclination : {0.0, 0.08})
+                    for (const int polarity : {1, -1}) {
+                        RigidBlock block = block_with_yields(6.0 * ratio, 10.0 * ratio);
+                        block.base_inclination = inclination;
+                        block.friction += std::tan(inclination);
+                        block.added_mass.xx = 0.4;
+                        SlideOptions options = ways(two_way);
+                        options.polarity = polarity;
+                        ASSERT_TRUE(never_opens(block, motion));
+                        const SlideResult quick = slide(motion, {{0.0, block, 0.0}}, options);
+                        options.history = HistoryOutput::samples;
+                        const SlideResult general = slide(motion, {{0.0, block, 0.0}}, options);
+                        EXPECT_EQ(quick.slip, general.slip);
+                        EXPECT_EQ(quick.downstream_slip, general.downstream_slip);
+                        EXPECT_EQ(quick.upstream_slip, general.upstream_slip);
+                        EXPECT_EQ(quick.max_slip, general.max_slip);
+                        EXPECT_EQ(quick.peak_slip_rate, general.peak_slip_rate);
+                        EXPECT_EQ(quick.phases, general.phases);
+                        EXPECT_EQ(quick.end_time, general.end_time);
+                        EXPECT_EQ(quick.status, general.status);
+                        if (general.phases == 0) continue; // no times
+                        EXPECT_EQ(quick.first_slip_time, general.first_slip_time);
+                        EXPECT_EQ(quick.last_slip_time, general.last_slip_time);
+                    }
+    }
+}
+
 TEST(BlockFixedYield, general_integrator_skips_to_the_same_bits)
 {
     GroundMotion ground = wild_motion(6.0, 0.01, 3000);
