@@ -22,7 +22,7 @@ public:
           two_way_(block.options_.two_way), motion_(motion), h_(motion.motion().accel_h.data()),
           v_(vertical ? motion.motion().accel_v.data() : nullptr), dt_(motion.motion().dt), time_(block.time_),
           moving_(block.moving_), from_rest_(block.from_rest_), direction_(block.direction_), rate_(block.rate_),
-          path_(block.path_), phase_start_path_(block.phase_start_path_), slid_(block.slid_), changes_(block.changes_)
+          path_(block.path_), slid_(block.slid_), changes_(block.changes_)
     {
         plainly_below_ = -1e-13 * (largest(block.forms().equations.drive) +
                                    friction_ * largest(block.forms().equations.normal) + std::abs(bond_));
@@ -68,7 +68,6 @@ public:
         block.direction_ = direction_;
         block.rate_ = rate_;
         block.path_ = path_;
-        block.phase_start_path_ = phase_start_path_;
         block.slid_ = slid_;
         block.changes_ = changes_;
         block.unresolved_ = unresolved_;
@@ -229,8 +228,7 @@ private:
         moving_ = from_rest_ = true;
         direction_ = direction;
         rate_ = 0.0;
-        phase_start_path_ = path_;
-        if (++slid_.phases == 1) slid_.first_time = time_;
+        slid_.begin(time_, path_);
     }
 
     void stop()
@@ -238,10 +236,7 @@ private:
         ++changes_;
         moving_ = from_rest_ = false;
         rate_ = 0.0;
-        if (path_ == phase_start_path_)
-            --slid_.phases; // nothing moved: a start taken back
-        else
-            slid_.last_time = time_;
+        slid_.end(time_, path_);
     }
 
     GroundLinear drive_, normal_, down_, up_;
@@ -256,7 +251,7 @@ private:
     double time_;
     bool moving_, from_rest_, unresolved_ = false;
     SlipDirection direction_;
-    double rate_, path_, phase_start_path_;
+    double rate_, path_;
     SlipTotals slid_;
     long changes_;
 

@@ -29,10 +29,6 @@ int events_per_interval(const SlipStage& stage)
     return stage.restitution > 0.0 ? 200000 : stage.rate.active() ? 5000 : 1000;
 }
 
-/// Water comes less than this share of the base further in one part of an interval, in at most so many parts.
-constexpr double water_share = 1.0 / 128.0;
-constexpr int most_parts = 64;
-
 constexpr double shortest_flight = 1e-13; ///< [s]; a landing that would rebound for less stays
 
 } // namespace
@@ -96,13 +92,12 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
         cross_part(start, dt, a_h, a_v);
         return;
     }
-    const double wanted = std::ceil(water->speed() * dt / (water_share * water->length()));
-    const int parts = static_cast<int>(std::clamp(wanted, 4.0, static_cast<double>(most_parts)));
-    for (int k = 0; k < parts && !unresolved_; ++k) {
-        const double from = static_cast<double>(k) / parts, to = static_cast<double>(k + 1) / parts;
+    const int count = parts(*water, dt);
+    for (int k = 0; k < count && !unresolved_; ++k) {
+        const double from = static_cast<double>(k) / count, to = static_cast<double>(k + 1) / count;
         const Line h{a_h.at(from), a_h.at(to)}, v{a_v.at(from), a_v.at(to)};
-        let_water_flow(*water, dt / parts, h.end, v.end);
-        cross_part(start + from * dt, dt / parts, h, v);
+        let_water_flow(*water, dt / count, h.end, v.end);
+        cross_part(start + from * dt, dt / count, h, v);
     }
 }
 
@@ -393,8 +388,7 @@ void SlipMotion::start(SlipDirection direction)
     from_rest_ = true;
     direction_ = direction;
     rate_ = 0.0;
-    phase_start_path_ = path_;
-    if (++slid_.phases == 1) slid_.first_time = time_;
+    slid_.begin(time_, path_);
     const bool changed = enter_stages();
     if (changed) from_rest_ = false;
     // Off the horizontal N' of the moving block is another one than that of the block at rest.
@@ -407,10 +401,7 @@ void SlipMotion::stop()
     moving_ = false;
     from_rest_ = false;
     rate_ = 0.0;
-    if (path_ == phase_start_path_)
-        --slid_.phases; // nothing moved: a start taken back
-    else
-        slid_.last_time = time_;
+    slid_.end(time_, path_);
     if (forms().equations.mass_tn != 0.0 || stage().block.opening) settle_contact();
 }
 
@@ -653,7 +644,6 @@ void SlipMotion::elapse(double h)
         span_ = 0.0;
         a_h_.now = a_h_.end;
         a_v_.now = a_v_.end;
-        if (pressed_) return; // no water in an opening base
         opening_down_.now = opening_down_.end;
         opening_up_.now = opening_up_.end;
         wet_down_.now = wet_down_.end;
@@ -662,10 +652,6 @@ void SlipMotion::elapse(double h)
     }
     a_h_.now = a_h_.at(h / span_);
     a_v_.now = a_v_.at(h / span_);
-    if (pressed_) {
-        span_ -= h;
-        return;
-    }
     opening_down_.now = opening_down_.at(h / span_);
     opening_up_.now = opening_up_.at(h / span_);
     wet_down_.now = wet_down_.at(h / span_);

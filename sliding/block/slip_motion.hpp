@@ -146,7 +146,7 @@ private:
 
     // Results.
     SlipTotals slid_;
-    double max_gap_ = 0.0, phase_start_path_ = 0.0;
+    double max_gap_ = 0.0;
     double last_landing_ = 0.0, impact_loss_ = 0.0;
     double longest_wet_ = 0.0; ///< largest x_w [m]
     int landings_ = 0;

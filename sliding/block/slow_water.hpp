@@ -2,6 +2,9 @@
 
 #include "sliding/block/opening_uplift.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace damslip::sliding {
 
 /// Where the water and the crack of one end of the base are, and what that makes of the uplift.
@@ -23,8 +26,17 @@ public:
     virtual double first(SlipDirection direction) const = 0; ///< x_w before any motion [m]
     /// While the block rests under (a_h, a_v) [m/s²]. @param wet  x_w if nothing stops it
     virtual WetCrack at_rest(SlipDirection direction, double a_h, double a_v, double wet) const = 0;
+    /// x_w under (a_h, a_v), from `now` on or back: as far as `come` where the crack opens so far, and never beyond its tip.
+    virtual double front(SlipDirection direction, double a_h, double a_v, double now, double come) const = 0;
     /// While it slides.
     virtual WetCrack sliding(SlipDirection direction, double a_v, double wet) const = 0;
 };
+
+/// Parts of an interval dt in which the water is brought forward: it comes less than 1/128 of the base in one, where that
+/// takes at most 64.
+inline int parts(const SlowWater& water, double dt)
+{
+    return static_cast<int>(std::clamp(std::ceil(128.0 * water.speed() * dt / water.length()), 4.0, 64.0));
+}
 
 } // namespace damslip::sliding

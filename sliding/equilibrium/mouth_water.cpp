@@ -60,6 +60,22 @@ public:
         return {wet, beyond(most) ? length_ : last_where(beyond, wet, most), 0.0};
     }
 
+    /// Water that stood at `now` goes on through every crack up to `come`, or is driven back to the next one that holds it.
+    double front(double a_h, double a_v, double now, double come) const
+    {
+        if (!(normal(a_h, a_v) > resultant(profile(come)).force)) return come;
+        const double round_off = 1e-9 * (units::standard_gravity + std::abs(a_h));
+        const auto opens = [&](double x) { return sign_ * (a_h - accel(profile(x), x, x, a_v)) >= -round_off; };
+        const double start = std::max(first_, now), way = (opens(start) ? std::max(come, start) : first_) - start;
+        double on = start;
+        for (int k = 1; k <= wet_scan && way != 0.0; ++k) {
+            const double x = start + way * k / wet_scan;
+            if (opens(x) != (way > 0.0)) return way > 0.0 ? last_where(opens, on, x) : last_where(opens, x, on);
+            on = x;
+        }
+        return on;
+    }
+
     /// Where water stops while it slides: the crack is full of it.
     double furthest(double a_v) const
     {
@@ -221,6 +237,10 @@ public:
     WetCrack at_rest(SlipDirection direction, double a_h, double a_v, double wet) const override
     {
         return end(direction).at_rest(a_h, a_v, wet);
+    }
+    double front(SlipDirection direction, double a_h, double a_v, double now, double come) const override
+    {
+        return end(direction).front(a_h, a_v, now, come);
     }
     WetCrack sliding(SlipDirection direction, double a_v, double wet) const override
     {

@@ -67,6 +67,12 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
     return base;
 }
 
+UpliftResultant uplift_of_empty_joint(const BaseState& before, Side opens)
+{
+    const double length = before.frame.length;
+    return resultant(without_new_crack(before.base, {opens, length}, length));
+}
+
 std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,
                                                     const BaseState& before, Side opens, const SeepageProfile& seepage)
 {
@@ -74,7 +80,7 @@ std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const St
     const Crack through{opens, before.frame.length};
     switch (scene.uplift->water.opening) {
     case OpeningWater::zero:
-        return resultant(without_new_crack(before.base, through, before.frame.length));
+        return uplift_of_empty_joint(before, opens);
     case OpeningWater::full:
     case OpeningWater::mouth:
         return resultant(crack_uplift(scene, static_case.uplift, static_case.uplift_factor, seepage)(through));

@@ -23,6 +23,9 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
 std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,
                                                     const BaseState& before, Side opens, const SeepageProfile& seepage);
 
+/// The same joint before any water has come into it, whatever uplift.opening says: what `zero` leaves.
+UpliftResultant uplift_of_empty_joint(const BaseState& before, Side opens);
+
 /// The static state with the uplift of the joint that is open from `opens` to the other end, where uplift.opening names one:
 /// what tips about that other end stands on it.
 BaseState with_open_joint(const Scene& scene, const StaticCase& static_case, const BaseState& before, Side opens,

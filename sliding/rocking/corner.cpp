@@ -44,6 +44,26 @@ Corner corner(const RockingBlock& block, const RockingStage& stage, Stance stanc
     return k;
 }
 
+UpliftResultant mouth_uplift(const RockingBlock& block, Stance stance, double wet)
+{
+    const bool from_heel = stance != Stance::heel;
+    const MouthEnd& end = from_heel ? block.mouth->at_heel : block.mouth->at_toe;
+    const double first = end.first, p = end.pressure, k = end.gradient;
+    const double squares = (wet * wet - first * first) / 2.0, cubes = (wet * wet * wet - first * first * first) / 3.0;
+    const double force = p * (wet - first) + k * squares;
+    const double about_mouth = p * squares + k * cubes;
+    const double about_heel = from_heel ? about_mouth : block.length * force - about_mouth;
+    return {end.empty.force + force, end.empty.moment_about_heel + about_heel};
+}
+
+Corner with_uplift(Corner k, const RockingBlock& block, const UpliftResultant& uplift)
+{
+    const double x = block.centroid.x - k.arm.x;
+    k.force_n = block.force_n + uplift.force;
+    k.moment = block.moment - uplift.moment_about_heel + k.force_n * x;
+    return k;
+}
+
 CornerEquations equations(const Corner& k, double theta, double rate, const BaseAcceleration& a)
 {
     const Point rho = k.turned(theta);

@@ -46,6 +46,12 @@ struct Corner {
 /// @param stance  base: about the toe
 Corner corner(const RockingBlock& block, const RockingStage& stage, Stance stance);
 
+/// Uplift of the joint that is open to the corner `stance` and holds water as far as `wet` from its mouth [m].
+UpliftResultant mouth_uplift(const RockingBlock& block, Stance stance, double wet);
+
+/// The corner with another uplift.
+Corner with_uplift(Corner corner, const RockingBlock& block, const UpliftResultant& uplift);
+
 /// The equations of a corner at one instant: mass terms and right-hand sides.
 struct CornerEquations {
     double tt = 0.0, tr = 0.0, rr = 0.0; ///< of s'', of both, of theta''

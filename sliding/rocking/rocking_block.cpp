@@ -2,6 +2,7 @@
 
 #include "scene/section.hpp"
 #include "sliding/block/base_equations.hpp"
+#include "sliding/equilibrium/shaken_base.hpp"
 
 #include <cmath>
 
@@ -92,6 +93,26 @@ RockingBlock make_rocking_block(const Scene& scene, const BaseState& state, cons
     for (const SlipStage& stage : stages)
         block.stages.push_back({stage, uplift_distance(later && stage.block.uplift != rigid.uplift ? *later : state)});
     return block;
+}
+
+RockingMouth rocking_mouth(const Scene& scene, const StaticCase& static_case, const BaseState& before,
+                           std::shared_ptr<const SlowWater> flat, const SeepageProfile& seepage)
+{
+    const double length = before.frame.length, inside = 0.25 * length;
+    const CrackUplift uplift = crack_uplift(scene, static_case.uplift, static_case.uplift_factor, seepage);
+    const auto end = [&](Side side) {
+        MouthEnd made;
+        made.first = before.base.crack.side == side ? before.base.crack.length : 0.0;
+        made.empty = uplift_of_empty_joint(before, side);
+        const PressureProfile cracked = uplift({side, 0.5 * length}); // its water stands at the head of this end
+        const bool heel = side == Side::heel;
+        const std::vector<ProfilePoint> points =
+            heel ? part(cracked, 0.0, inside) : part(cracked, length - inside, length);
+        made.pressure = heel ? points.front().pressure : points.back().pressure;
+        made.gradient = ((heel ? points.back().pressure : points.front().pressure) - made.pressure) / inside;
+        return made;
+    };
+    return {std::move(flat), end(Side::heel), end(Side::toe)};
 }
 
 RockingBlock rectangular_block(double width, double height, double density, double gravity, double friction)

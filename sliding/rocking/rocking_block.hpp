@@ -2,8 +2,10 @@
 
 #include "core/geometry.hpp"
 #include "sliding/block/slip_stage.hpp"
+#include "sliding/block/slow_water.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,6 +25,24 @@ struct BaseAddedMass {
 struct RockingStage {
     SlipStage slip;               ///< friction, cohesion and uplift are taken from it
     double uplift_distance = 0.0; ///< of U from the heel along the base [m]
+};
+
+/// The end at which an open joint takes water.
+struct MouthEnd {
+    UpliftResultant
+        empty;          ///< of the joint open from end to end before water has come into it: that of the static crack
+    double first = 0.0; ///< what the static crack holds, from the mouth [m]
+    double pressure = 0.0; ///< of the water at the mouth [Pa]
+    double gradient = 0.0; ///< of that pressure, from the mouth inwards [Pa/m]
+};
+
+/// Water that needs time to come into the joint (uplift.opening = "mouth"): the head of the mouth as far as it has come, x_w,
+/// and nothing from there to the corner that stands. x_w grows by flat->speed() where the joint is open; while the block
+/// stands on its whole base x_w is that of the crack of `flat`.
+struct RockingMouth {
+    std::shared_ptr<const SlowWater> flat;
+    MouthEnd at_heel; ///< of the block that stands on its toe
+    MouthEnd at_toe;  ///< of the block that stands on its heel
 };
 
 /// Everything the block's rocking and sliding depends on, per metre of dam length, in the directions of the base.
@@ -46,6 +66,8 @@ struct RockingBlock {
 
     /// Uplift on the toe and on the heel, the joint open from end to end; none: that of the stage (uplift.opening)
     std::optional<UpliftResultant> uplift_on_toe, uplift_on_heel;
+    /// How the water comes in; none: what uplift_on_toe and uplift_on_heel name is there at once.
+    std::optional<RockingMouth> mouth;
 };
 
 /// The block of a static state. Moments, added mass and uplift are those of tipping_acceleration, so the block starts to
@@ -54,6 +76,11 @@ struct RockingBlock {
 /// null: there is none
 RockingBlock make_rocking_block(const Scene& scene, const BaseState& state, const AddedMassIntegral& water,
                                 const SlipStages& stages, const BaseState* later = nullptr);
+
+/// The water of uplift.opening = "mouth" on its way into the joint of the block that rocks.
+/// @param flat  the same water under the sliding block
+RockingMouth rocking_mouth(const Scene& scene, const StaticCase& static_case, const BaseState& before,
+                           std::shared_ptr<const SlowWater> flat, const SeepageProfile& seepage);
 
 /// A dry block without water, uplift or cohesion on a horizontal base: a rectangle b wide and h high.
 RockingBlock rectangular_block(double width, double height, double density, double gravity, double friction);

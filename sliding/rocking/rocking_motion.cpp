@@ -14,6 +14,19 @@ constexpr double local_error = 1e-12;      // of a step, in m and m/s, and relat
 constexpr int looks = 4;                   // at the events within a step
 constexpr int events_per_interval = 20000; // a slender block lands hundreds of times before it stands
 constexpr double shortest_flight = 1e-7;   // [s]: a corner that would come down again sooner stays
+constexpr std::array both_directions{SlipDirection::downstream, SlipDirection::upstream};
+
+/// +1 clockwise, the way a block turns on that corner.
+double sense(Stance stance)
+{
+    return stance == Stance::heel ? -1.0 : 1.0;
+}
+
+/// The joint under a block on its toe is that of sliding downstream: it opens at the heel.
+SlipDirection opens_for(Stance stance)
+{
+    return stance == Stance::heel ? SlipDirection::upstream : SlipDirection::downstream;
+}
 
 } // namespace
 
@@ -26,25 +39,24 @@ RockingMotion::RockingMotion(const RockingBlock& block, const SlideOptions& opti
         heels_.push_back(corner(block, stage, Stance::heel));
     }
     bonded_ = block.cohesion > 0.0;
+    if (block.mouth)
+        for (const SlipDirection direction : both_directions)
+            front(direction).wet = block.mouth->flat->first(direction);
     if (start.rotation == 0.0 && start.rotation_rate == 0.0) return;
     y_[turn] = start.rotation;
     y_[turn_rate] = start.rotation_rate;
     stance_ = start.rotation > 0.0 || (start.rotation == 0.0 && start.rotation_rate > 0.0) ? Stance::toe : Stance::heel;
     bonded_ = false;
-    first_energy_ = kinetic_energy(standing(), y_[turn], 0.0, y_[turn_rate]);
+    first_energy_ = kinetic_energy(standing(0.0), y_[turn], 0.0, y_[turn_rate]);
 }
 
-const Corner& RockingMotion::corner_of(Stance stance) const
+/// With the water that its joint holds x from now.
+Corner RockingMotion::corner_of(Stance stance, double x) const
 {
-    switch (stance) {
-    case Stance::toe:
-        return toes_[stage_];
-    case Stance::heel:
-        return heels_[stage_];
-    case Stance::base:
-        break;
-    }
-    return bases_[stage_];
+    if (stance == Stance::base) return bases_[stage_];
+    const Corner& dry = stance == Stance::toe ? toes_[stage_] : heels_[stage_];
+    if (!block_.mouth) return dry;
+    return with_uplift(dry, block_, mouth_uplift(block_, stance, front(opens_for(stance)).at(x)));
 }
 
 BaseAcceleration RockingMotion::ground(double x) const
@@ -98,9 +110,10 @@ void RockingMotion::accelerate(const CornerEquations& e, bool turns, double mu, 
 /// Clockwise moment about a corner that the block would have to turn with if it stood on it now, without turning yet: with the
 /// uplift of the joint that is open to there. While it slides the wetter of both joints, the open and the shut one, says by what
 /// friction: a joint that would be drier once open is still shut until what the block slides with tips it.
-double RockingMotion::tipping_moment(Stance stance, double bond, const BaseAcceleration& a, const State& y) const
+double RockingMotion::tipping_moment(Stance stance, double bond, double x, const State& y) const
 {
-    const Corner& open = corner_of(stance);
+    const BaseAcceleration a = ground(x);
+    const Corner open = corner_of(stance, x);
     const Corner& shut = bases_[stage_];
     const CornerEquations e = equations(open, 0.0, 0.0, a);
     Instant now;
@@ -110,19 +123,19 @@ double RockingMotion::tipping_moment(Stance stance, double bond, const BaseAccel
 }
 
 /// Does more water stand under the block on that corner than under the block on its base?
-bool RockingMotion::fills(Stance stance) const
+bool RockingMotion::fills(Stance stance, double x) const
 {
-    return corner_of(stance).force_n > bases_[stage_].force_n;
+    return corner_of(stance, x).force_n > bases_[stage_].force_n;
 }
 
 /// Flat on its base the block slides with the crack that its own acceleration opens. Where it would tip if it slid by the
 /// friction of the shut joint, and not by that of the open one, the crack lies between: water comes in until the block slides
 /// so fast that its resultant stays at the corner, over_toe = 0.
-void RockingMotion::slide_with_crack(double mu, const BaseAcceleration& a, Instant& now) const
+void RockingMotion::slide_with_crack(double mu, double x, Instant& now) const
 {
     const Stance ahead = direction_ > 0.0 ? Stance::toe : Stance::heel;
-    if (!fills(ahead)) return;
-    const CornerEquations e = equations(corner_of(ahead), 0.0, 0.0, a);
+    if (!fills(ahead, x)) return;
+    const CornerEquations e = equations(corner_of(ahead, x), 0.0, 0.0, ground(x));
     Instant through;
     accelerate(e, false, mu, 0.0, through);
     const double balanced = std::min(direction_ * e.turn / e.tr, direction_ * through.slip_accel);
@@ -135,7 +148,7 @@ void RockingMotion::slide_with_crack(double mu, const BaseAcceleration& a, Insta
 RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
 {
     const BaseAcceleration a = ground(x);
-    const CornerEquations e = equations(standing(), y[turn], y[turn_rate], a);
+    const CornerEquations e = equations(standing(x), y[turn], y[turn_rate], a);
     const double mu = pressed_ ? friction(y[path]) : 0.0;
     const double kept = bonded_ && pressed_ ? block_.stages[stage_].slip.block.cohesion_force : 0.0;
     Instant now;
@@ -145,10 +158,10 @@ RockingMotion::Instant RockingMotion::instant(double x, const State& y) const
     now.drive = e.push - e.tr * (sliding_ ? 0.0 : now.turn_accel);
     now.resistance = mu * std::max(0.0, now.normal);
     if (stance_ == Stance::base) {
-        if (sliding_ && kept == 0.0 && mu > 0.0) slide_with_crack(mu, a, now);
+        if (sliding_ && kept == 0.0 && mu > 0.0) slide_with_crack(mu, x, now);
         now.from_toe = -(e.turn - e.tr * now.slip_accel);
-        now.over_toe = block_.uplift_on_toe ? tipping_moment(Stance::toe, bond, a, y) : -now.from_toe;
-        now.over_heel = tipping_moment(Stance::heel, bond, a, y);
+        now.over_toe = block_.uplift_on_toe || block_.mouth ? tipping_moment(Stance::toe, bond, x, y) : -now.from_toe;
+        now.over_heel = tipping_moment(Stance::heel, bond, x, y);
         if (kept > 0.0) now.resistance += !sliding_ && brittle(y) ? block_.cohesion * bonded_length(now) : kept;
     }
     return now;
@@ -158,7 +171,7 @@ RockingMotion::State RockingMotion::rates(double x, const State& y) const
 {
     const Instant now = instant(x, y);
     const BaseAcceleration a = ground(x);
-    const Corner& k = standing();
+    const Corner k = standing(x);
     const double v = sliding_ ? y[slip_rate] : 0.0, w = stance_ == Stance::base ? 0.0 : y[turn_rate];
     const Point rho = k.turned(y[turn]);
     const BaseAddedMass& m = k.water;
@@ -182,11 +195,63 @@ RockingMotion::State RockingMotion::after(double h) const
     return dormand_prince([this](double x, const State& y) { return rates(x, y); }, 0.0, y_, h).state;
 }
 
+/// x_w of the block that stands on its whole base, h from now: as far as its crack lets the water come. The crack of a block
+/// that slides is that of what its own acceleration leaves of the ground's.
+double RockingMotion::wet_on_base(SlipDirection direction, double h) const
+{
+    const SlowWater& water = *block_.mouth->flat;
+    const double share = sliding_ || span_ == 0.0 ? 0.0 : h / span_;
+    const double slips = sliding_ ? instant(0.0, y_).slip_accel : 0.0;
+    const double a_h = a_h_.at(share) - slips * std::cos(block_.base_inclination);
+    const double a_v = a_v_.at(share) - slips * std::sin(block_.base_inclination);
+    const double now = front(direction).wet, come = std::min(now + water.speed() * h, water.length());
+    return water.front(direction, a_h, a_v, now, come);
+}
+
+/// Sets the rates of both fronts. @returns how long they hold [s]
+double RockingMotion::let_water_flow()
+{
+    if (!block_.mouth) return span_;
+    const SlowWater& water = *block_.mouth->flat;
+    if (stance_ != Stance::base) {
+        Front& open = front(opens_for(stance_));
+        const double dry = water.length() - open.wet;
+        open.rate = dry > 0.0 ? water.speed() : 0.0;
+        return dry > 0.0 ? std::min(span_, dry / water.speed()) : span_;
+    }
+    const auto flow = [&](double h) {
+        bool flows = false;
+        for (const SlipDirection direction : both_directions) {
+            Front& front = this->front(direction);
+            front.rate = (wet_on_base(direction, h) - front.wet) / h;
+            flows = flows || front.rate != 0.0;
+        }
+        return flows;
+    };
+    if (!flow(span_) || span_ <= part_) return span_;
+    flow(part_);
+    return part_;
+}
+
+/// A joint that shuts drives its water out: of the block on a corner all that has come in at the other end, of the block on
+/// its base what its crack does not hold.
+void RockingMotion::drive_water_out()
+{
+    if (!block_.mouth) return;
+    for (const SlipDirection direction : both_directions) {
+        if (stance_ == Stance::base)
+            front(direction) = {wet_on_base(direction, 0.0), 0.0};
+        else if (direction != opens_for(stance_))
+            front(direction) = {block_.mouth->flat->first(direction), 0.0};
+    }
+}
+
 /// A length whose local error is small enough.
 double RockingMotion::chosen_step()
 {
-    if (at_rest()) return span_;
-    double h = step_ > 0.0 ? std::min(step_, span_) : span_;
+    const double longest = let_water_flow();
+    if (at_rest()) return longest;
+    double h = step_ > 0.0 ? std::min(step_, longest) : longest;
     for (;;) {
         const auto step = dormand_prince([this](double x, const State& y) { return rates(x, y); }, 0.0, y_, h);
         double error = 0.0;
@@ -211,7 +276,7 @@ double RockingMotion::distance(Event event, double x, const State& y) const
     case Event::stop:
         return sliding_ ? direction_ * y[slip_rate] : never;
     case Event::land:
-        return on_base ? never : standing().sense * y[turn];
+        return on_base ? never : sense(stance_) * y[turn];
     case Event::stage:
         return sliding_ ? next_stage_path() - y[path] : never;
     case Event::overturn:
@@ -285,6 +350,7 @@ void RockingMotion::cross(double start, double dt, const Line& a_h, const Line& 
     span_ = dt;
     a_h_ = a_h;
     a_v_ = a_v;
+    if (block_.mouth) part_ = dt / parts(*block_.mouth->flat, dt);
     if (!settled_) {
         settled_ = true;
         pressed_ = instant(0.0, y_).normal > 0.0;
@@ -323,6 +389,10 @@ void RockingMotion::elapse(double h, const State& to)
     (direction_ > 0.0 ? slid_.downstream : slid_.upstream) += std::abs(to[slip] - y_[slip]);
     y_ = to;
     time_ += h;
+    for (Front* front : {&from_heel_, &from_toe_}) {
+        front->wet = std::min(front->at(h), block_.length);
+        longest_wet_ = std::max(longest_wet_, front->wet);
+    }
     if (h >= span_) {
         span_ = 0.0;
         a_h_.now = a_h_.end;
@@ -375,18 +445,14 @@ void RockingMotion::stop()
 {
     sliding_ = false;
     y_[slip_rate] = 0.0;
-    if (y_[path] == phase_start_path_)
-        --slid_.phases; // nothing moved: a start taken back
-    else
-        slid_.last_time = time_;
+    slid_.end(time_, y_[path]);
 }
 
 void RockingMotion::start(double drive)
 {
     sliding_ = true;
     direction_ = drive < 0.0 ? -1.0 : 1.0;
-    phase_start_path_ = y_[path];
-    if (++slid_.phases == 1) slid_.first_time = time_;
+    slid_.begin(time_, y_[path]);
     enter_stages();
 }
 
@@ -461,15 +527,15 @@ bool RockingMotion::agrees(Stance stance, double direction) const
     if (direction == 0.0 && !barred && std::abs(now.drive) > now.resistance) return false;
     if (direction != 0.0 && y_[slip_rate] == 0.0 && !(direction * now.slip_accel > 0.0)) return false;
     if (stance == Stance::base) return now.over_toe <= 0.0 && now.over_heel >= 0.0;
-    return trial.standing().sense * now.turn_accel > 0.0;
+    return sense(stance) * now.turn_accel > 0.0;
 }
 
 /// The base opens from end to end: the block stands on the corner, unless it would slide there and by that come back at once.
 void RockingMotion::lift(Stance stance)
 {
     lose_bond();
-    const double direction = stance == Stance::toe ? 1.0 : -1.0;
-    if (!sliding_ && fills(stance) && (direction > 0.0 || options_.two_way) && !agrees_at_limit(stance))
+    const double direction = sense(stance);
+    if (!sliding_ && fills(stance, 0.0) && (direction > 0.0 || options_.two_way) && !agrees_at_limit(stance))
         start(direction);
     else
         stand_on(stance);
@@ -485,14 +551,14 @@ bool RockingMotion::agrees_at_limit(Stance stance) const
     if (std::abs(held.drive) <= held.resistance) return true;
     trial.sliding_ = true;
     trial.direction_ = held.drive < 0.0 ? -1.0 : 1.0;
-    return trial.direction_ != trial.standing().sense ||
-           trial.standing().sense * trial.instant(0.0, y_).turn_accel >= 0.0;
+    return trial.direction_ != sense(stance) || sense(stance) * trial.instant(0.0, y_).turn_accel >= 0.0;
 }
 
 void RockingMotion::stand_on(Stance stance)
 {
     if (seen_.rocks++ == 0) seen_.first_rock_time = time_;
     stance_ = stance;
+    drive_water_out();
     lose_bond();
 }
 
@@ -503,9 +569,9 @@ void RockingMotion::stand_on(Stance stance)
 void RockingMotion::land()
 {
     if (seen_.landings++ == 0) seen_.first_landing_time = time_;
-    const Corner& old_corner = standing();
+    const Corner old_corner = standing(0.0);
     const Stance other = stance_ == Stance::toe ? Stance::heel : Stance::toe;
-    const Corner& k = corner_of(other);
+    const Corner k = corner_of(other, 0.0);
     const double v = y_[slip_rate];
     const double w = old_corner.sense * y_[turn_rate] < 0.0 ? y_[turn_rate] : 0.0; // else it has not left: round-off
     const double before = kinetic_energy(old_corner, 0.0, v, w);
@@ -560,12 +626,14 @@ void RockingMotion::land()
     const bool returns = (back > 0.0) != (w_after > 0.0);
     if (w_after == 0.0 || (returns && 2.0 * std::abs(w_after) < shortest_flight * std::abs(back))) {
         stance_ = Stance::base;
+        drive_water_out();
         y_[turn_rate] = 0.0;
         const double v_base = slip_after(0.0);
         move_at(0.0); // a slide as short as the flight stays, too
         const bool stays = std::abs(v_base) * e.tt < shortest_flight * instant(0.0, y_).resistance;
         if (!(stays && agrees(Stance::base, 0.0))) move_at(v_base);
     } else {
+        drive_water_out();
         ++seen_.rocks;
     }
     landing_loss_ += before - kinetic_energy(k, 0.0, y_[slip_rate], y_[turn_rate]);
@@ -591,7 +659,7 @@ void RockingMotion::add_sample(double time, RockingResult& result) const
     history.normal_force.push_back(pressed_ ? std::max(0.0, instant(0.0, y_).normal) : 0.0);
     result.rotation.push_back(y_[turn]);
     result.uplift.push_back(stance_ == Stance::base ? block_.stages[stage_].slip.block.uplift
-                                                    : standing().force_n - block_.force_n);
+                                                    : standing(0.0).force_n - block_.force_n);
 }
 
 void RockingMotion::write(RockingResult& result) const
@@ -606,6 +674,7 @@ void RockingMotion::write(RockingResult& result) const
     r.accuracy = SlideAccuracy::series;
     r.slip = y_[slip];
     slid_.write(r, time_, sliding_);
+    r.wet_length = longest_wet_;
     r.max_gap = block_.length *
                 std::sin(std::min(0.5 * std::numbers::pi, std::max(seen_.max_toe_rotation, seen_.max_heel_rotation)));
     RockingEnergy& e = result.energy;
@@ -613,7 +682,7 @@ void RockingMotion::write(RockingResult& result) const
     e.loads = y_[work_loads];
     e.friction = y_[work_friction];
     e.landings = landing_loss_;
-    e.kinetic = kinetic_energy(standing(), y_[turn], y_[slip_rate], y_[turn_rate]);
+    e.kinetic = kinetic_energy(standing(0.0), y_[turn], y_[slip_rate], y_[turn_rate]);
     const double left = first_energy_ + e.ground + e.loads - e.kinetic - e.friction - e.landings;
     e.imbalance = largest_work_ > 0.0 ? left / largest_work_ : 0.0;
 }

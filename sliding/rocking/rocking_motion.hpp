@@ -57,12 +57,15 @@ private:
     BaseAcceleration ground(double x) const;
     Instant instant(double x, const State& y) const;
     void accelerate(const CornerEquations& e, bool turns, double friction, double bond, Instant& now) const;
-    bool fills(Stance stance) const;
-    void slide_with_crack(double friction, const BaseAcceleration& ground, Instant& now) const;
+    bool fills(Stance stance, double x) const;
+    void slide_with_crack(double friction, double x, Instant& now) const;
     bool brittle(const State& y) const;
     double bonded_length(const Instant& now) const;
     State rates(double x, const State& y) const;
     State after(double h) const;
+    double let_water_flow();
+    double wet_on_base(SlipDirection direction, double h) const;
+    void drive_water_out();
     double chosen_step();
     double distance(Event event, double x, const State& y) const;
     std::optional<Found> first_event(double h) const;
@@ -86,9 +89,9 @@ private:
     bool agrees_at_limit(Stance stance) const;
     void lose_bond();
 
-    const Corner& corner_of(Stance stance) const;
-    const Corner& standing() const { return corner_of(stance_); }
-    double tipping_moment(Stance stance, double bond, const BaseAcceleration& ground, const State& y) const;
+    Corner corner_of(Stance stance, double x) const;
+    Corner standing(double x) const { return corner_of(stance_, x); }
+    double tipping_moment(Stance stance, double bond, double x, const State& y) const;
     double friction(double path_slipped) const { return friction_at(block_.stages[stage_].slip, path_slipped); }
     double next_stage_path() const;
     double sum_of_losses() const { return y_[work_friction] + landing_loss_; }
@@ -101,6 +104,7 @@ private:
     double time_ = 0.0, span_ = 0.0; ///< [s]
     Line a_h_, a_v_;
     double step_ = 0.0; ///< next length to try [s]; 0: as long as the interval
+    double part_ = 0.0; ///< water under the block that stands flat goes on by parts of the interval [s]
 
     // The block.
     State y_{};
@@ -109,11 +113,21 @@ private:
     double direction_ = 1.0; ///< of the slip, +1 downstream
     std::size_t stage_ = 0;
 
+    /// How far water has come into the joint from one end, and how fast it goes on until the next event.
+    struct Front {
+        double wet = 0.0;  ///< x_w [m]
+        double rate = 0.0; ///< [m/s]
+        double at(double x) const { return wet + rate * x; }
+    };
+    Front from_heel_, from_toe_; ///< of block_.mouth
+    const Front& front(SlipDirection d) const { return d == SlipDirection::downstream ? from_heel_ : from_toe_; }
+    Front& front(SlipDirection d) { return d == SlipDirection::downstream ? from_heel_ : from_toe_; }
+
     // Results.
     SlipTotals slid_;
-    double phase_start_path_ = 0.0;
     double landing_loss_ = 0.0, largest_work_ = 0.0, first_energy_ = 0.0;
-    RockingResult seen_; ///< rotations, counts and times
+    double longest_wet_ = 0.0; ///< [m]
+    RockingResult seen_;       ///< rotations, counts and times
     bool unresolved_ = false, overturned_ = false, jammed_ = false;
 };
 

@@ -39,7 +39,7 @@ void start_with_one_blas_thread(int, char** arguments, char** environment)
                                                                              char**) = start_with_one_blas_thread;
 
 /// Ends the threads that OpenBLAS has started: they look for work in a loop for some tens of milliseconds, as long as a short
-/// command takes. Where finite elements set the number of threads, it starts them again.
+/// command takes. Nothing needs them later: finite elements run BLAS with one thread (fe2d/solver/linear_solver.cpp).
 void end_blas_threads()
 {
     using Shutdown = int (*)();

@@ -75,6 +75,8 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
         sliding::make_rocking_block(scene, state, water, on_base.stages, later ? &*later : nullptr);
     rocking.uplift_on_toe = uplift_of_open_joint(scene, static_case, state, sliding::Side::heel, seepage);
     rocking.uplift_on_heel = uplift_of_open_joint(scene, static_case, state, sliding::Side::toe, seepage);
+    if (const auto& opening = on_base.opening_stages.front().block.opening; opening && opening->slow)
+        rocking.mouth = rocking_mouth(scene, static_case, state, opening->slow, seepage);
     model.rocking = std::make_shared<sliding::RockingBlock>(std::move(rocking));
     model.tips = sliding::tipping_acceleration(
         scene, water, sliding::with_open_joint(scene, static_case, state, sliding::Side::heel, seepage), 0.0,

@@ -244,11 +244,6 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
     for (const std::string& premise : broken_premises(s))
         warnings.push_back((rocks ? "Judged by the block that rocks and slides: the dam " : "No PASS: the dam ") +
                            premise + ".");
-    const bool may_rock = std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& r) { return r.rocking; });
-    if (may_rock && scene.uplift && scene.uplift->water.opening == OpeningWater::mouth)
-        warnings.push_back("The block that rocks takes an open joint as full at once: with water that needs time "
-                           "(uplift.opening = \"mouth\") its slip is an upper bound, maybe far above; opening = "
-                           "\"zero\" is the other end.");
     if (!s.slips_without_bond.empty())
         warnings.push_back(
             fmt::format("The bond is {:.0f} % of the resistance before the earthquake: the slip is judged "

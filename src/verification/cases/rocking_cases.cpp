@@ -2,6 +2,7 @@
 #include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/rocking/corner.hpp"
 #include "sliding/rocking/rocking.hpp"
+#include "verification/cases/flat_water.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"
 #include "verification/exact/rocking_block.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 
 namespace damslip::verification {
 
@@ -225,6 +227,27 @@ std::vector<Check> yield_with_crack()
             {"the dam tips later than that", "m/s²", above, limits.tips, 0.0, Measure::lower_bound}};
 }
 
+/// Under a tower 4 x 10 m nothing stops the water of both mouths: about the toe 5 m a = 2 m g - p (x L - x²/2) with
+/// a = slope t and x = v t, a quadratic in t.
+std::vector<Check> tips_by_water_on_its_way()
+{
+    std::vector<Check> checks;
+    const exact::Rocker r{4.0, 10.0, gravity};
+    const double mass = rocking_density * r.width * r.height, pressure = 0.2 * rocking_density * r.height * gravity;
+    for (const double speed : {0.3, 1.2})
+        for (const double slope : {1.5, -1.5}) {
+            RockingBlock block = rectangle(r);
+            const MouthEnd end{.empty = {}, .first = 0.0, .pressure = pressure, .gradient = 0.0};
+            block.mouth = RockingMouth{std::make_shared<FlatWater>(speed, r.width, true), end, end};
+            const double a = -0.5 * pressure * speed * speed, c = -0.5 * r.width * mass * gravity;
+            const double b = 0.5 * r.height * mass * std::abs(slope) + pressure * speed * r.width;
+            checks.push_back({fmt::format("{:g} m/s, about the {}: a_h", speed, slope > 0.0 ? "toe" : "heel"), "m/s²",
+                              std::abs(slope) * (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a),
+                              starts_at(block, slope, 5.0), 1e-9});
+        }
+    return checks;
+}
+
 } // namespace
 
 void add_rocking_cases(Registry& registry)
@@ -250,6 +273,9 @@ void add_rocking_cases(Registry& registry)
     registry.push_back({"sliding.rocking.energy", "Ground and loads pay for friction, landings and motion.",
                         "energy balance; works are integrated beside the motion, kinetic energy is that of the state",
                         "1e-9 of the largest work", energies});
+    registry.push_back({"sliding.rocking.mouth",
+                        "Water on its way into the joint tips the block, uplift.opening = mouth.",
+                        "moments about the corner by hand, a quadratic in t", events, tips_by_water_on_its_way});
     registry.push_back(
         {"sliding.rocking.yield-with-crack", "Yield acceleration with the crack that it opens, full head in it.",
          "triangular stress, tip at L - 3 x_toe, by hand and bisection", "bisection to 1e-12", yield_with_crack});
