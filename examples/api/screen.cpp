@@ -1,4 +1,5 @@
 // A dam as a rigid block: yield acceleration, and the slip under each record of its scene.  screen SCENE
+#include "analysis/prepare/ready.hpp"
 #include "analysis/screen/screening.hpp"
 #include "core/input_error.hpp"
 #include "scene/read.hpp"

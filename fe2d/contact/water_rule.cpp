@@ -47,12 +47,21 @@ VectorXd WaterRule::by_rule() const
     const CrackLengths& crack = report_.crack;
     const CrackLengths wet_end{joint_->upstream_pressure > 0.0 ? crack.upstream : 0.0,
                                joint_->downstream_pressure > 0.0 ? crack.downstream : 0.0};
-    const bool none = wet_end.upstream == 0.0 && wet_end.downstream == 0.0;
-    if (none || law_.opening == OpeningWater::unchanged) return VectorXd::Zero(joint_->pairs());
+    if (wet_end.upstream == 0.0 && wet_end.downstream == 0.0) return VectorXd::Zero(joint_->pairs());
     CrackLengths wet = wet_end;
-    if (law_.opening == OpeningWater::zero)
+    switch (law_.opening) {
+    case OpeningWater::zero:
         wet = {std::min(at_start_.upstream, wet_end.upstream), std::min(at_start_.downstream, wet_end.downstream)};
-    if (law_.opening == OpeningWater::mouth) wet = wet_;
+        break;
+    case OpeningWater::mouth:
+        wet = wet_;
+        break;
+    case OpeningWater::full:
+        break;
+    case OpeningWater::unchanged:
+    case OpeningWater::reynolds: // ReynoldsWater's
+        return VectorXd::Zero(joint_->pairs());
+    }
     const bool full_head = law_.opening != OpeningWater::zero && (wet.upstream > 0.0 || wet.downstream > 0.0);
     const PressureProfile full = full_head ? joint_->cracked(wet.upstream, wet.downstream) : joint_->before;
     return pair_pressure(*joint_, with_empty_cracks(full, joint_->length(), wet, wet_end)) - at_rest_;

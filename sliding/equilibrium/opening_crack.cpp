@@ -14,21 +14,6 @@ namespace {
 constexpr int scan_steps = 24;
 constexpr int table_steps = 10; ///< of 0.1 g, up and down
 
-std::optional<CrackRule> crack_rule(OpeningWater opening)
-{
-    switch (opening) {
-    case OpeningWater::zero:
-        return CrackRule::seismic_zero;
-    case OpeningWater::full:
-    case OpeningWater::mouth:
-        return CrackRule::seismic_full;
-    case OpeningWater::unchanged:
-    case OpeningWater::reynolds:
-        break;
-    }
-    return std::nullopt;
-}
-
 /// The block at the edge of sliding, with the crack of the same instant.
 class EdgeOfSliding {
 public:
@@ -93,12 +78,27 @@ private:
 
 } // namespace
 
+std::optional<CrackRule> crack_rule_while_open(OpeningWater opening)
+{
+    switch (opening) {
+    case OpeningWater::zero:
+        return CrackRule::seismic_zero;
+    case OpeningWater::full:
+    case OpeningWater::mouth:
+        return CrackRule::seismic_full;
+    case OpeningWater::unchanged:
+    case OpeningWater::reynolds:
+        break;
+    }
+    return std::nullopt;
+}
+
 std::shared_ptr<const OpeningUplift> opening_uplift(const Scene& scene, const StaticCase& static_case,
                                                     const BaseState& before, const RigidBlock& block, bool vertical,
                                                     const SeepageProfile& seepage)
 {
     if (!scene.uplift || scene.uplift->model == UpliftModel::none) return nullptr;
-    const std::optional<CrackRule> rule = crack_rule(scene.uplift->water.opening);
+    const std::optional<CrackRule> rule = crack_rule_while_open(scene.uplift->water.opening);
     if (!rule) return nullptr;
     StaticCase shaken = static_case;
     shaken.crack = *rule;

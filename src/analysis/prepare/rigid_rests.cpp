@@ -34,13 +34,6 @@ StaticCase without_drains(StaticCase static_case)
     return static_case;
 }
 
-CrackRule while_shaken(OpeningWater opening)
-{
-    if (opening == OpeningWater::zero) return CrackRule::seismic_zero;
-    const bool full = opening == OpeningWater::full || opening == OpeningWater::mouth;
-    return full ? CrackRule::seismic_full : CrackRule::seismic_unchanged;
-}
-
 class FullHeadBetween final : public sliding::RestBetweenEvents {
 public:
     FullHeadBetween(const Scene& scene, const StaticCase& static_case, const BaseState& before, const RigidBlock& block,
@@ -48,7 +41,8 @@ public:
         : scene_(scene), static_case_(static_case), before_(before), block_(block), options_(options),
           shaken_(static_case), water_(sliding::scene_added_mass(scene, static_case.loads.reservoir_level))
     {
-        shaken_.crack = while_shaken(scene.uplift->water.opening);
+        shaken_.crack =
+            sliding::crack_rule_while_open(scene.uplift->water.opening).value_or(CrackRule::seismic_unchanged);
     }
 
     double crack(sliding::SlipDirection direction, double a_h, double a_v) const override
