@@ -169,7 +169,7 @@ DamModes dam_modes(const ContactStructure& structure, int elastic)
 
     // K + σM with a σ far below all elastic ω²: regular, and its flexibility less that of the modes kept is the
     // residual flexibility up to a share σ/ω² of the modes left out.
-    const double shift = 1e-3 * elastic_scale(structure, rigid);
+    const double shift = 1e-4 * elastic_scale(structure, rigid);
     const InterfaceFactor factor(structure.stiffness() + shift * structure.mass(), structure.order().inner);
     if (!factor.regular()) return modes;
     const Eigen::LLT<MatrixXd> schur(factor.schur());

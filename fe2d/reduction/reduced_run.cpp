@@ -57,7 +57,8 @@ std::string message_of(const ReducedResult& r, double length)
             "smaller time.dt_s, or a larger slip_tolerance.",
             1e3 * r.slip, 1e3 * r.step_error, r.dt);
     default:
-        return fmt::format("Slip {:.4g} mm ± {:.2g} mm with {} elastic modes.", 1e3 * r.slip, 1e3 * r.truncation_error,
+        return fmt::format("Slip {:.4g} mm{} with {} elastic modes.", 1e3 * r.slip,
+                           std::isnan(r.truncation_error) ? "" : fmt::format(" ± {:.2g} mm", 1e3 * r.truncation_error),
                            r.modes);
     }
 }
@@ -73,7 +74,7 @@ struct ReducedRun::Motion {
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
     : full_(full), scene_(scene), options_(std::move(options)), stages_(full.stages()),
-      coarse_(full.structure().plane(), coarse_pairs)
+      wanted_(std::max(modes, 1)), coarse_(full.structure().plane(), coarse_pairs)
 {
     const Stopwatch start;
     if (!full.model().mesh.contact.matching)
@@ -84,22 +85,31 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
     if (!full.why_not().empty() || full.structure().slides_far() || full.structure().water() ||
         full.in_motion().rock_moves())
         return;
-    const int wanted = std::max(modes, 1);
-    DamModes reference = dam_modes(full.structure(), reference_modes(wanted));
-    if (!reference.regular) return;
-    const Index kept = std::min<Index>(3 + wanted, reference.count());
-    const RunDamping damping{full.damping(), scene_.damping.mass};
-    const bool all = kept == reference.count();
-    const auto system_of = [&](DamModes modes) {
-        return ReducedSystem(full.structure(), std::move(modes), damping, full.radiating_on_base());
-    };
-    system_ = std::make_unique<ReducedSystem>(system_of(reference.first(kept)));
-    if (!all) {
-        coarse_system_ = std::make_unique<ReducedSystem>(coarse_.coarsened(*system_));
-        coarse_fewer_ = std::make_unique<ReducedSystem>(coarse_.coarsened(system_of(reference.first(3 + wanted / 2))));
-        coarse_reference_ = std::make_unique<ReducedSystem>(coarse_.coarsened(system_of(std::move(reference))));
-    }
+    DamModes kept = dam_modes(full.structure(), wanted_);
+    if (!kept.regular) return;
+    system_ = std::make_unique<ReducedSystem>(system_of(std::move(kept)));
     seconds_ = start.seconds();
+}
+
+ReducedSystem ReducedRun::system_of(DamModes modes) const
+{
+    return {full_.structure(), std::move(modes), {full_.damping(), scene_.damping.mass}, full_.radiating_on_base()};
+}
+
+const ReducedRun::Estimators& ReducedRun::estimators() const
+{
+    std::call_once(estimators_made_, [this] {
+        if (system_->modes.complete) return;
+        DamModes reference = dam_modes(full_.structure(), reference_modes(wanted_));
+        if (!reference.regular) return;
+        const auto coarse = [&](const ReducedSystem& system) {
+            return std::make_unique<ReducedSystem>(coarse_.coarsened(system));
+        };
+        estimators_.kept = coarse(*system_);
+        estimators_.fewer = coarse(system_of(reference.first(3 + wanted_ / 2)));
+        estimators_.reference = coarse(system_of(std::move(reference)));
+    });
+    return estimators_;
 }
 
 void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
@@ -179,7 +189,9 @@ void ReducedRun::shake(const Motion& motion, const Plane& plane, const ReducedSy
 std::optional<double> ReducedRun::truncation_error(const Motion& motion, const Contact& contact,
                                                    const ContactMemory& rest) const
 {
-    if (!coarse_system_) return 0.0;
+    if (system_->modes.complete) return 0.0;
+    const Estimators& systems = estimators();
+    if (!systems.kept) return std::numeric_limits<double>::quiet_NaN(); // the modes beyond did not converge
     const ContactMemory memory = coarse_.coarsened(rest);
     Motion coarse_motion = motion;
     coarse_motion.contact.landing = Landing::ringing; // few pairs land together: jolts that the full plane has not
@@ -192,15 +204,15 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
         interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;
     };
-    const double modes = static_cast<double>(coarse_system_->dam_modes - 3);
-    const double more = static_cast<double>(coarse_reference_->dam_modes - 3);
-    const double fewer = static_cast<double>(coarse_fewer_->dam_modes - 3);
-    const std::vector<double> kept = slips(*coarse_system_);
-    const double to_more = largest_difference(kept, slips(*coarse_reference_));
+    const double modes = static_cast<double>(systems.kept->dam_modes - 3);
+    const double more = static_cast<double>(systems.reference->dam_modes - 3);
+    const double fewer = static_cast<double>(systems.fewer->dam_modes - 3);
+    const std::vector<double> kept = slips(*systems.kept);
+    const double to_more = largest_difference(kept, slips(*systems.reference));
     if (interrupted) return std::nullopt;
-    if (coarse_reference_->modes.complete) return to_more;
+    if (systems.reference->modes.complete) return to_more;
     if (fewer < 1.0) return to_more / (1.0 - modes / more); // one mode: none to compare with, n^-1 as if the slower
-    const double from_fewer = largest_difference(slips(*coarse_fewer_), kept);
+    const double from_fewer = largest_difference(slips(*systems.fewer), kept);
     if (interrupted) return std::nullopt;
     // The error as n^-p: both differences tell it, and their ratio tells p.
     const auto gone = [&](double p) { return 1.0 - std::pow(modes / more, p); };
@@ -221,7 +233,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }
 
 ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
-                              const std::optional<int>& halvings) const
+                              const std::optional<int>& halvings, TruncationEstimate estimate) const
 {
     ReducedResult result;
     result.seconds.modes = seconds_;
@@ -242,7 +254,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.highest_frequency = std::sqrt(system_->modes.omega2[system_->dam_modes - 1]) / (2.0 * std::numbers::pi);
     const ContactStructure& structure = full_.structure();
     Stopwatch clock;
-    StaticContact statics(structure, scene_.contact, options_.contact);
+    StaticContact statics(full_.static_operator(), scene_.contact, options_.contact);
     Strength strength(contact.value_or(scene_.contact), structure.plane());
     ContactMemory memory(structure.plane().pairs());
     result.stages = full_.statics(statics, strength, memory);
@@ -282,8 +294,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     if (over && result.step_error > wanted()) result.status = Status::tolerance_missed;
     const double open = std::isfinite(result.step_error) ? result.step_error : 0.0;
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
-    const std::optional<double> error = result.status == Status::self_excited // no slip, and no error of it
-                                            ? std::numeric_limits<double>::quiet_NaN()
+    const bool estimated = estimate == TruncationEstimate::made && result.status != Status::self_excited; // no slip
+    const std::optional<double> error = !estimated ? std::numeric_limits<double>::quiet_NaN()
                                             : truncation_error(loop, contact.value_or(scene_.contact), memory);
     if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());

@@ -5,6 +5,7 @@
 #include "fe2d/run/ground_input.hpp"
 
 #include <limits>
+#include <mutex>
 #include <optional>
 
 namespace damslip::fe2d {
@@ -54,7 +55,7 @@ struct ReducedResult {
     double max_slip = 0.0; ///< largest |slip| of all steps on the way [m]
     double truncation_error =
         0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
-             ///< NaN: interrupted
+             ///< NaN: left out, or interrupted
     double step_error = std::numeric_limits<
         double>::quiet_NaN();       ///< estimate of what the time step leaves open [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
@@ -69,6 +70,9 @@ struct ReducedResult {
 };
 
 constexpr int default_modes = 12; ///< elastic modes kept when nothing is said: slip within 1 % of the full run's
+
+/// Three more runs on a coarse plane tell how much the modes left out change the slip.
+enum class TruncationEstimate { made, left_out };
 
 /// The staged run on few modes of the dam (DamModes): static stages by the full model, earthquake and run-out reduced.
 /// Rock, contact law, damping, scheme and ground motion are those of the full run; only the inertia of the dam's modes
@@ -88,12 +92,19 @@ public:
     /// As EarthquakeRun::run. @param halvings  in place of those of options and scene: uniform steps Δt/2^halvings; the slip
     /// then has no estimate of their error
     ReducedResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {},
-                      const std::optional<int>& halvings = {}) const;
+                      const std::optional<int>& halvings = {},
+                      TruncationEstimate estimate = TruncationEstimate::made) const;
 
     const ReducedSystem& system() const { return *system_; }
 
 private:
     struct Motion; ///< what the time loop reads
+    /// Systems on the coarse plane; none where all modes are kept.
+    struct Estimators {
+        std::unique_ptr<ReducedSystem> kept, fewer, reference;
+    };
+    ReducedSystem system_of(DamModes modes) const;
+    const Estimators& estimators() const;
     /// From rest to the end of the run-out; history, slip, counts and contact at the end go into `result`.
     /// @param rest_stage  the run is watched for sliding by itself; null: it is not
     void shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
@@ -106,10 +117,11 @@ private:
     Scene scene_;
     RunOptions options_;
     LoadStages stages_;
+    int wanted_; ///< elastic modes asked for
     std::unique_ptr<ReducedSystem> system_;
     CoarsePlane coarse_;
-    std::unique_ptr<ReducedSystem> coarse_system_, coarse_fewer_,
-        coarse_reference_; ///< for the estimate; none: all modes are kept
+    mutable std::once_flag estimators_made_;
+    mutable Estimators estimators_; ///< made by the first run that estimates
     double seconds_ = 0.0;
 };
 

@@ -126,6 +126,8 @@ public:
     const Model& model_in_motion() const { return moving_model_ ? *moving_model_ : *model_; }
     const WaterBody* water() const { return water_.get(); } ///< acoustic; null: none
     const ContactStructure& structure() const { return *structure_; }
+    /// Of structure(); null where it is not usable (why_not).
+    const std::shared_ptr<const StaticOperator>& static_operator() const { return statics_; }
     const LoadStages& stages() const { return stages_; } ///< static loads before the earthquake
     const RayleighConstants& damping() const { return damping_.constants; }
     const RadiatingRock* radiating() const

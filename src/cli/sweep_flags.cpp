@@ -58,6 +58,8 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
          "id such as "
          "ambraseys-menu-1988, jibson-1993, jibson-1998");
     sub.add_option("--modes", a.modes, "elastic modes of fe-reduced (12)")->check(CLI::Range(1, 1000));
+    sub.add_flag("--truncation-error", a.truncation_error,
+                 "estimate for every row of fe-reduced what the modes left out change");
     sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(in_range(1.0, 1e20));
     sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
     sub.add_option(

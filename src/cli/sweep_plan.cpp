@@ -43,6 +43,7 @@ std::string sweep_command_line(const SweepArguments& a)
     add("--polarity", a.polarity);
     add("--method", a.method);
     if (a.modes) add("--modes", std::to_string(*a.modes));
+    if (a.truncation_error) line += " --truncation-error";
     if (a.penalty_stiffness) add("--penalty-stiffness", shortest(*a.penalty_stiffness));
     add("--scheme", a.inputs.scheme);
     if (a.inputs.strict) line += " --strict";

@@ -104,7 +104,7 @@ MeshError CoarserMesh::error_of(const fe2d::ReducedResult& run, const GroundMoti
 {
     MeshError result;
     if (known_to_fail(run.status, run.step_error, result) || !make(result, true)) return result;
-    const fe2d::ReducedResult coarse = reduced_->run(motion, {}, run.halvings);
+    const fe2d::ReducedResult coarse = reduced_->run(motion, {}, run.halvings, fe2d::TruncationEstimate::left_out);
     if (coarse.status != Status::at_rest) {
         no_answer(coarse.status, coarse.message, result);
         return result;

@@ -398,7 +398,7 @@ private:
         if (model.reduced) {
             for (const Contact& contact : contacts) {
                 if (watch_.stop_asked()) break;
-                const fe2d::ReducedResult r = model.reduced->run(motion, contact);
+                const fe2d::ReducedResult r = model.reduced->run(motion, contact, {}, fe2d::TruncationEstimate::left_out);
                 put(r, r.step_error);
             }
             return rows;

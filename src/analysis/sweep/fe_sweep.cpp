@@ -204,11 +204,13 @@ private:
     void run_reduced_group(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group,
                            FeSweepCounts& counts)
     {
+        using fe2d::TruncationEstimate;
+        const auto estimate = in_.truncation_error ? TruncationEstimate::made : TruncationEstimate::left_out;
         for (const std::size_t& id : group.rows) {
             if (watch_.stop_asked()) return;
-            const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id));
+            const fe2d::ReducedResult r = model.reduced->run(motion, contact(model, id), {}, estimate);
             FeSlip slip = slip_of(r, r.step_error);
-            if (slip.slip) slip.truncation_error = r.truncation_error;
+            if (slip.slip && in_.truncation_error) slip.truncation_error = r.truncation_error;
             if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
             count(r, counts);
             take_({&id, 1}, {&slip, 1});

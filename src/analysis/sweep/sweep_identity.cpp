@@ -24,6 +24,7 @@ SweepIdentity sweep_identity(const Sweep& inputs)
     identity.records = sha256(contents);
     identity.grid = text_of(inputs.axes);
     if (inputs.modes) identity.grid += fmt::format("; modes {}", *inputs.modes);
+    if (inputs.truncation_error) identity.grid += "; truncation error";
     if (inputs.penalty_stiffness) identity.grid += "; penalty stiffness " + shortest(*inputs.penalty_stiffness);
     identity.rows = inputs.tasks.rows();
     return identity;

@@ -176,6 +176,9 @@ std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene
     if (a.modes && !given([](const SweepMethod& m) { return m.reduced; }))
         refuse_usage("--modes is given, but fe-reduced is not among the methods.", "both or neither",
                      "add fe-reduced to --method, or delete --modes");
+    if (a.truncation_error && !given([](const SweepMethod& m) { return m.reduced; }))
+        refuse_usage("--truncation-error is given, but fe-reduced is not among the methods.", "both or neither",
+                     "add fe-reduced to --method, or delete --truncation-error");
     return methods;
 }
 

@@ -15,6 +15,7 @@ struct SweepArguments {
     std::string friction, friction_deg, level, uplift, opening_water, reservoir, size, period, damping, scale, polarity;
     std::string method;                      ///< empty: rigid, and rigid-v where a record has a vertical component
     std::optional<int> modes;                ///< elastic modes of fe-reduced, 1 ... 1000; none: its own choice
+    bool truncation_error = false;           ///< of fe-reduced: estimated for every row
     std::optional<double> penalty_stiffness; ///< of fe-penalty [N/m^3], > 0; none: the scene's
 
     std::filesystem::path pdf;                ///< the report on paper; empty: none
