@@ -43,8 +43,8 @@ struct ContactReport {
     bool resolved() const { return path != ContactPath::unresolved; }
 };
 
-/// Solves a sequence of contact problems with the same V: λ⁰ and strengths may change from one to the next. The inverse
-/// of the last active set is kept, so a step with the same states costs one small product.
+/// Solves a sequence of contact problems with the same V: λ⁰ and strengths may change from one to the next. The factor
+/// of a recent active set is kept, so a step with the same states costs one small solution.
 ///
 /// Semismooth Newton on the states (Alart & Curnier 1991; Hüeber, Stadler & Wohlmuth 2008): solve with the states
 /// held, re-read the states from the result, until they repeat themselves. Pure Newton can cycle where the structure
@@ -68,8 +68,8 @@ public:
     /// @param solution  jumps of all gaps and impulses; on entry the states
     bool land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution);
 
-    /// The owner of V has changed V_kk. @param by  [N/m²]
-    void diagonal_changed(Eigen::Index unknown, double by) { system_.diagonal_changed(unknown, by); }
+    /// The owner of V has changed V_kk.
+    void diagonal_changed(Eigen::Index unknown) { system_.diagonal_changed(unknown); }
 
     /// The owner of V has changed it anyhow.
     void stiffness_changed() { system_.stiffness_changed(); }

@@ -71,7 +71,7 @@ void JointLawSolver::fill()
     for (const JointTerms::Entry& entry : entries_) (*seen_)(entry.row, entry.column) += entry.value;
 }
 
-/// @returns false: so much has changed that the inverse is better made anew
+/// @returns false: so much has changed that a factor is better made anew
 bool JointLawSolver::change_diagonal(const VectorXd& diagonal)
 {
     const VectorXd by = diagonal - diagonal_;
@@ -79,7 +79,7 @@ bool JointLawSolver::change_diagonal(const VectorXd& diagonal)
     for (Index k = 0; k < by.size(); ++k) {
         if (by[k] == 0.0) continue;
         (*seen_)(k, k) += by[k];
-        solver_->diagonal_changed(k, by[k]);
+        solver_->diagonal_changed(k);
     }
     diagonal_ = diagonal;
     return true;

@@ -2,11 +2,12 @@
 
 #include "core/defect.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace damslip::fe2d {
 
@@ -15,30 +16,77 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int updates_between_rebuilds = 200; ///< round-off of the updates is also checked at every solution
-constexpr double smallest_pivot = 1e-13;      ///< of a new row against its own diagonal entry
-constexpr double row_aim = 1e-13;       ///< of the released rows, relative to the largest stuck force: refine above
-constexpr double row_tolerance = 1e-10; ///< the same: refuse above
+constexpr Index most_borders = 64;
+constexpr double smallest_pivot = 1e-13; ///< of a factor against the diagonal of V
+constexpr double row_aim = 1e-13;        ///< of the released rows, relative to the largest stuck force: refine above
+constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
+
+/// In place, with row interchanges, column by column: each is solved with the columns of L before it.
+/// @returns the smallest pivot, absolute
+double factorise(Eigen::Ref<Eigen::MatrixXd> a, std::vector<Index>& pivots)
+{
+    const Index n = a.rows();
+    double smallest = std::numeric_limits<double>::infinity();
+    pivots.resize(static_cast<std::size_t>(n));
+    for (Index j = 0; j < n; ++j) {
+        auto column = a.col(j);
+        for (Index i = 0; i < j; ++i) std::swap(column[i], column[pivots[static_cast<std::size_t>(i)]]);
+        if (j > 0) {
+            auto top = column.head(j);
+            a.topLeftCorner(j, j).triangularView<Eigen::UnitLower>().solveInPlace(top);
+            column.tail(n - j).noalias() -= a.block(j, 0, n - j, j) * top;
+        }
+        Index pivot = 0;
+        const double size = column.tail(n - j).cwiseAbs().maxCoeff(&pivot);
+        pivot += j;
+        pivots[static_cast<std::size_t>(j)] = pivot;
+        smallest = std::min(smallest, std::isfinite(size) ? size : 0.0);
+        if (!(size > 0.0)) return 0.0;
+        if (pivot != j) a.row(j).head(j + 1).swap(a.row(pivot).head(j + 1));
+        column.tail(n - j - 1) /= column[j];
+    }
+    return smallest;
+}
+
+/// x = A⁻¹ x by the factors.
+void solve_in_place(const Eigen::Ref<const Eigen::MatrixXd>& factor, const std::vector<Index>& pivots,
+                    Eigen::Ref<VectorXd> x)
+{
+    const Index n = factor.rows();
+    for (Index i = 0; i < n; ++i) std::swap(x[i], x[pivots[static_cast<std::size_t>(i)]]);
+    factor.triangularView<Eigen::UnitLower>().solveInPlace(x);
+    factor.triangularView<Eigen::Upper>().solveInPlace(x);
+}
 
 /// force -= V x of some columns of V: four at a time, each row by its columns in their order.
+/// @param x  by unknown
 void take_off(const Eigen::MatrixXd& stiffness, const std::vector<Index>& columns, const VectorXd& x, VectorXd& force)
 {
-    const auto column = [&](Index k) { return stiffness.col(columns[static_cast<std::size_t>(k)]); };
-    Index k = 0;
-    for (; k + 4 <= x.size(); k += 4)
-        force =
-            force - x[k] * column(k) - x[k + 1] * column(k + 1) - x[k + 2] * column(k + 2) - x[k + 3] * column(k + 3);
-    for (; k < x.size(); ++k) force -= x[k] * column(k);
+    const auto index = [&](std::size_t k) { return columns[k]; };
+    const auto column = [&](std::size_t k) { return stiffness.col(index(k)); };
+    std::size_t k = 0;
+    for (; k + 4 <= columns.size(); k += 4)
+        force = force - x[index(k)] * column(k) - x[index(k + 1)] * column(k + 1) - x[index(k + 2)] * column(k + 2) -
+                x[index(k + 3)] * column(k + 3);
+    for (; k < columns.size(); ++k) force -= x[index(k)] * column(k);
 }
 
 } // namespace
 
 ReleasedSystem::ReleasedSystem(const Eigen::MatrixXd& stiffness)
     : stiffness_(stiffness), pairs_(stiffness.rows() / 2), rows_(static_cast<std::size_t>(stiffness.rows())),
-      wanted_(rows_), place_(rows_.size(), -1), inverse_(stiffness.rows(), stiffness.rows())
+      wanted_(rows_), base_rows_(rows_), stale_(rows_.size(), 0), place_(rows_.size(), -1),
+      factor_(stiffness.rows(), stiffness.rows()), columns_(stiffness.rows(), most_borders),
+      lines_(stiffness.rows(), most_borders), corner_(most_borders, most_borders),
+      corner_factor_(most_borders, most_borders), residual_(stiffness.rows()), step_(stiffness.rows()),
+      base_part_(stiffness.rows()), border_part_(most_borders)
 {
     assert(stiffness.rows() == stiffness.cols() && stiffness.rows() % 2 == 0);
     unknowns_.reserve(rows_.size());
+    base_.reserve(rows_.size());
+    pivots_.reserve(rows_.size());
+    borders_.reserve(most_borders);
+    corner_pivots_.reserve(most_borders);
 }
 
 void ReleasedSystem::wanted_rows(const ContactStates& states, const ContactLaw& law)
@@ -75,175 +123,196 @@ double ReleasedSystem::right_hand_side(Index unknown, const ContactLaw& law, con
     return 0.0;
 }
 
-VectorXd ReleasedSystem::row_of(Index unknown, const Row& row) const
+double ReleasedSystem::entry(Index unknown, const Row& row, Index column) const
 {
-    // V is symmetric: its columns are read in place of its rows.
-    if (row.coupling == 0.0) return stiffness_.col(unknown);
-    return stiffness_.col(unknown) + row.coupling * stiffness_.col(unknown - pairs_);
+    const double own = stiffness_(column, unknown); // V is symmetric: its columns are read in place of its rows
+    return row.coupling == 0.0 ? own : own + row.coupling * stiffness_(column, unknown - pairs_);
 }
 
 bool ReleasedSystem::set(const ContactStates& states, const ContactLaw& law)
 {
     wanted_rows(states, law);
-    std::size_t differences = 0, released = 0;
+    if (settled_ && rows_ == wanted_) return regular_;
+    rows_ = wanted_;
+    settled_ = true;
+    unknowns_.clear();
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+        if (rows_[k].released) unknowns_.push_back(static_cast<Index>(k));
+    return (regular_ && follow_by_borders()) || rebuild();
+}
+
+/// How an unknown of rows_ differs from the base.
+ReleasedSystem::Border ReleasedSystem::wanted_border(std::size_t unknown) const
+{
+    const Row &now = rows_[unknown], &base = base_rows_[unknown];
+    const auto of = [&](BorderKind kind) { return Border{static_cast<Index>(unknown), kind, now}; };
+    if (!base.released) return of(now.released ? BorderKind::added : BorderKind::none);
+    if (!now.released) return of(BorderKind::removed);
+    return of(now == base && !stale_[unknown] ? BorderKind::none : BorderKind::changed);
+}
+
+/// @returns false where a new base is cheaper, or S is singular, though the set itself may be regular
+bool ReleasedSystem::follow_by_borders()
+{
+    const auto size = static_cast<Index>(base_.size());
+    const Index most = std::min<Index>(most_borders, 8 + size / 4);
+    Index wanted = 0;
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+        if (wanted_border(k).kind != BorderKind::none && ++wanted > most) return false;
+    for (std::size_t j = borders_.size(); j-- > 0;)
+        if (borders_[j] != wanted_border(static_cast<std::size_t>(borders_[j].unknown))) drop(j);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        differences += rows_[k] != wanted_[k];
-        released += wanted_[k].released;
+        const Border border = wanted_border(k);
+        if (border.kind != BorderKind::none && std::find(borders_.begin(), borders_.end(), border) == borders_.end())
+            put(border);
     }
-    if (differences == 0) return regular_;
-    if (!regular_ || differences > 2 + released / 6 || updates_since_rebuild_ > updates_between_rebuilds)
-        return rebuild();
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        if (rows_[k] == wanted_[k]) continue;
-        const auto unknown = static_cast<Index>(k);
-        const bool done = !rows_[k].released    ? add(unknown, wanted_[k])
-                          : wanted_[k].released ? change(unknown, wanted_[k])
-                                                : remove(unknown);
-        if (!done) return rebuild(); // on the way a singular set may be passed though the last one is regular
-        ++updates_;
-        ++updates_since_rebuild_;
-    }
-    return true;
+    return factorise_corner();
 }
 
-bool ReleasedSystem::add(Index unknown, const Row& row)
+/// Columns and rows of removed and changed unknowns are scaled by V_kk, so that S has entries of one size.
+void ReleasedSystem::put(const Border& border)
 {
-    const auto size = static_cast<Index>(unknowns_.size());
-    const VectorXd line = row_of(unknown, row);
-    column_.resize(size);
-    line_.resize(size);
-    for (Index k = 0; k < size; ++k) {
-        const Index other = unknowns_[static_cast<std::size_t>(k)];
-        const Row& other_row = rows_[static_cast<std::size_t>(other)];
-        column_[k] = stiffness_(other, unknown);
-        if (other_row.coupling != 0.0) column_[k] += other_row.coupling * stiffness_(other - pairs_, unknown);
-        line_[k] = line[other];
+    const auto size = static_cast<Index>(base_.size()), last = static_cast<Index>(borders_.size());
+    const Index unknown = border.unknown, place = place_[static_cast<std::size_t>(unknown)];
+    auto column = columns_.col(last).head(size), line = lines_.col(last).head(size);
+    if (border.kind == BorderKind::added) {
+        for (Index i = 0; i < size; ++i) {
+            const Index other = base_[static_cast<std::size_t>(i)];
+            column[i] = entry(other, base_rows_[static_cast<std::size_t>(other)], unknown);
+        }
+    } else {
+        column.setZero();
+        column[place] = stiffness_(unknown, unknown);
     }
-    const auto inverse = inverse_.topLeftCorner(size, size);
-    const VectorXd right = inverse * column_;
-    const Eigen::RowVectorXd left = line_.transpose() * inverse;
-    const double pivot = line[unknown] - line_.dot(right);
-    if (!(std::abs(pivot) > smallest_pivot * stiffness_(unknown, unknown))) return false;
-    inverse_.topLeftCorner(size, size).noalias() += (right / pivot) * left;
-    inverse_.col(size).head(size) = -right / pivot;
-    inverse_.row(size).head(size) = -left / pivot;
-    inverse_(size, size) = 1.0 / pivot;
-    rows_[static_cast<std::size_t>(unknown)] = row;
-    place_[static_cast<std::size_t>(unknown)] = size;
-    unknowns_.push_back(unknown);
-    return true;
-}
-
-bool ReleasedSystem::remove(Index unknown)
-{
-    const Index last = static_cast<Index>(unknowns_.size()) - 1, place = place_[static_cast<std::size_t>(unknown)];
-    if (place != last) {
-        inverse_.row(place).head(last + 1).swap(inverse_.row(last).head(last + 1));
-        inverse_.col(place).head(last + 1).swap(inverse_.col(last).head(last + 1));
-        const Index moved = unknowns_[static_cast<std::size_t>(last)];
-        unknowns_[static_cast<std::size_t>(place)] = moved;
-        place_[static_cast<std::size_t>(moved)] = place;
+    if (border.kind == BorderKind::removed) {
+        line.setZero();
+        line[place] = stiffness_(unknown, unknown);
+    } else {
+        for (Index i = 0; i < size; ++i) line[i] = entry(unknown, border.row, base_[static_cast<std::size_t>(i)]);
     }
-    unknowns_.pop_back();
-    place_[static_cast<std::size_t>(unknown)] = -1;
-    rows_[static_cast<std::size_t>(unknown)] = {};
-    const double pivot = inverse_(last, last);
-    if (!(std::abs(pivot) * stiffness_(unknown, unknown) > smallest_pivot)) return false;
-    column_ = inverse_.col(last).head(last) / pivot;
-    line_ = inverse_.row(last).head(last);
-    inverse_.topLeftCorner(last, last).noalias() -= column_ * line_.transpose();
-    return true;
-}
-
-bool ReleasedSystem::change(Index unknown, const Row& row)
-{
-    // Only the friction coupling of a slip row can change: the row moves by a multiple of the normal's row of V.
-    const auto size = static_cast<Index>(unknowns_.size());
-    const Index place = place_[static_cast<std::size_t>(unknown)];
-    const double step = row.coupling - rows_[static_cast<std::size_t>(unknown)].coupling;
-    line_.resize(size);
-    for (Index k = 0; k < size; ++k)
-        line_[k] = step * stiffness_(unknown - pairs_, unknowns_[static_cast<std::size_t>(k)]);
-    const auto inverse = inverse_.topLeftCorner(size, size);
-    const Eigen::RowVectorXd left = line_.transpose() * inverse;
-    const double pivot = 1.0 + left[place];
-    if (!(std::abs(pivot) > smallest_pivot)) return false;
-    column_ = inverse.col(place) / pivot;
-    inverse_.topLeftCorner(size, size).noalias() -= column_ * left;
-    rows_[static_cast<std::size_t>(unknown)] = row;
-    return true;
-}
-
-void ReleasedSystem::diagonal_changed(Index unknown, double by)
-{
-    // A released normal row stands alone, and a shut pair's normal column takes no part: only the entry itself changes.
-    const Index place = place_[static_cast<std::size_t>(unknown)];
-    if (place < 0 || !regular_) return;
-    const auto size = static_cast<Index>(unknowns_.size());
-    const auto inverse = inverse_.topLeftCorner(size, size);
-    const double pivot = 1.0 + by * inverse(place, place);
-    if (!(std::abs(pivot) > smallest_pivot)) {
-        stiffness_changed();
-        return;
+    solve_in_place(factor_.topLeftCorner(size, size), pivots_, column);
+    borders_.push_back(border);
+    const auto corner = [&](Index row, Index of) { // E - R Y
+        const Border &a = borders_[static_cast<std::size_t>(row)], &b = borders_[static_cast<std::size_t>(of)];
+        const bool of_v = a.kind != BorderKind::removed && b.kind == BorderKind::added;
+        return (of_v ? entry(a.unknown, a.row, b.unknown) : 0.0) -
+               lines_.col(row).head(size).dot(columns_.col(of).head(size));
+    };
+    for (Index j = 0; j < last; ++j) {
+        corner_(last, j) = corner(last, j);
+        corner_(j, last) = corner(j, last);
     }
-    column_ = inverse.col(place) * (by / pivot);
-    const Eigen::RowVectorXd line = inverse.row(place);
-    inverse_.topLeftCorner(size, size).noalias() -= column_ * line;
+    corner_(last, last) = corner(last, last);
     ++updates_;
-    ++updates_since_rebuild_;
+}
+
+void ReleasedSystem::drop(std::size_t border)
+{
+    const auto last = static_cast<Index>(borders_.size()) - 1, place = static_cast<Index>(border);
+    const auto size = static_cast<Index>(base_.size());
+    if (place != last) {
+        columns_.col(place).head(size) = columns_.col(last).head(size);
+        lines_.col(place).head(size) = lines_.col(last).head(size);
+        corner_.row(place).head(last + 1) = corner_.row(last).head(last + 1);
+        corner_.col(place).head(last + 1) = corner_.col(last).head(last + 1);
+        borders_[border] = borders_.back();
+    }
+    borders_.pop_back();
+}
+
+bool ReleasedSystem::factorise_corner()
+{
+    const auto count = static_cast<Index>(borders_.size());
+    double scale = 0.0;
+    for (const Border& border : borders_) scale = std::max(scale, stiffness_(border.unknown, border.unknown));
+    corner_factor_.topLeftCorner(count, count) = corner_.topLeftCorner(count, count);
+    return count == 0 || factorise(corner_factor_.topLeftCorner(count, count), corner_pivots_) > smallest_pivot * scale;
+}
+
+void ReleasedSystem::diagonal_changed(Index unknown)
+{
+    const auto k = static_cast<std::size_t>(unknown);
+    if (place_[k] >= 0) stale_[k] = 1;
+    for (std::size_t j = borders_.size(); j-- > 0;)
+        if (borders_[j].unknown == unknown) drop(j);
+    settled_ = false;
 }
 
 void ReleasedSystem::stiffness_changed()
 {
-    clear(); // nothing released: the next set() starts from there
     rows_.assign(rows_.size(), {});
+    rebuild_base(); // nothing released: the next set() starts from there
     regular_ = true;
+    settled_ = false;
 }
 
-void ReleasedSystem::clear()
+/// Without its factor.
+void ReleasedSystem::rebuild_base()
 {
-    unknowns_.clear();
+    borders_.clear();
+    base_.clear();
+    base_rows_ = rows_;
+    std::fill(stale_.begin(), stale_.end(), char{0});
     std::fill(place_.begin(), place_.end(), -1);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        if (!rows_[k].released) continue;
+        place_[k] = static_cast<Index>(base_.size());
+        base_.push_back(static_cast<Index>(k));
+    }
 }
 
 bool ReleasedSystem::rebuild()
 {
-    clear();
-    rows_ = wanted_;
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        if (!rows_[k].released) continue;
-        place_[k] = static_cast<Index>(unknowns_.size());
-        unknowns_.push_back(static_cast<Index>(k));
-    }
+    rebuild_base();
     ++rebuilds_;
-    updates_since_rebuild_ = 0;
-    const auto size = static_cast<Index>(unknowns_.size());
-    Eigen::MatrixXd matrix(size, size);
+    const auto size = static_cast<Index>(base_.size());
+    auto matrix = factor_.topLeftCorner(size, size);
     for (Index j = 0; j < size; ++j) {
-        const auto column = stiffness_.col(unknowns_[static_cast<std::size_t>(j)]);
+        const auto column = stiffness_.col(base_[static_cast<std::size_t>(j)]);
         for (Index i = 0; i < size; ++i) {
-            const Index unknown = unknowns_[static_cast<std::size_t>(i)];
+            const Index unknown = base_[static_cast<std::size_t>(i)];
             const double coupling = rows_[static_cast<std::size_t>(unknown)].coupling;
             matrix(i, j) = column[unknown] + (coupling == 0.0 ? 0.0 : coupling * column[unknown - pairs_]);
         }
     }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
     const double largest = size > 0 ? matrix.diagonal().cwiseAbs().maxCoeff() : 0.0;
-    regular_ = size == 0 || lu.matrixLU().diagonal().cwiseAbs().minCoeff() > smallest_pivot * largest;
-    if (regular_ && size > 0) inverse_.topLeftCorner(size, size) = lu.inverse();
+    regular_ = size == 0 || factorise(matrix, pivots_) > smallest_pivot * largest;
     return regular_;
 }
 
-double ReleasedSystem::row_residual(const ContactLaw& law, const ContactSolution& solution, VectorXd& residual) const
+/// Of the released rows, by unknown; zero for all others.
+void ReleasedSystem::row_residual(const ContactLaw& law, const ContactSolution& solution)
 {
-    residual.resize(static_cast<Index>(unknowns_.size()));
-    for (Index k = 0; k < residual.size(); ++k) {
-        const Index unknown = unknowns_[static_cast<std::size_t>(k)];
+    residual_.setZero();
+    largest_ = 0.0;
+    for (const Index unknown : unknowns_) {
         const double coupling = rows_[static_cast<std::size_t>(unknown)].coupling;
-        residual[k] = solution.force[unknown] - right_hand_side(unknown, law, solution.states);
-        if (coupling != 0.0) residual[k] += coupling * solution.force[unknown - pairs_];
+        double rest = solution.force[unknown] - right_hand_side(unknown, law, solution.states);
+        if (coupling != 0.0) rest += coupling * solution.force[unknown - pairs_];
+        residual_[unknown] = rest;
+        largest_ = std::max(largest_, std::abs(rest));
     }
-    return residual.size() > 0 ? residual.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// Displacements that take residual_ off, into step_.
+void ReleasedSystem::solve_for_step()
+{
+    const auto size = static_cast<Index>(base_.size()), count = static_cast<Index>(borders_.size());
+    auto x = base_part_.head(size);
+    for (Index i = 0; i < size; ++i) x[i] = residual_[base_[static_cast<std::size_t>(i)]];
+    solve_in_place(factor_.topLeftCorner(size, size), pivots_, x);
+    if (count > 0) {
+        auto s = border_part_.head(count);
+        for (Index j = 0; j < count; ++j) s[j] = residual_[borders_[static_cast<std::size_t>(j)].unknown];
+        s.noalias() -= lines_.topLeftCorner(size, count).transpose() * x;
+        solve_in_place(corner_factor_.topLeftCorner(count, count), corner_pivots_, s);
+        x.noalias() -= columns_.topLeftCorner(size, count) * s;
+    }
+    for (Index i = 0; i < size; ++i) step_[base_[static_cast<std::size_t>(i)]] = x[i];
+    for (Index j = 0; j < count; ++j) {
+        const Border& border = borders_[static_cast<std::size_t>(j)];
+        if (border.kind == BorderKind::added) step_[border.unknown] = border_part_[j];
+    }
 }
 
 bool ReleasedSystem::solve(const ContactLaw& law, const VectorXd& stuck_force, ContactSolution& solution)
@@ -252,18 +321,16 @@ bool ReleasedSystem::solve(const ContactLaw& law, const VectorXd& stuck_force, C
     for (int attempt = 0; attempt < 2; ++attempt) {
         solution.displacement.setZero(2 * pairs_);
         solution.force = stuck_force;
-        double largest = row_residual(law, solution, residual_);
-        // The first pass solves, the others refine what the updates have lost.
-        for (int pass = 0; pass < 3 && largest > row_aim * scale; ++pass) {
-            const auto size = static_cast<Index>(unknowns_.size());
-            column_.noalias() = inverse_.topLeftCorner(size, size) * residual_;
-            take_off(stiffness_, unknowns_, column_, solution.force);
-            for (Index k = 0; k < size; ++k)
-                solution.displacement[unknowns_[static_cast<std::size_t>(k)]] -= column_[k];
-            largest = row_residual(law, solution, residual_);
+        row_residual(law, solution);
+        // The first pass solves, the others refine what the borders have lost.
+        for (int pass = 0; pass < 3 && largest_ > row_aim * scale; ++pass) {
+            solve_for_step();
+            take_off(stiffness_, unknowns_, step_, solution.force);
+            for (const Index unknown : unknowns_) solution.displacement[unknown] -= step_[unknown];
+            row_residual(law, solution);
         }
-        if (largest <= row_tolerance * scale) return true;
-        if (updates_since_rebuild_ == 0 || !rebuild()) return false;
+        if (largest_ <= row_tolerance * scale) return true;
+        if (borders_.empty() || !rebuild()) return false;
     }
     return false;
 }
