@@ -73,8 +73,8 @@ struct ReducedRun::Motion {
 };
 
 ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions options, int modes)
-    : full_(full), scene_(scene), options_(std::move(options)), stages_(full.stages()),
-      wanted_(std::max(modes, 1)), coarse_(full.structure().plane(), coarse_pairs)
+    : full_(full), scene_(scene), options_(std::move(options)), stages_(full.stages()), wanted_(std::max(modes, 1)),
+      coarse_(full.structure().plane(), coarse_pairs)
 {
     const Stopwatch start;
     if (!full.model().mesh.contact.matching)
@@ -296,7 +296,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
     const bool estimated = estimate == TruncationEstimate::made && result.status != Status::self_excited; // no slip
     const std::optional<double> error = !estimated ? std::numeric_limits<double>::quiet_NaN()
-                                            : truncation_error(loop, contact.value_or(scene_.contact), memory);
+                                                   : truncation_error(loop, contact.value_or(scene_.contact), memory);
     if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
     result.seconds.dynamics = clock.seconds();

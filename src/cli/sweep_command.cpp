@@ -338,8 +338,7 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
 int run(const Job& job, const Records& records, const Streams& streams)
 {
     const SweepArguments& a = job.arguments;
-    const Sweep inputs{job.scene, job.axes, job.tasks, records,
-                       a.modes,   a.penalty_stiffness, a.truncation_error};
+    const Sweep inputs{job.scene, job.axes, job.tasks, records, a.modes, a.penalty_stiffness, a.truncation_error};
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     const std::vector<std::size_t> wanted = shard_rows(job.tasks, job.shard.value_or(Shard{}));

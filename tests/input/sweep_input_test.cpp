@@ -82,6 +82,7 @@ TEST_F(SweepInput, AxesAndMethods)
     says({scene, "--penalty-stiffness", "1e11"}, 2, "fe-penalty is not among the methods.");
     says({scene, "--modes", "8"}, 2, "fe-reduced is not among the methods.");
     says({scene, "--method", "fe-reduced", "--modes", "0"}, 2, "--modes");
+    says({scene, "--truncation-error"}, 2, "fe-reduced is not among the methods.");
 }
 
 /// The part file 0/2 with `what` replaced, merged with the good part 1/2.

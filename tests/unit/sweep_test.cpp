@@ -36,7 +36,7 @@ TEST_F(SweepScene, EveryFeMethodGivesItsOwnRow)
     const Answer a =
         sweep({"--friction", "0.1", "--method",
                "rigid,fe,fe-exact,fe-penalty,fe-slip-tolerance,fe-goldgruber-2015,fe-reduced,fe-whole-steps",
-               "--penalty-stiffness", "1e9", "--json"});
+               "--penalty-stiffness", "1e9", "--truncation-error", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto rows = nlohmann::json::parse(a.out)["rows"];
     ASSERT_EQ(rows.size(), 16u);
@@ -59,6 +59,22 @@ TEST_F(SweepScene, EveryFeMethodGivesItsOwnRow)
     const Answer fe = answer_of({"fe", path("block.toml"), "--json"});
     ASSERT_EQ(fe.code, 0) << fe.talk;
     EXPECT_EQ(nlohmann::json::parse(fe.out)["runs"][0]["slip_mm"].get<double>(), 1e3 * slip["fe"]);
+}
+
+// The estimate is three runs of its own beside the row's: without it the slip has the same bits.
+TEST_F(SweepScene, TheErrorOfModesIsEstimatedOnDemand)
+{
+    const std::vector<std::string> reduced = {"--friction", "0.1,0.12", "--method", "fe-reduced", "--json"};
+    const Answer plain = sweep(reduced), estimated = sweep(with(reduced, {"--truncation-error"}));
+    ASSERT_EQ(plain.code, 0) << plain.talk;
+    ASSERT_EQ(estimated.code, 0) << estimated.talk;
+    const auto without = nlohmann::json::parse(plain.out)["rows"], rows = nlohmann::json::parse(estimated.out)["rows"];
+    ASSERT_EQ(without.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_TRUE(without[i]["truncation_error_m"].is_null());
+        EXPECT_GE(rows[i]["truncation_error_m"].get<double>(), 0.0);
+        EXPECT_EQ(without[i]["slip_m"], rows[i]["slip_m"]);
+    }
 }
 
 TEST_F(SweepScene, SizeAndReservoirReachTheModel)
