@@ -1,6 +1,7 @@
 #include "fe2d/reduction/reduced_contact.hpp"
 
 #include "core/stopwatch.hpp"
+#include "fe2d/run/dense_product.hpp"
 
 #include <algorithm>
 
@@ -120,7 +121,10 @@ void ReducedContact::land(ReducedOperator& op, const ContactStates& before, cons
     if (!op.contact().lands(before, states)) return;
     const bool shuts = op.contact().shuts(before, states);
     const auto gaps = [&](const VectorXd& modes, const VectorXd& massless) {
-        return VectorXd(system_.modes.on_plane * modes + system_.flexibility * massless);
+        VectorXd values, of_massless;
+        set_product(system_.modes.on_plane, modes, values);
+        set_product(system_.flexibility, massless, of_massless);
+        return VectorXd(values + of_massless);
     };
     ContactSolution jumps{states, {}, {}};
     const VectorXd rate = gaps(state_.q_v, state_.p_v);

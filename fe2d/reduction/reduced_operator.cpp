@@ -1,5 +1,7 @@
 #include "fe2d/reduction/reduced_operator.hpp"
 
+#include "fe2d/run/dense_product.hpp"
+
 #include <Eigen/Cholesky>
 
 namespace damslip::fe2d {
@@ -88,7 +90,7 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless
     const double w = 1.0 + constants_.scheme.alpha;
     const VectorXd free = inverse_ * VectorXd(load - system_.modes.on_plane.transpose() * massless);
     stuck = massless;
-    stuck.noalias() += stiff_modes_ * free;
+    add_product(stiff_modes_, free, stuck);
     if (system_.slips_damped()) {
         const double mean = system_.mean_motion.dot(inverse_ * load);
         stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
