@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -21,54 +22,117 @@ constexpr double smallest_pivot = 1e-13; ///< of a factor against the diagonal o
 constexpr double row_aim = 1e-13;        ///< of the released rows, relative to the largest stuck force: refine above
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
 
-/// In place, with row interchanges, column by column: each is solved with the columns of L before it.
-/// @returns the smallest pivot, absolute
-double factorise(Eigen::Ref<Eigen::MatrixXd> a, std::vector<Index>& pivots)
+// Compiled twice, the processor chooses: four numbers at a time in place of two, nothing fused, the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define DAMSLIP_TWO_LEVELS __attribute__((target_clones("avx2", "default")))
+#else
+#define DAMSLIP_TWO_LEVELS
+#endif
+
+/// y -= c₀ x₀ + c₁ x₁ + c₂ x₂ + c₃ x₃, each row in this order.
+DAMSLIP_TWO_LEVELS void subtract_four(const std::array<const double*, 4>& c, const double* const x, double* const y,
+                                      const Index from, const Index to)
 {
-    const Index n = a.rows();
-    double smallest = std::numeric_limits<double>::infinity();
-    pivots.resize(static_cast<std::size_t>(n));
-    for (Index j = 0; j < n; ++j) {
-        auto column = a.col(j);
-        for (Index i = 0; i < j; ++i) std::swap(column[i], column[pivots[static_cast<std::size_t>(i)]]);
-        if (j > 0) {
-            auto top = column.head(j);
-            a.topLeftCorner(j, j).triangularView<Eigen::UnitLower>().solveInPlace(top);
-            column.tail(n - j).noalias() -= a.block(j, 0, n - j, j) * top;
+    const double *const c0 = c[0], *const c1 = c[1], *const c2 = c[2], *const c3 = c[3];
+    const double x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
+#pragma GCC ivdep
+    for (Index i = from; i < to; ++i) y[i] = y[i] - x0 * c0[i] - x1 * c1[i] - x2 * c2[i] - x3 * c3[i];
+}
+
+void subtract_one(const double* const c, const double x, double* const y, const Index from, const Index to)
+{
+    for (Index i = from; i < to; ++i) y[i] -= x * c[i];
+}
+
+/// A square matrix that is factorised in place, in the leading part of a larger one.
+struct Block {
+    double* first;
+    Index stride;
+    Index size;
+
+    double* column(Index j) const { return first + j * stride; }
+};
+
+Block leading(Eigen::MatrixXd& matrix, Index size)
+{
+    return {matrix.data(), matrix.rows(), size};
+}
+
+/// x = L⁻¹ x with the first `columns` of the unit lower L, taken off all rows below.
+void solve_lower(const Block& a, const Index columns, double* const x)
+{
+    Index k = 0;
+    for (; k + 4 <= columns; k += 4) {
+        const std::array<const double*, 4> c{a.column(k), a.column(k + 1), a.column(k + 2), a.column(k + 3)};
+        for (Index j = 0; j < 3; ++j) subtract_one(c[static_cast<std::size_t>(j)], x[k + j], x, k + j + 1, k + 4);
+        subtract_four(c, x + k, x, k + 4, a.size);
+    }
+    for (; k < columns; ++k) subtract_one(a.column(k), x[k], x, k + 1, a.size);
+}
+
+/// x = U⁻¹ x
+void solve_upper(const Block& a, double* const x)
+{
+    Index k = a.size;
+    for (; k % 4 != 0; --k) {
+        x[k - 1] /= a.column(k - 1)[k - 1];
+        subtract_one(a.column(k - 1), x[k - 1], x, 0, k - 1);
+    }
+    for (; k > 0; k -= 4) {
+        const Index low = k - 4;
+        const std::array<const double*, 4> c{a.column(low), a.column(low + 1), a.column(low + 2), a.column(low + 3)};
+        for (Index j = 3; j >= 0; --j) {
+            x[low + j] /= c[static_cast<std::size_t>(j)][low + j];
+            subtract_one(c[static_cast<std::size_t>(j)], x[low + j], x, low, low + j);
         }
-        Index pivot = 0;
-        const double size = column.tail(n - j).cwiseAbs().maxCoeff(&pivot);
-        pivot += j;
+        subtract_four(c, x + low, x, 0, low);
+    }
+}
+
+/// A = PLU in place, column by column: each is solved with the columns of L before it.
+/// @returns the smallest pivot, absolute
+double factorise(const Block& a, std::vector<Index>& pivots)
+{
+    double smallest = std::numeric_limits<double>::infinity();
+    pivots.resize(static_cast<std::size_t>(a.size));
+    for (Index j = 0; j < a.size; ++j) {
+        double* const column = a.column(j);
+        for (Index i = 0; i < j; ++i) std::swap(column[i], column[pivots[static_cast<std::size_t>(i)]]);
+        solve_lower(a, j, column);
+        Index pivot = j;
+        for (Index i = j + 1; i < a.size; ++i)
+            if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
+        const double size = std::abs(column[pivot]);
+        if (!(size > 0.0) || !std::isfinite(size)) return 0.0;
+        smallest = std::min(smallest, size);
         pivots[static_cast<std::size_t>(j)] = pivot;
-        smallest = std::min(smallest, std::isfinite(size) ? size : 0.0);
-        if (!(size > 0.0)) return 0.0;
-        if (pivot != j) a.row(j).head(j + 1).swap(a.row(pivot).head(j + 1));
-        column.tail(n - j - 1) /= column[j];
+        if (pivot != j)
+            for (Index i = 0; i <= j; ++i) std::swap(a.column(i)[j], a.column(i)[pivot]);
+        for (Index i = j + 1; i < a.size; ++i) column[i] /= column[j];
     }
     return smallest;
 }
 
 /// x = A⁻¹ x by the factors.
-void solve_in_place(const Eigen::Ref<const Eigen::MatrixXd>& factor, const std::vector<Index>& pivots,
-                    Eigen::Ref<VectorXd> x)
+void solve_in_place(const Block& a, const std::vector<Index>& pivots, double* const x)
 {
-    const Index n = factor.rows();
-    for (Index i = 0; i < n; ++i) std::swap(x[i], x[pivots[static_cast<std::size_t>(i)]]);
-    factor.triangularView<Eigen::UnitLower>().solveInPlace(x);
-    factor.triangularView<Eigen::Upper>().solveInPlace(x);
+    for (Index i = 0; i < a.size; ++i) std::swap(x[i], x[pivots[static_cast<std::size_t>(i)]]);
+    solve_lower(a, a.size, x);
+    solve_upper(a, x);
 }
 
 /// force -= V x of some columns of V: four at a time, each row by its columns in their order.
 /// @param x  by unknown
 void take_off(const Eigen::MatrixXd& stiffness, const std::vector<Index>& columns, const VectorXd& x, VectorXd& force)
 {
-    const auto index = [&](std::size_t k) { return columns[k]; };
-    const auto column = [&](std::size_t k) { return stiffness.col(index(k)); };
+    const auto column = [&](std::size_t k) { return stiffness.data() + columns[k] * stiffness.rows(); };
+    const auto factor = [&](std::size_t k) { return x[columns[k]]; };
     std::size_t k = 0;
-    for (; k + 4 <= columns.size(); k += 4)
-        force = force - x[index(k)] * column(k) - x[index(k + 1)] * column(k + 1) - x[index(k + 2)] * column(k + 2) -
-                x[index(k + 3)] * column(k + 3);
-    for (; k < columns.size(); ++k) force -= x[index(k)] * column(k);
+    for (; k + 4 <= columns.size(); k += 4) {
+        const double factors[4] = {factor(k), factor(k + 1), factor(k + 2), factor(k + 3)};
+        subtract_four({column(k), column(k + 1), column(k + 2), column(k + 3)}, factors, force.data(), 0, force.size());
+    }
+    for (; k < columns.size(); ++k) subtract_one(column(k), factor(k), force.data(), 0, force.size());
 }
 
 } // namespace
@@ -190,7 +254,7 @@ void ReleasedSystem::put(const Border& border)
     } else {
         for (Index i = 0; i < size; ++i) line[i] = entry(unknown, border.row, base_[static_cast<std::size_t>(i)]);
     }
-    solve_in_place(factor_.topLeftCorner(size, size), pivots_, column);
+    solve_in_place(leading(factor_, size), pivots_, column.data());
     borders_.push_back(border);
     const auto corner = [&](Index row, Index of) { // E - R Y
         const Border &a = borders_[static_cast<std::size_t>(row)], &b = borders_[static_cast<std::size_t>(of)];
@@ -226,7 +290,7 @@ bool ReleasedSystem::factorise_corner()
     double scale = 0.0;
     for (const Border& border : borders_) scale = std::max(scale, stiffness_(border.unknown, border.unknown));
     corner_factor_.topLeftCorner(count, count) = corner_.topLeftCorner(count, count);
-    return count == 0 || factorise(corner_factor_.topLeftCorner(count, count), corner_pivots_) > smallest_pivot * scale;
+    return count == 0 || factorise(leading(corner_factor_, count), corner_pivots_) > smallest_pivot * scale;
 }
 
 void ReleasedSystem::diagonal_changed(Index unknown)
@@ -276,7 +340,7 @@ bool ReleasedSystem::rebuild()
         }
     }
     const double largest = size > 0 ? matrix.diagonal().cwiseAbs().maxCoeff() : 0.0;
-    regular_ = size == 0 || factorise(matrix, pivots_) > smallest_pivot * largest;
+    regular_ = size == 0 || factorise(leading(factor_, size), pivots_) > smallest_pivot * largest;
     return regular_;
 }
 
@@ -300,12 +364,12 @@ void ReleasedSystem::solve_for_step()
     const auto size = static_cast<Index>(base_.size()), count = static_cast<Index>(borders_.size());
     auto x = base_part_.head(size);
     for (Index i = 0; i < size; ++i) x[i] = residual_[base_[static_cast<std::size_t>(i)]];
-    solve_in_place(factor_.topLeftCorner(size, size), pivots_, x);
+    solve_in_place(leading(factor_, size), pivots_, x.data());
     if (count > 0) {
         auto s = border_part_.head(count);
         for (Index j = 0; j < count; ++j) s[j] = residual_[borders_[static_cast<std::size_t>(j)].unknown];
         s.noalias() -= lines_.topLeftCorner(size, count).transpose() * x;
-        solve_in_place(corner_factor_.topLeftCorner(count, count), corner_pivots_, s);
+        solve_in_place(leading(corner_factor_, count), corner_pivots_, s.data());
         x.noalias() -= columns_.topLeftCorner(size, count) * s;
     }
     for (Index i = 0; i < size; ++i) step_[base_[static_cast<std::size_t>(i)]] = x[i];
