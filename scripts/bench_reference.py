@@ -61,6 +61,7 @@ MILLION = ["sweep", "{scene}", "-q", "--method", "rigid", "--friction", "0.65:0.
            "--polarity", "1,-1", "-j", "1", "--out", "{folder}/rows.csv"]
 MILLION_ROWS = 41668 * 12 * 2
 REDUCED = ["sweep", "{scene}", "-q", "--method", "fe-reduced", "--friction", FRICTIONS, "-j", "1"]
+REDUCED_16 = ["sweep", "{scene}", "-q", "--method", "fe-reduced", "--friction", "0.70:1.0:0.02", "-j", "1"]
 WHOLE = ["sweep", "{scene}", "-q", "--method", "fe-whole-steps", "--friction", FRICTIONS, "-j", "1"]
 
 # The scene of the reference needs no mass = "massless": its rock without a density has none.
@@ -69,6 +70,8 @@ CASES = {
                   Side(both(MASSLESS, ADDED, FIXED), FE), bar="0.60"),
     "reduced": Case("reduced, 12 modes, model kept, a row", Side(both(ADDED, FIXED), REDUCED),
                     Side(both(MASSLESS, ADDED, FIXED), REDUCED), units=4, bar="0.30"),
+    "reduced-16": Case("reduced, 12 modes, model kept for 16 frictions, a row", Side(both(ADDED, FIXED), REDUCED_16),
+                       Side(both(MASSLESS, ADDED, FIXED), REDUCED_16), units=16),
     "radiating": Case("radiating rock, cache warm, to massless", Side(both(ADDED, FIXED), FE_BEFORE),
                       Side(both(ADDED, FIXED), FE), bar="1.0"),
     "default": Case("default accuracy, radiating + acoustic, to massless + acoustic", Side(ACOUSTIC, FE_BEFORE),

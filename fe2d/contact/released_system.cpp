@@ -219,7 +219,7 @@ ReleasedSystem::Border ReleasedSystem::wanted_border(std::size_t unknown) const
 bool ReleasedSystem::follow_by_borders()
 {
     const auto size = static_cast<Index>(base_.size());
-    const Index most = std::min<Index>(most_borders, 8 + size / 4);
+    const Index most = std::min<Index>(most_borders, 6 + size / 6);
     Index wanted = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k)
         if (wanted_border(k).kind != BorderKind::none && ++wanted > most) return false;
