@@ -23,10 +23,14 @@ constexpr double row_aim = 1e-13;        ///< of the released rows, relative to 
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
 
 // Compiled twice, the processor chooses: four numbers at a time in place of two, nothing fused, the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// Not with checkers: the choice runs before they are set up.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
+    !defined(__SANITIZE_THREAD__)
 #define DAMSLIP_TWO_LEVELS __attribute__((target_clones("avx2", "default")))
+#define DAMSLIP_INDEPENDENT _Pragma("GCC ivdep")
 #else
 #define DAMSLIP_TWO_LEVELS
+#define DAMSLIP_INDEPENDENT
 #endif
 
 /// y -= c₀ x₀ + c₁ x₁ + c₂ x₂ + c₃ x₃, each row in this order.
@@ -35,8 +39,8 @@ DAMSLIP_TWO_LEVELS void subtract_four(const std::array<const double*, 4>& c, con
 {
     const double *const c0 = c[0], *const c1 = c[1], *const c2 = c[2], *const c3 = c[3];
     const double x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
-#pragma GCC ivdep
-    for (Index i = from; i < to; ++i) y[i] = y[i] - x0 * c0[i] - x1 * c1[i] - x2 * c2[i] - x3 * c3[i];
+    DAMSLIP_INDEPENDENT // y is no column of c
+        for (Index i = from; i < to; ++i) y[i] = y[i] - x0 * c0[i] - x1 * c1[i] - x2 * c2[i] - x3 * c3[i];
 }
 
 void subtract_one(const double* const c, const double x, double* const y, const Index from, const Index to)
