@@ -2,6 +2,7 @@
 #include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/self_excited.hpp"
 #include "fe2d/run/static_relaxation.hpp"
+#include "fe2d/run/tied_frequencies.hpp"
 
 #include "core/input_error.hpp"
 #include "core/stopwatch.hpp"
@@ -169,16 +170,23 @@ Model EarthquakeRun::tied_model() const
 double EarthquakeRun::window() const
 {
     std::call_once(window_found_, [this] {
-        const Model tied = tied_model();
         double frequency = 0.0;
         if (water_) {
-            const CoupledModes modes = coupled_modes_up_to(coupled_pencil(tied, water_->water), 0.0, 1);
-            frequency = leading_modal_masses(modes, 1).front().frequency / (2.0 * std::numbers::pi);
-        } else if (const NaturalModes natural = natural_modes(tied, 1); natural.frequency.size() > 0)
-            frequency = natural.frequency[0];
-        window_ = slide_window(frequency);
+            const CoupledModes modes = coupled_modes_up_to(coupled_pencil(tied_model(), water_->water), 0.0, 1);
+            frequency = leading_modal_masses(modes, 1).front().frequency;
+        } else if (const VectorXd found = bonded_frequencies(1); found.size() > 0)
+            frequency = found[0];
+        window_ = slide_window(frequency / (2.0 * std::numbers::pi));
     });
     return window_;
+}
+
+/// Of the dam bonded to massless rock, without acoustic water, ascending [rad/s]; fewer where there are fewer.
+VectorXd EarthquakeRun::bonded_frequencies(int count) const
+{
+    const bool lumped = scene_.time.scheme == TimeScheme::central_difference;
+    if (const auto found = lumped ? std::nullopt : tied_frequencies(*structure_, count)) return *found;
+    return (2.0 * std::numbers::pi) * natural_modes(tied_model(), count).frequency;
 }
 
 void EarthquakeRun::find_damping()
@@ -194,21 +202,19 @@ void EarthquakeRun::find_damping()
         damping_.constants = {wanted.mass_coefficient.value_or(0.0), wanted.stiffness_coefficient.value_or(0.0)};
         return;
     }
-    const Model tied = tied_model();
     if (water_) { // the leading modes, without those of the water alone
-        damping_.constants = damping_of(scene_, tied, water_->water, {}).constants;
+        damping_.constants = damping_of(scene_, tied_model(), water_->water, {}).constants;
         return;
     }
     const int modes = std::max(wanted.first_mode, wanted.second_mode);
-    const NaturalModes natural = natural_modes(tied, modes);
-    if (natural.frequency.size() < modes) {
+    const VectorXd frequency = bonded_frequencies(modes);
+    if (frequency.size() < modes) {
         usable_ = false;
-        why_not_ = fmt::format("Rayleigh damping needs mode {}, and {} were found.", modes, natural.frequency.size());
+        why_not_ = fmt::format("Rayleigh damping needs mode {}, and {} were found.", modes, frequency.size());
         return;
     }
-    const double to_omega = 2.0 * std::numbers::pi;
-    damping_.constants = rayleigh_constants(wanted.ratio, to_omega * natural.frequency[wanted.first_mode - 1],
-                                            to_omega * natural.frequency[wanted.second_mode - 1]);
+    damping_.constants =
+        rayleigh_constants(wanted.ratio, frequency[wanted.first_mode - 1], frequency[wanted.second_mode - 1]);
 }
 
 /// The load at the end of a stage. The water in the joint comes with the last.

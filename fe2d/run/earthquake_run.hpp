@@ -171,6 +171,7 @@ private:
     Rest rest(const Lane& lane) const;
     Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
     Model tied_model() const;
+    Eigen::VectorXd bonded_frequencies(int count) const;
     void find_damping();
     std::shared_ptr<const ReducedRock> let_radiate();
     std::shared_ptr<const ExplicitOperators> explicit_operators() const;
