@@ -6,6 +6,8 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr int steps_to_follow = 64; ///< without numerical damping round-off grows from step to step
+
 bool drags(const GroundAcceleration& ground)
 {
     return ground.drag_h != 0.0 || ground.drag_v != 0.0;
@@ -16,7 +18,66 @@ bool drags(const GroundAcceleration& ground)
 StepDam::StepDam(const StepOperators& operators, VectorXd load, const DynamicState& start)
     : operators_(operators), structure_(operators.structure()), damping_(operators.damping()), load_(std::move(load))
 {
-    multiply(step_constants(operators.scheme(), 1.0), start); // at rest the step size does not matter
+    multiply_all(step_constants(operators.scheme(), 1.0), start); // at rest the step size does not matter
+}
+
+void StepDam::multiply_all(const StepConstants& c, const DynamicState& state)
+{
+    if (!follows()) return multiply(c, state);
+    structure_.take_off_translations(state.u, deformation_);
+    operators_.products().multiply({deformation_, state.v, state.v, state.a}, products_);
+    of_velocity_.swap(products_.stiffness_2);
+    VectorXd mass_product;
+    operators_.products().multiply(state.a, of_accel_, mass_product);
+    combine(c);
+    take_dam_mass(state);
+    followed_ = 0;
+}
+
+/// K y of the products K v and K a.
+void StepDam::combine(const StepConstants& c)
+{
+    const double w = 1.0 + c.scheme.alpha, b = damping_.constants.stiffness;
+    products_.stiffness_2 = (b * (c.scheme.alpha + w * c.a4)) * of_velocity_ + (b * w * c.a5) * of_accel_;
+}
+
+void StepDam::take_dam_mass(const DynamicState& state)
+{
+    products_.dam_mass_1 = products_.mass_1;
+    products_.dam_mass_2 = products_.mass_2;
+    structure_.leave_dam_mass(products_.dam_mass_1, state.v);
+    structure_.leave_dam_mass(products_.dam_mass_2, state.a);
+}
+
+/// K, M and M_dam times a change of which A_d times it is `load`.
+void StepDam::multiply_change(const StepConstants& c, const VectorXd& change, const VectorXd& load)
+{
+    if (follows())
+        operators_.products().multiply_mass(change, mass_change_);
+    else
+        operators_.products().multiply(change, stiffness_change_, mass_change_);
+    dam_mass_change_ = mass_change_;
+    structure_.leave_dam_mass(dam_mass_change_, change);
+    if (!follows()) return;
+    const double w = 1.0 + c.scheme.alpha, of_dam = w * c.a1 * damping_.constants.mass,
+                 share = 1.0 / (w * (1.0 + c.a1 * damping_.constants.stiffness));
+    stiffness_change_ = share * (load - c.a0 * mass_change_ - of_dam * dam_mass_change_);
+}
+
+/// Products of the new state from those of the last one, which stand in before_.
+void StepDam::follow(const StepConstants& c, const StepChange& change)
+{
+    multiply_change(c, change.dam, change.load);
+    products_.stiffness_1 = before_.stiffness_1 + stiffness_change_;
+    products_.mass_1 = c.a1 * mass_change_ - c.a4 * before_.mass_1 - c.a5 * before_.mass_2;
+    products_.mass_2 = c.a0 * mass_change_ - c.a2 * before_.mass_1 - c.a3 * before_.mass_2;
+    for (Eigen::Index i = 0; i < of_velocity_.size(); ++i) {
+        const double v = of_velocity_[i], a = of_accel_[i];
+        of_velocity_[i] = c.a1 * stiffness_change_[i] - c.a4 * v - c.a5 * a;
+        of_accel_[i] = c.a0 * stiffness_change_[i] - c.a2 * v - c.a3 * a;
+    }
+    combine(c);
+    ++followed_;
 }
 
 void StepDam::multiply(const StepConstants& c, const DynamicState& state)
@@ -26,24 +87,27 @@ void StepDam::multiply(const StepConstants& c, const DynamicState& state)
     structure_.clear_water(combined_);
     structure_.take_off_translations(state.u, deformation_);
     operators_.products().multiply({deformation_, combined_, state.v, state.a}, products_);
-    products_.dam_mass_1 = products_.mass_1;
-    products_.dam_mass_2 = products_.mass_2;
-    structure_.leave_dam_mass(products_.dam_mass_1, state.v);
-    structure_.leave_dam_mass(products_.dam_mass_2, state.a);
+    take_dam_mass(state);
     structure_.clear_water(deformation_);
 }
 
 void StepDam::prepare(const StepConstants& c, const DynamicState& state)
 {
     if (c.dt == dt_) return;
-    if (dt_ != 0.0) multiply(c, state);
+    if (follows())
+        combine(c);
+    else if (dt_ != 0.0)
+        multiply(c, state);
     dt_ = c.dt;
 }
 
-void StepDam::end_step(const StepConstants& c, const DynamicState& state)
+void StepDam::end_step(const StepConstants& c, const DynamicState& state, const StepChange& change)
 {
     std::swap(before_, products_);
-    multiply(c, state);
+    if (!follows() || followed_ == steps_to_follow) return multiply_all(c, state);
+    follow(c, change);
+    structure_.take_off_translations(state.u, deformation_);
+    take_dam_mass(state);
 }
 
 /// What the moving ground does to the dam and its added mass. Relative to the ground, which accelerates by (-a_h, +a_v),
@@ -79,33 +143,29 @@ void StepDam::right_hand_side(const StepConstants& c, const DynamicState& state,
          weighted(&GroundAcceleration::velocity_v) * structure_.velocity_y();
 }
 
-VectorXd StepDam::change_velocity(const StepConstants& c, const VectorXd& change)
+VectorXd StepDam::change_velocity(const StepConstants& c, const VectorXd& change, const VectorXd& load)
 {
-    VectorXd stiffness_change, mass_change;
-    operators_.products().multiply(change, stiffness_change, mass_change);
-    structure_.clear_water(stiffness_change); // damping is the dam's
-    VectorXd dam_mass_change = mass_change;
-    structure_.leave_dam_mass(dam_mass_change, change);
-    VectorXd damping = damping_.constants.mass * dam_mass_change + damping_.constants.stiffness * stiffness_change;
+    multiply_change(c, change, load);
+    structure_.clear_water(stiffness_change_); // damping is the dam's
+    VectorXd damping = damping_.constants.mass * dam_mass_change_ + damping_.constants.stiffness * stiffness_change_;
     if (structure_.gyrates()) damping += structure_.gyration() * change;
     structure_.clear_water(damping);
-    products_.mass_1 += mass_change;
-    products_.dam_mass_1 += dam_mass_change;
+    products_.mass_1 += mass_change_;
+    products_.dam_mass_1 += dam_mass_change_;
     products_.stiffness_2 +=
-        damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change;
+        damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change_;
+    if (follows()) of_velocity_ += stiffness_change_;
     return damping;
 }
 
-VectorXd StepDam::change_acceleration(const StepConstants& c, const VectorXd& change)
+VectorXd StepDam::change_acceleration(const StepConstants& c, const VectorXd& change, const VectorXd& load)
 {
-    VectorXd stiffness_change, mass_change;
-    operators_.products().multiply(change, stiffness_change, mass_change);
-    products_.mass_2 += mass_change;
-    products_.stiffness_2 += damping_.constants.stiffness * (1.0 + c.scheme.alpha) * c.a5 * stiffness_change;
-    VectorXd dam_mass_change = mass_change;
-    structure_.leave_dam_mass(dam_mass_change, change);
-    products_.dam_mass_2 += dam_mass_change;
-    return mass_change;
+    multiply_change(c, change, load);
+    products_.mass_2 += mass_change_;
+    products_.stiffness_2 += damping_.constants.stiffness * (1.0 + c.scheme.alpha) * c.a5 * stiffness_change_;
+    products_.dam_mass_2 += dam_mass_change_;
+    if (follows()) of_accel_ += stiffness_change_;
+    return mass_change_;
 }
 
 void StepDam::instant(const DynamicState& state, Instant& now) const
