@@ -195,7 +195,7 @@ void DynamicOperator::add_interface_load(const VectorXd& gap, const VectorXd& ti
     if (slip_damping_.active()) {
         const VectorXd slip = slip_damping_.weights.transpose() * gap.tail(structure_.pairs());
         const double share = (1.0 + constants_.scheme.alpha) * constants_.a1;
-        load.noalias() += slip_damping_.momentum * VectorXd(share * slip);
+        for (Index k = 0; k < slip.size(); ++k) load += (share * slip[k]) * slip_damping_.momentum.col(k);
     }
     load.tail(2 * structure_.interface()) += structure_.planes().gaps().transpose() * tilde;
 }

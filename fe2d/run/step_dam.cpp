@@ -8,6 +8,46 @@ namespace {
 
 constexpr int steps_to_follow = 64; ///< without numerical damping round-off grows from step to step
 
+/// The products that follow a step, all but those of M_dam, entry by entry: one pass over the vectors.
+struct FollowingRows {
+    const double *change, *mass_change, *stiffness, *mass_1, *mass_2; ///< of the step; of the state before it
+    double *of_velocity, *of_accel, *new_stiffness, *new_combined, *new_mass_1, *new_mass_2;
+    double velocity_share, accel_share; ///< of K v and K a in K y
+
+    [[gnu::always_inline]] inline void update(const StepConstants& c, Eigen::Index rows) const
+    {
+        const double *const __restrict k = change, *const __restrict m = mass_change, *const __restrict ku = stiffness,
+                                *const __restrict mv = mass_1, *const __restrict ma = mass_2;
+        double *const __restrict kv = of_velocity, *const __restrict ka = of_accel, *const __restrict ku_new = new_stiffness,
+                      *const __restrict ky = new_combined, *const __restrict mv_new = new_mass_1,
+                                *const __restrict ma_new = new_mass_2;
+        const double a0 = c.a0, a1 = c.a1, a2 = c.a2, a3 = c.a3, a4 = c.a4, a5 = c.a5, of_v = velocity_share,
+                     of_a = accel_share;
+#pragma GCC ivdep
+        for (Eigen::Index i = 0; i < rows; ++i) {
+            const double v = kv[i], a = ka[i], v_new = a1 * k[i] - a4 * v - a5 * a, a_new = a0 * k[i] - a2 * v - a3 * a;
+            kv[i] = v_new;
+            ka[i] = a_new;
+            ky[i] = of_v * v_new + of_a * a_new;
+            ku_new[i] = ku[i] + k[i];
+            mv_new[i] = a1 * m[i] - a4 * mv[i] - a5 * ma[i];
+            ma_new[i] = a0 * m[i] - a2 * mv[i] - a3 * ma[i];
+        }
+    }
+};
+
+void update_rows(const FollowingRows& rows, const StepConstants& c, Eigen::Index count)
+{
+    rows.update(c, count);
+}
+
+#if DAMSLIP_HAS_AVX2
+DAMSLIP_AVX2 void update_rows_avx2(const FollowingRows& rows, const StepConstants& c, Eigen::Index count)
+{
+    rows.update(c, count);
+}
+#endif
+
 bool drags(const GroundAcceleration& ground)
 {
     return ground.drag_h != 0.0 || ground.drag_v != 0.0;
@@ -68,15 +108,21 @@ void StepDam::multiply_change(const StepConstants& c, const VectorXd& change, co
 void StepDam::follow(const StepConstants& c, const StepChange& change)
 {
     multiply_change(c, change.dam, change.load);
-    products_.stiffness_1 = before_.stiffness_1 + stiffness_change_;
-    products_.mass_1 = c.a1 * mass_change_ - c.a4 * before_.mass_1 - c.a5 * before_.mass_2;
-    products_.mass_2 = c.a0 * mass_change_ - c.a2 * before_.mass_1 - c.a3 * before_.mass_2;
-    for (Eigen::Index i = 0; i < of_velocity_.size(); ++i) {
-        const double v = of_velocity_[i], a = of_accel_[i];
-        of_velocity_[i] = c.a1 * stiffness_change_[i] - c.a4 * v - c.a5 * a;
-        of_accel_[i] = c.a0 * stiffness_change_[i] - c.a2 * v - c.a3 * a;
-    }
-    combine(c);
+    const double w = 1.0 + c.scheme.alpha, b = damping_.constants.stiffness;
+    const Eigen::Index count = stiffness_change_.size();
+    for (VectorXd* of_new : {&products_.stiffness_1, &products_.stiffness_2, &products_.mass_1, &products_.mass_2})
+        of_new->resize(count);
+    const FollowingRows rows{stiffness_change_.data(),     mass_change_.data(),          before_.stiffness_1.data(),
+                             before_.mass_1.data(),        before_.mass_2.data(),        of_velocity_.data(),
+                             of_accel_.data(),             products_.stiffness_1.data(), products_.stiffness_2.data(),
+                             products_.mass_1.data(),      products_.mass_2.data(),      b * (c.scheme.alpha + w * c.a4),
+                             b * w * c.a5};
+#if DAMSLIP_HAS_AVX2
+    if (vector_level() == VectorLevel::avx2)
+        update_rows_avx2(rows, c, count);
+    else
+#endif
+        update_rows(rows, c, count);
     ++followed_;
 }
 

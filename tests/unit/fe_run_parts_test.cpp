@@ -1,13 +1,17 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
+#include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/run/block_products.hpp"
 #include "fe2d/run/dense_product.hpp"
 #include "fe2d/run/few_rows.hpp"
+#include "fe2d/run/tied_frequencies.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 namespace {
 
@@ -104,6 +108,26 @@ TEST(FeRunParts, condensed_rock_agrees_with_the_condensed_body)
     EXPECT_LT((all.tail(n) - recovered).norm(), 1e-11 * recovered.norm());
 }
 
+// The dam on the condensed rock against Lanczos on a model built tied: two ways to the same eigenvalues, 1e-13 each of 1/ω².
+TEST(FeRunParts, frequencies_of_the_bonded_dam_are_those_of_a_model_built_tied)
+{
+    Scene scene = fe2d::test::sliding_dam(0.77, 1.0, 9.0);
+    scene.mesh.size = 6.0;
+    ModelOptions options;
+    options.added_mass = fe2d::test::options_of(scene).added_mass;
+    for (const bool rock : {true, false}) {
+        if (!rock) scene.foundation.reset();
+        options.base = Base::separate;
+        const Model apart = build_model(scene, options);
+        const auto found = tied_frequencies(ContactStructure(apart), 5);
+        ASSERT_TRUE(found);
+        options.base = Base::tied;
+        const NaturalModes natural = natural_modes(build_model(scene, options), 5);
+        for (Index i = 0; i < 5; ++i)
+            EXPECT_NEAR((*found)[i] / (2.0 * std::numbers::pi * natural.frequency[i]), 1.0, 1e-11) << i;
+    }
+}
+
 // Sums run in the same order on every level of vector instructions: not a bit differs. On a processor without AVX2 there
 // is one level, and nothing to compare.
 TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
@@ -132,6 +156,10 @@ TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
     products.multiply(a, k_low, m_low, VectorLevel::sse2);
     products.multiply(a, k_high, m_high, VectorLevel::avx2);
     EXPECT_TRUE(k_low == k_high && m_low == m_high);
+    VectorXd mass_low, mass_high;
+    products.multiply_mass(a, mass_low, VectorLevel::sse2);
+    products.multiply_mass(a, mass_high, VectorLevel::avx2);
+    EXPECT_TRUE(mass_low == m_low && mass_high == m_low);
 
     for (const Index columns : {Index(7), Index(127), Index(150)}) { // sums by blocks from 128 on
         const MatrixXd matrix = uneven(55 * columns).reshaped(55, columns);
