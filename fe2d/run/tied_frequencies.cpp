@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <cstdint>
 
 namespace damslip::fe2d {
 
