@@ -120,31 +120,6 @@ void BlockProducts::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffnes
     }
 }
 
-void BlockProducts::multiply_mass(const Eigen::VectorXd& x, Eigen::VectorXd& mass,
-                                  [[maybe_unused]] VectorLevel level) const
-{
-    const int nodes = static_cast<int>(begin_.size()) - 1;
-    mass.resize(2 * nodes);
-#if DAMSLIP_HAS_AVX2
-    if (level == VectorLevel::avx2) return multiply_mass_avx2(x.data(), mass.data());
-#endif
-    using Pair = Eigen::Array2d;
-    using Values = Eigen::Map<const Pair>;
-    for (int j = 0; j < nodes; ++j) {
-        Pair m = Pair::Zero();
-        for (int e = begin_[j]; e < begin_[j + 1]; ++e) {
-            const double* const y = x.data() + 2 * column_[e];
-            if (full_begin_[j] < 0) {
-                m += mass_[e] * Values(y);
-            } else {
-                const double* const of_mass = full_mass(j)[e - begin_[j]].v;
-                m += Values(of_mass) * y[0] + Values(of_mass + 2) * y[1];
-            }
-        }
-        mass.segment<2>(2 * j) = m.matrix();
-    }
-}
-
 #if DAMSLIP_HAS_AVX2
 
 namespace {
@@ -221,28 +196,6 @@ DAMSLIP_AVX2 void BlockProducts::multiply_avx2(const double* const x, double* co
             }
         }
         _mm_storeu_pd(stiffness + 2 * j, k);
-        _mm_storeu_pd(mass + 2 * j, m);
-    }
-}
-
-DAMSLIP_AVX2 void BlockProducts::multiply_mass_avx2(const double* const x, double* const mass) const
-{
-    const int *const begin = begin_.data(), *const columns = column_.data();
-    const double* const masses = mass_.data();
-    for (int j = 0, nodes = static_cast<int>(begin_.size()) - 1; j < nodes; ++j) {
-        __m128d m = _mm_setzero_pd();
-        const int first = begin[j], end = begin[j + 1];
-        if (full_begin_[j] < 0) {
-            const auto term = [&](int e) DAMSLIP_AVX2 {
-                return _mm_mul_pd(_mm_loaddup_pd(masses + e), _mm_loadu_pd(x + 2 * columns[e]));
-            };
-            int e = first;
-            for (; e + 2 < end; e += 3) m = _mm_add_pd(_mm_add_pd(_mm_add_pd(m, term(e)), term(e + 1)), term(e + 2));
-            for (; e < end; ++e) m = _mm_add_pd(m, term(e));
-        } else {
-            const Block* const of_mass = full_mass(j) - first;
-            for (int e = first; e < end; ++e) m = _mm_add_pd(m, times_one(of_mass[e].v, x + 2 * columns[e]));
-        }
         _mm_storeu_pd(mass + 2 * j, m);
     }
 }

@@ -34,8 +34,6 @@ public:
     /// K x and M x of one vector.
     void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& stiffness, Eigen::VectorXd& mass,
                   VectorLevel level = vector_level()) const;
-    /// M x alone.
-    void multiply_mass(const Eigen::VectorXd& x, Eigen::VectorXd& mass, VectorLevel level = vector_level()) const;
     std::size_t bytes() const;
 
 private:
@@ -45,7 +43,6 @@ private:
 #if DAMSLIP_HAS_AVX2
     void multiply_avx2(const double* gathered, Products& out) const;
     void multiply_avx2(const double* x, double* stiffness, double* mass) const;
-    void multiply_mass_avx2(const double* x, double* mass) const;
 #endif
     const Block* full_mass(int node) const
     {

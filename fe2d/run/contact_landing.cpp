@@ -121,9 +121,7 @@ ContactLanding::Change ContactLanding::change_by(StepRock::Jump of, const Contac
     op.finish(free, jumps.force, VectorXd::Zero(2 * structure_.pairs()), jumps.displacement, tilde);
     op.factor().backward(free.dam);
     VectorXd rock_change = rock.jump(of, op, free, jumps.displacement, tilde);
-    VectorXd load = VectorXd::Zero(free.dam.size());
-    op.add_interface_load(jumps.displacement, tilde, load);
-    return {std::move(free.dam), std::move(rock_change), std::move(load)};
+    return {std::move(free.dam), std::move(rock_change)};
 }
 
 std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, JointSolver& solver,
@@ -145,13 +143,13 @@ std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, Joi
     }
     if (!(shuts ? solver.land(law, rate, jumps) : solver.hold(law, rate, jumps))) return std::nullopt;
     states = jumps.states;
-    const auto [change, rock_change, load] = change_by(StepRock::Jump::velocity, jumps, op, rock);
+    const auto [change, rock_change] = change_by(StepRock::Jump::velocity, jumps, op, rock);
     state.v += change;
     state.rock_v += rock_change;
     change_tangential(jumps, states, state.rate_t);
 
     LandingForces forces;
-    forces.dam = dam.change_velocity(op.constants(), change, load);
+    forces.dam = dam.change_velocity(op.constants(), change);
     forces.rock = rock.damping_force(rock_change);
     if (slip_damping_.active()) {
         forces.slip_rate = slip_damping_.weights.transpose() * jumps.displacement.tail(m);
@@ -182,13 +180,13 @@ void ContactLanding::change_accelerations(const DynamicOperator& op, const Conta
                                           LandingForces& forces) const
 {
     const StepConstants& c = op.constants();
-    const auto [change, rock_change, load] = change_by(StepRock::Jump::acceleration, jumps, op, rock);
+    const auto [change, rock_change] = change_by(StepRock::Jump::acceleration, jumps, op, rock);
     state.a += change;
     state.rock_a += rock_change;
     change_tangential(jumps, state.contact.states, state.accel_t);
     state.contact.force += force;
 
-    forces.dam += dam.change_acceleration(c, change, load) / (1.0 + c.scheme.alpha);
+    forces.dam += dam.change_acceleration(c, change) / (1.0 + c.scheme.alpha);
     forces.dam.tail(2 * structure_.interface()) -= structure_.planes().gaps().transpose() * force;
     if (structure_.has_rock()) forces.rock += rock.trace().transpose() * force;
 }

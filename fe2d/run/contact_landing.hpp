@@ -58,7 +58,6 @@ private:
                  LandingForces& forces) const;
     struct Change {
         Eigen::VectorXd dam, rock;
-        Eigen::VectorXd load; ///< A_d times that of the dam
     };
     Change change_by(StepRock::Jump of, const ContactSolution& jumps, const DynamicOperator& op, StepRock& rock) const;
     Eigen::VectorXd gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock_values,

@@ -54,7 +54,6 @@ void ContactStepper::begin(const StepState& state, const GroundAcceleration& gro
     }
     rock.begin_step(*op_, state);
     rock.load_water(*op_, free_.dam);
-    if (dam.follows()) change_.load = free_.dam;
 }
 
 ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& state, const StepRock& rock,
@@ -112,7 +111,6 @@ const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock
     const Index m = structure_.pairs();
     change_.dam.swap(free_.dam);
     change_.rock = rock.step(*op_, free_, change_.gap, tilde_);
-    if (change_.load.size() > 0) op_->add_interface_load(change_.gap, tilde_, change_.load);
 
     const auto update = [&](const auto& step, VectorXd& velocity, VectorXd& acceleration) {
         for (Index i = 0; i < velocity.size(); ++i) {

@@ -87,7 +87,7 @@ void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& 
     const ContactStates states_before = state_.contact.states;
     const auto approach = landing_.approach(state_, rock_, op.constants().dt);
     const StepChange& change = stepper_.end(ground, rock_, state_);
-    dam_.end_step(op.constants(), state_, change);
+    dam_.end_step(op.constants(), state_);
     rock_.end_step(state_);
     ledger_.add(op.constants(), state_, change, dam_, rock_);
     if (auto forces = landing_.land(op, stepper_.solver(), states_before, law, rock_, dam_, state_, approach)) {

@@ -190,16 +190,6 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
     free.dam.tail(free.interface.size()) = free.interface;
 }
 
-void DynamicOperator::add_interface_load(const VectorXd& gap, const VectorXd& tilde, VectorXd& load) const
-{
-    if (slip_damping_.active()) {
-        const VectorXd slip = slip_damping_.weights.transpose() * gap.tail(structure_.pairs());
-        const double share = (1.0 + constants_.scheme.alpha) * constants_.a1;
-        for (Index k = 0; k < slip.size(); ++k) load += (share * slip[k]) * slip_damping_.momentum.col(k);
-    }
-    load.tail(2 * structure_.interface()) += structure_.planes().gaps().transpose() * tilde;
-}
-
 std::size_t DynamicOperator::bytes() const
 {
     const std::size_t rock =

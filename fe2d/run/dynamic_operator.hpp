@@ -107,9 +107,6 @@ public:
     void finish(Free& free, const Eigen::VectorXd& force, const Eigen::VectorXd& known, const Eigen::VectorXd& gap,
                 Eigen::VectorXd& tilde) const;
 
-    /// What acts on A_d beside b_d in such a step is added, k s_Δ + Dᵀ λ̃: so A_d Δu is known without a product.
-    void add_interface_load(const Eigen::VectorXd& gap, const Eigen::VectorXd& tilde, Eigen::VectorXd& load) const;
-
     std::size_t bytes() const;
 
 private:

@@ -18,7 +18,6 @@ struct StepChange {
     Eigen::VectorXd dam;  ///< Δu [m]
     Eigen::VectorXd rock; ///< Δr [m]
     Eigen::VectorXd gap;  ///< Δg, 2m [m]
-    Eigen::VectorXd load; ///< A_d Δu of DynamicOperator [N/m]; empty where StepDam::follows() is false
 };
 
 /// A body at one instant, as the work ledger wants it.

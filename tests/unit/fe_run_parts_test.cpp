@@ -156,10 +156,6 @@ TEST(FeRunParts, levels_of_vector_instructions_give_the_same_bits)
     products.multiply(a, k_low, m_low, VectorLevel::sse2);
     products.multiply(a, k_high, m_high, VectorLevel::avx2);
     EXPECT_TRUE(k_low == k_high && m_low == m_high);
-    VectorXd mass_low, mass_high;
-    products.multiply_mass(a, mass_low, VectorLevel::sse2);
-    products.multiply_mass(a, mass_high, VectorLevel::avx2);
-    EXPECT_TRUE(mass_low == m_low && mass_high == m_low);
 
     for (const Index columns : {Index(7), Index(127), Index(150)}) { // sums by blocks from 128 on
         const MatrixXd matrix = uneven(55 * columns).reshaped(55, columns);
