@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr Index most_borders = 64;
-constexpr double smallest_pivot = 1e-13; ///< of a factor against the diagonal of V
+constexpr double smallest_pivot = 1e-13; ///< of a factor against the unknown's own diagonal entry of V
 constexpr double row_aim = 1e-13;        ///< of the released rows, relative to the largest stuck force: refine above
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
 
@@ -94,8 +94,10 @@ void solve_upper(const Block& a, double* const x)
 }
 
 /// A = PLU in place, column by column: each is solved with the columns of L before it.
-/// @returns the smallest pivot, absolute
-double factorise(const Block& a, std::vector<Index>& pivots)
+/// @param scale  of a column by its place: what its pivot is measured against
+/// @returns the smallest pivot over its scale
+template <class Scale>
+double factorise(const Block& a, std::vector<Index>& pivots, const Scale& scale)
 {
     double smallest = std::numeric_limits<double>::infinity();
     pivots.resize(static_cast<std::size_t>(a.size));
@@ -108,7 +110,7 @@ double factorise(const Block& a, std::vector<Index>& pivots)
             if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
         const double size = std::abs(column[pivot]);
         if (!(size > 0.0) || !std::isfinite(size)) return 0.0;
-        smallest = std::min(smallest, size);
+        smallest = std::min(smallest, size / scale(j));
         pivots[static_cast<std::size_t>(j)] = pivot;
         if (pivot != j)
             for (Index i = 0; i <= j; ++i) std::swap(a.column(i)[j], a.column(i)[pivot]);
@@ -291,10 +293,12 @@ void ReleasedSystem::drop(std::size_t border)
 bool ReleasedSystem::factorise_corner()
 {
     const auto count = static_cast<Index>(borders_.size());
-    double scale = 0.0;
-    for (const Border& border : borders_) scale = std::max(scale, stiffness_(border.unknown, border.unknown));
+    const auto scale = [&](Index j) {
+        const Index unknown = borders_[static_cast<std::size_t>(j)].unknown;
+        return stiffness_(unknown, unknown);
+    };
     corner_factor_.topLeftCorner(count, count) = corner_.topLeftCorner(count, count);
-    return count == 0 || factorise(leading(corner_factor_, count), corner_pivots_) > smallest_pivot * scale;
+    return count == 0 || factorise(leading(corner_factor_, count), corner_pivots_, scale) > smallest_pivot;
 }
 
 void ReleasedSystem::diagonal_changed(Index unknown)
@@ -343,8 +347,11 @@ bool ReleasedSystem::rebuild()
             matrix(i, j) = column[unknown] + (coupling == 0.0 ? 0.0 : coupling * column[unknown - pairs_]);
         }
     }
-    const double largest = size > 0 ? matrix.diagonal().cwiseAbs().maxCoeff() : 0.0;
-    regular_ = size == 0 || factorise(leading(factor_, size), pivots_) > smallest_pivot * largest;
+    const auto scale = [&](Index j) {
+        const Index unknown = base_[static_cast<std::size_t>(j)];
+        return stiffness_(unknown, unknown);
+    };
+    regular_ = size == 0 || factorise(leading(factor_, size), pivots_, scale) > smallest_pivot;
     return regular_;
 }
 
