@@ -11,6 +11,12 @@ bool drags(const GroundAcceleration& ground)
     return ground.drag_h != 0.0 || ground.drag_v != 0.0;
 }
 
+/// The load of the ground's acceleration but for drag, computed where it is assigned.
+auto inertia(const ContactStructure& structure, const GroundAcceleration& ground)
+{
+    return ground.h * structure.inertia_x() - ground.v * structure.inertia_y();
+}
+
 } // namespace
 
 StepDam::StepDam(const StepOperators& operators, VectorXd load, const DynamicState& start)
@@ -50,7 +56,7 @@ void StepDam::end_step(const StepConstants& c, const DynamicState& state)
 /// the load is -M r_x (-a_h) - M r_y a_v; the velocity that damping feels is (-v_h, +v_v), too.
 VectorXd StepDam::ground_force(const GroundAcceleration& ground) const
 {
-    VectorXd force = ground.h * structure_.inertia_x() - ground.v * structure_.inertia_y();
+    VectorXd force = inertia(structure_, ground);
     if (drags(ground)) force += ground.drag_h * structure_.dam_inertia_x() - ground.drag_v * structure_.dam_inertia_y();
     return force;
 }
@@ -60,13 +66,10 @@ void StepDam::right_hand_side(const StepConstants& c, const DynamicState& state,
 {
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
     const double a_m = damping_.constants.mass;
-    const auto without_drag = [this](const GroundAcceleration& g) {
-        return g.h * structure_.inertia_x() - g.v * structure_.inertia_y();
-    };
     if (drags(ground) || drags(state.ground))
         b = load_ + w * ground_force(ground) - alpha * ground_force(state.ground);
     else
-        b = load_ + w * without_drag(ground) - alpha * without_drag(state.ground);
+        b = load_ + w * inertia(structure_, ground) - alpha * inertia(structure_, state.ground);
     b = b - products_.stiffness_1 + products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 +
         (a_m * cv) * products_.dam_mass_1 + (a_m * ca) * products_.dam_mass_2;
     if (structure_.gyrates()) b += structure_.gyration() * VectorXd(cv * state.v + ca * state.a);

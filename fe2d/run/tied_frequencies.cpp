@@ -54,8 +54,8 @@ private:
     std::optional<Eigen::LLT<MatrixXd>> base_; ///< nothing: rigid
 };
 
-/// A load that no mode is orthogonal to but by accident: the inertia in both directions, changed from unknown to unknown by
-/// numbers of a linear congruential sequence, the same every time.
+/// A motion that no mode is orthogonal to but by accident: it changes from unknown to unknown by numbers of a linear
+/// congruential sequence, the same every time.
 VectorXd start_motion(Index n)
 {
     VectorXd motion(n);

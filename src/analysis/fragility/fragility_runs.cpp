@@ -110,9 +110,8 @@ public:
         at->second.asked = ++asked_;
         const std::shared_ptr<Shared> shared = at->second.shared;
         if (kept_.size() > most)
-            kept_.erase(std::min_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
-                return a.second.asked < b.second.asked;
-            }));
+            kept_.erase(std::min_element(kept_.begin(), kept_.end(),
+                                         [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; }));
         return shared;
     }
 
@@ -296,8 +295,7 @@ struct MotionGroup {
     std::vector<std::size_t> ids;
 };
 
-std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const SampleIds& wanted,
-                                       const FragilityRuns& runs)
+std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const SampleIds& wanted, const FragilityRuns& runs)
 {
     std::map<std::tuple<std::string, std::size_t, std::size_t, int>, std::vector<std::size_t>> found;
     std::vector<std::string> words;
@@ -398,7 +396,8 @@ private:
         if (model.reduced) {
             for (const Contact& contact : contacts) {
                 if (watch_.stop_asked()) break;
-                const fe2d::ReducedResult r = model.reduced->run(motion, contact, {}, fe2d::TruncationEstimate::left_out);
+                const fe2d::ReducedResult r =
+                    model.reduced->run(motion, contact, {}, fe2d::TruncationEstimate::left_out);
                 put(r, r.step_error);
             }
             return rows;

@@ -45,7 +45,7 @@ struct Sweep {
     Records records;
     std::optional<int> modes = {};                ///< of reduced runs
     std::optional<double> penalty_stiffness = {}; ///< of the method fe-penalty [N/m^3]; none: the scene's
-    bool truncation_error = false; ///< estimate of each reduced run what the modes left out change
+    bool truncation_error = false;                ///< estimate of each reduced run what the modes left out change
 };
 
 /// Reads the records. @throws InputError

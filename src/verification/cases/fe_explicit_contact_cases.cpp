@@ -155,8 +155,8 @@ std::vector<Check> explicit_against_implicit()
         // impacts take (1.3 % of the friction's energy at the weakest damping, 1e-4 of it at the strongest).
         const double impacts = std::abs(runs[3].normal) / std::abs(runs[3].friction) * slip;
         checks.push_back({name + fmt::format("slip history from that of implicit steps, of {:.3g} mm", 1e3 * slip), "m",
-                          2.0 * (apart_by(runs[3], runs[2]) + apart_by(finer, fine) + impacts), apart_by(runs[3], finer), 0.0,
-                          Measure::upper_bound});
+                          2.0 * (apart_by(runs[3], runs[2]) + apart_by(finer, fine) + impacts),
+                          apart_by(runs[3], finer), 0.0, Measure::upper_bound});
         if (b_k > 2e-3)
             checks.push_back({name + "the same", "of the slip", b_k > 6e-3 ? 0.001 : 0.005,
                               apart_by(runs[3], finer) / slip, 0.0, Measure::upper_bound});
@@ -181,8 +181,8 @@ void add_fe_explicit_contact_cases(Registry& registry)
         {"fe.contact.explicit-rigid-base",
          "Slip of a small dam on a rigid base by explicit forward increments and by implicit steps goes to one limit",
          "Carpenter, Taylor & Katona (1991) with closed pairs against DynamicContact, HHT; same lumped mass",
-         "what is left at dt is at most twice what the last halving changed, in both schemes; what impacts on the rigid "
-         "base are worth is the scheme's, at most twice their share of the friction's energy; round-off of the ledger",
+         "what is left at dt is at most twice what the last halving changed, in both schemes; what impacts on the "
+         "rigid base are worth is the scheme's, at most twice their share of the friction's energy; round-off of the ledger",
          explicit_against_implicit});
 }
 
