@@ -135,16 +135,16 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
 }
 
 /// step() of each lane, its two passes made of all together.
-void DynamicContact::advance(std::span<Lane> lanes, double dt, const GroundAcceleration& ground)
+void DynamicContact::advance(std::span<Lane> lanes, double dt)
 {
     std::vector<VectorXd*> vectors;
     std::vector<Lane*> tried, whole;
     for (Lane& lane : lanes) {
         if (lane.run->cuts_.expected() > 0) {
-            lane.report = lane.run->step(dt, ground, *lane.law, 0);
+            lane.report = lane.run->step(dt, lane.ground, *lane.law, 0);
             continue;
         }
-        lane.run->begin(dt, ground);
+        lane.run->begin(dt, lane.ground);
         tried.push_back(&lane);
         vectors.push_back(&lane.run->stepper_.dam_vector());
     }
@@ -156,7 +156,7 @@ void DynamicContact::advance(std::span<Lane> lanes, double dt, const GroundAccel
         DynamicContact& run = *lane->run;
         lane->report = run.stepper_.solve(*lane->law, run.state_, run.rock_, run.counts_);
         if (run.cut_after_contact(lane->report, 0)) {
-            lane->report = run.in_halves(dt, ground, *lane->law, 0);
+            lane->report = run.in_halves(dt, lane->ground, *lane->law, 0);
             continue;
         }
         run.stepper_.accept(run.state_);
@@ -166,9 +166,9 @@ void DynamicContact::advance(std::span<Lane> lanes, double dt, const GroundAccel
     factor.backward(vectors);
     for (Lane* lane : whole)
         if (lane->run->cut_after_step(0))
-            lane->report = lane->run->in_halves(dt, ground, *lane->law, 0);
+            lane->report = lane->run->in_halves(dt, lane->ground, *lane->law, 0);
         else
-            lane->run->end(ground, lane->report, *lane->law);
+            lane->run->end(lane->ground, lane->report, *lane->law);
 }
 
 std::size_t DynamicContact::bytes() const

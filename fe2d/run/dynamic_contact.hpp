@@ -34,14 +34,15 @@ public:
     void count_slips_from(const Eigen::VectorXd& start) { largest_slips_.count_from(start); }
     const std::vector<double>& local_errors() const { return cuts_.local_errors(); }
 
-    /// One of several runs that share their operators and ground and go on in step.
+    /// One of several runs that share their operators and go on in step.
     struct Lane {
         DynamicContact* run = nullptr;
         const ContactLaw* law = nullptr;
+        GroundAcceleration ground; ///< at the end of the step
         ContactReport report;
     };
     /// advance() of each lane, with the same bits, in common passes over the factor.
-    static void advance(std::span<Lane> lanes, double dt, const GroundAcceleration& ground);
+    static void advance(std::span<Lane> lanes, double dt);
 
     /// Of the reservoir's waves at the upstream end of the base, for water that flows along it, until the next call [Pa].
     void set_wave_pressure(double pressure);

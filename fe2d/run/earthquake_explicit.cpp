@@ -42,68 +42,62 @@ std::shared_ptr<const ExplicitOperators> EarthquakeRun::explicit_operators() con
     return operators;
 }
 
-std::vector<RunResult> EarthquakeRun::shake_explicitly(const GroundMotion& motion, int halvings,
-                                                       std::span<Lane* const> lanes) const
+RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
 {
+    const Stopwatch clock;
+    const GroundMotion& motion = *lane.motion;
     const double row = motion.dt, duration = row * static_cast<double>(motion.accel_h.size() - 1);
-    const std::optional<ChosenSteps>& steps = lanes.front()->steps;
-    const double step = steps && steps->step
-                            ? *steps->step
+    const double step = lane.steps && lane.steps->step
+                            ? *lane.steps->step
                             : explicit_step(row, scene_.time.dt, limit_of(*explicit_)) / (1 << halvings);
     const long parts = std::lround(row / step);
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     const auto record_steps = std::lround(duration / row);
     const long all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / row - 1e-9));
     const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / row - 1e-9));
-    std::vector<RunResult> results;
-    for (const Lane* lane : lanes) {
-        const Stopwatch clock;
-        ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), lane->start, lane->memory);
-        Strength strength = lane->strength;
-        RunResult result = lane->result;
-        result.dt = step;
-        result.halvings = halvings;
-        result.status = Status::sliding_at_end;
-        HistoryRecorder recorder(dynamics, result.history, options_.pair_series, frame_interval(duration));
-        const SlideProbe probe(structure_->planes(), lane->result.stages.back(), dynamics.state().contact.slip);
-        SlideWatch watch = slide_watch(*lane, duration);
-        const auto look = [&] { watch.add(probe.instant(dynamics, strength.law())); };
-        const auto add_row = [&] {
-            recorder.add();
-            watch.add_row(result.history.slide);
-        };
-        look();
-        add_row();
-        std::vector<GroundAcceleration> ahead(static_cast<std::size_t>(strength.constant() ? parts : 1));
-        for (long n = 0; n < all_steps && result.status == Status::sliding_at_end; ++n) {
-            for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
-                for (std::size_t k = 0; k < ahead.size(); ++k)
-                    ahead[k] =
-                        ground.at((static_cast<double>(n) +
-                                   static_cast<double>(done + static_cast<long>(k) + 1) / static_cast<double>(parts)) *
-                                  row);
-                dynamics.advance(step, ahead, strength.law());
-                strength.follow(dynamics.state().contact);
-                look();
-            }
-            add_row();
-            if (options_.progress &&
-                options_.progress(progress_of(*lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
-                result.status = Status::interrupted;
-            else if (has_diverged(dynamics, result.history.energy.front().strain))
-                result.status = Status::diverged;
-            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
-                result.status = Status::at_rest;
-            else if (watch.self_excited())
-                result.status = Status::self_excited;
+    ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), lane.start, lane.memory);
+    Strength strength = lane.strength;
+    RunResult result = lane.result;
+    result.dt = step;
+    result.halvings = halvings;
+    result.status = Status::sliding_at_end;
+    HistoryRecorder recorder(dynamics, result.history, options_.pair_series, frame_interval(duration));
+    const SlideProbe probe(structure_->planes(), lane.result.stages.back(), dynamics.state().contact.slip);
+    SlideWatch watch = slide_watch(lane, duration);
+    const auto look = [&] { watch.add(probe.instant(dynamics, strength.law())); };
+    const auto add_row = [&] {
+        recorder.add();
+        watch.add_row(result.history.slide);
+    };
+    look();
+    add_row();
+    std::vector<GroundAcceleration> ahead(static_cast<std::size_t>(strength.constant() ? parts : 1));
+    for (long n = 0; n < all_steps && result.status == Status::sliding_at_end; ++n) {
+        for (long done = 0; done < parts; done += static_cast<long>(ahead.size())) {
+            for (std::size_t k = 0; k < ahead.size(); ++k)
+                ahead[k] = ground.at((static_cast<double>(n) + static_cast<double>(done + static_cast<long>(k) + 1) /
+                                                                   static_cast<double>(parts)) *
+                                     row);
+            dynamics.advance(step, ahead, strength.law());
+            strength.follow(dynamics.state().contact);
+            look();
         }
-        recorder.finish();
-        result.run_out = watch.figures();
-        end_lane(dynamics, strength, *lane, result);
-        result.seconds.dynamics += clock.seconds();
-        results.push_back(std::move(result));
+        add_row();
+        if (options_.progress &&
+            options_.progress(progress_of(lane, halvings, record_steps, n + 1, row)) == RunAnswer::stop)
+            result.status = Status::interrupted;
+        else if (has_diverged(dynamics, result.history.energy.front().strain))
+            result.status = Status::diverged;
+        else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
+            result.status = Status::at_rest;
+        else if (watch.self_excited())
+            result.status = Status::self_excited;
     }
-    return results;
+    recorder.finish();
+    result.run_out = watch.figures();
+    end_lane(dynamics, strength, lane, result);
+    result.seconds.dynamics += clock.seconds();
+    return result;
 }
 
 } // namespace damslip::fe2d

@@ -5,11 +5,12 @@
 
 namespace damslip::fe2d {
 
-/// One strength of several that are run together: its static state, and the result so far.
+/// One motion and strength of several that are run together: its static state, and the result so far.
 struct EarthquakeRun::Lane {
     Strength strength;
     ContactMemory memory;
     Contact contact = {}; ///< strength of the base
+    const GroundMotion* motion = nullptr;
     StaticState start = {};
     Eigen::VectorXd load = {};   ///< static, on all unknowns, while it shakes [N/m]
     PressureProfile uplift = {}; ///< under the base, part of `load`

@@ -1,8 +1,7 @@
 #include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/run/earthquake_lane.hpp"
-#include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/joints_of_scene.hpp"
-#include "fe2d/run/slide_probe.hpp"
 
 #include "core/stopwatch.hpp"
 #include "fe2d/model/held_edges.hpp"
@@ -31,19 +30,6 @@ std::string water_in(const CrackLengths& crack)
 } // namespace
 
 namespace {
-
-/// Energy that contact or the scheme has made up, beyond what the ground and the weights gave: of contact a twentieth of
-/// it, or what lifts the dam by a tenth of a millimetre (landings at the end of coarse steps give and take as much). A stable
-/// scheme with beta < gamma/2 lends some of the kinetic energy and takes it back; an unstable one soon has given many times
-/// all else.
-bool diverges(const DynamicContact& dynamics)
-{
-    const Energy& energy = dynamics.energy();
-    const double given = std::abs(energy.external) + std::abs(energy.friction);
-    const double little = 1e-4 * dynamics.static_normal_force();
-    return !std::isfinite(energy.kinetic) || energy.contact_normal > little + 0.05 * given ||
-           -energy.numerical > little + 10.0 * given;
-}
 
 double largest(const std::vector<double>& values)
 {
@@ -148,44 +134,6 @@ VectorXd EarthquakeRun::displacement_of(const VectorXd& moving, const VectorXd& 
     return without_edges(*model_, *moving_model_, moving_->with_rock_to_model(moving));
 }
 
-namespace {
-
-/// One lane under way.
-struct Pass {
-    DynamicContact dynamics;
-    Strength strength;
-    RunResult result;
-    HistoryRecorder recorder;
-    SlideProbe probe;
-    SlideWatch watch;
-    bool going = true;
-
-    Pass(DynamicContact start, const Strength& at_start, const RunResult& so_far, PairSeries series,
-         double frame_interval, const std::optional<HistoryBefore>& before, SlideWatch watching)
-        : dynamics(std::move(start)), strength(at_start), result(so_far),
-          recorder(before ? HistoryRecorder(dynamics, result.history, series, *before)
-                          : HistoryRecorder(dynamics, result.history, series, frame_interval)),
-          probe(dynamics.structure().planes(), so_far.rest(), dynamics.state().contact.slip), watch(std::move(watching))
-    {
-        if (before) dynamics.count_slips_from(before->slip_zero);
-        look();
-        add_row();
-    }
-    void look() { watch.add(probe.instant(dynamics, strength.law())); }
-    void add_row()
-    {
-        recorder.add();
-        watch.add_row(result.history.slide);
-    }
-    void end(Status status)
-    {
-        result.status = status;
-        going = false;
-    }
-};
-
-} // namespace
-
 /// Wanted of the steps of pass `level`: half a step has an eighth of its local error, so the worst steps of the first pass
 /// are halved `level` times, the others as often as it takes to be no worse.
 StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
@@ -199,106 +147,111 @@ double EarthquakeRun::frame_interval(double record_end) const
     return options_.frames > 1 ? record_end / (options_.frames - 1) : 0.0;
 }
 
-std::vector<RunResult> EarthquakeRun::shake(const GroundMotion& motion, int halvings,
-                                            std::span<Lane* const> lanes) const
+/// The steps of a pass over the lane's motion.
+PassSteps EarthquakeRun::pass_steps(const Lane& lane, int parts) const
 {
-    if (motion.is_sequence() && lanes.size() > 1) return shake_in_turn(motion, halvings, lanes);
-    if (rests_between(motion)) return {shake_with_rests(motion, halvings, *lanes.front())};
-    if (explicit_) return shake_explicitly(motion, halvings, lanes);
-    const Stopwatch clock;
-    const double dt = scene_.time.dt.value_or(motion.dt);
-    const bool adaptive =
-        scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !lanes.front()->steps.has_value();
-    const int parts = adaptive ? 1 : 1 << halvings;
-    const double step = dt / parts;
-    PlayedGround ground(motion, damping_.mass, damping_.constants.mass);
-    std::vector<std::unique_ptr<Pass>> passes; // recorders point into them
-    for (const Lane* lane : lanes) {
-        const Rest at_rest = rest(*lane);
-        DynamicContact start(operators_, at_rest.load, at_rest.start, lane->memory, scene_.contact, options_.contact);
-        if (adaptive) start.control(control_of(*lane, halvings));
-        passes.push_back(std::make_unique<Pass>(std::move(start), lane->strength, lane->result, options_.pair_series,
-                                                frame_interval(ground.samples_end()), lane->before,
-                                                slide_watch(*lane, ground.end())));
-        RunResult& result = passes.back()->result;
-        result.dt = step;
-        result.halvings = halvings;
-        result.status = Status::sliding_at_end;
-        if (!lane->before) result.events.clear(); // of a coarser pass
-    }
+    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, options_.rest_time};
+}
 
+bool EarthquakeRun::adapts_steps(const Lane& lane) const
+{
+    return scene_.time.stepping == Stepping::adaptive && !scene_.time.substeps && !lane.steps.has_value();
+}
+
+/// One pass of each lane. Lanes with steps of the same size go on side by side; a sequence that rests between its records, and
+/// explicit steps, go alone.
+std::vector<RunResult> EarthquakeRun::shake(int halvings, std::span<Lane* const> lanes) const
+{
+    std::vector<RunResult> results(lanes.size());
+    std::vector<std::size_t> left(lanes.size());
+    std::iota(left.begin(), left.end(), 0);
+    while (!left.empty()) {
+        const Lane& first = *lanes[left.front()];
+        const auto goes_along = [&](std::size_t i) {
+            return lanes[i] == &first ||
+                   (!explicit_ && !rests_between(*first.motion) && !rests_between(*lanes[i]->motion) &&
+                    pass_steps(*lanes[i], 1) == pass_steps(first, 1));
+        };
+        const auto others = std::stable_partition(left.begin(), left.end(), goes_along);
+        std::vector<Lane*> together;
+        for (auto i = left.begin(); i != others; ++i) together.push_back(lanes[*i]);
+        std::vector<RunResult> some;
+        if (rests_between(*first.motion))
+            some.push_back(shake_with_rests(halvings, *together.front()));
+        else if (explicit_)
+            some.push_back(shake_explicitly(halvings, *together.front()));
+        else
+            some = shake_in_step(halvings, together);
+        for (std::size_t k = 0; k < some.size(); ++k) results[left[k]] = std::move(some[k]);
+        left.erase(left.begin(), others);
+    }
+    return results;
+}
+
+std::unique_ptr<EarthquakePass> EarthquakeRun::pass_of(const Lane& lane, int halvings, const PassSteps& steps) const
+{
+    const Rest at_rest = rest(lane);
+    DynamicContact start(operators_, at_rest.load, at_rest.start, lane.memory, scene_.contact, options_.contact);
+    if (adapts_steps(lane)) start.control(control_of(lane, halvings));
+    PlayedGround ground(*lane.motion, damping_.mass, damping_.constants.mass);
+    const double interval = frame_interval(ground.samples_end());
+    SlideWatch watch = slide_watch(lane, ground.end());
+    return std::make_unique<EarthquakePass>(std::move(start), std::move(ground), steps, lane.strength, lane.result,
+                                            options_.pair_series, interval, lane.before, std::move(watch));
+}
+
+/// Lanes with steps of the same size, side by side.
+std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane* const> lanes) const
+{
+    const Stopwatch clock;
+    const PassSteps steps = pass_steps(*lanes.front(), adapts_steps(*lanes.front()) ? 1 : 1 << halvings);
+    std::vector<std::unique_ptr<EarthquakePass>> passes;
+    std::size_t longest = 0; // what is left of it is what is left of all
+    for (const Lane* lane : lanes) {
+        passes.push_back(pass_of(*lane, halvings, steps));
+        if (passes.back()->shown_rows() > passes[longest]->shown_rows()) longest = passes.size() - 1;
+    }
     std::optional<HeelWaves> waves;
     if (scene_.uplift && scene_.uplift->water.opening == OpeningWater::reynolds &&
         scene_.uplift->water.wet_end == WetEndPressure::with_waves)
         waves.emplace(scene_, in_motion(), water_.get(), options_.added_mass);
 
-    const auto steps_to = [dt](double time) { return static_cast<long>(std::ceil(time / dt - 1e-9)); };
-    const long run_out = steps_to(scene_.sliding.run_out_max), rest_steps = steps_to(options_.rest_time);
-    const long shown_steps = steps_to(ground.samples_end());
-    long record_steps = steps_to(ground.end()), all_steps = record_steps + run_out;
-    long at_rest_since = -1; // step, of a sequence with more to come; -1: it moves
-    if (ground.event()) passes.front()->result.events.push_back({ground.event()->name, 0.0, ground.end(), 0.0, 0.0});
     std::vector<DynamicContact::Lane> under_way;
-    const auto any = [&] { return std::any_of(passes.begin(), passes.end(), [](const auto& p) { return p->going; }); };
-    for (long n = 0; n < all_steps && any(); ++n) {
-        for (int part = 1; part <= parts; ++part) {
+    const auto any = [&] {
+        return std::any_of(passes.begin(), passes.end(), [](const auto& p) { return p->going(); });
+    };
+    for (long n = 0; any(); ++n) {
+        for (int part = 1; part <= steps.parts; ++part) {
             under_way.clear();
             for (const auto& pass : passes)
-                if (pass->going && pass->dynamics.within_reach())
-                    under_way.push_back({&pass->dynamics, &pass->strength.law(), {}});
+                if (pass->makes_steps()) under_way.push_back(pass->lane(steps.time(n, part)));
             if (waves)
                 for (const DynamicContact::Lane& lane : under_way)
                     lane.run->set_wave_pressure(waves->pressure(lane.run->state()));
-            const double time = (static_cast<double>(n) + static_cast<double>(part) / parts) * dt;
-            DynamicContact::advance(under_way, step, ground.at(time));
+            DynamicContact::advance(under_way, steps.step());
             for (const auto& pass : passes)
-                if (pass->going) {
-                    pass->strength.follow(pass->dynamics.state().contact);
-                    pass->look();
-                }
+                if (pass->going()) pass->after_step();
         }
-        const bool stopped = options_.progress && options_.progress(progress_of(*lanes.front(), halvings, shown_steps,
-                                                                                n + 1, dt)) == RunAnswer::stop;
-        for (const auto& pass : passes) {
-            if (!pass->going) continue;
-            RunResult& result = pass->result;
-            pass->add_row();
-            if (stopped)
-                pass->end(Status::interrupted);
-            else if (!pass->dynamics.within_reach())
-                pass->end(Status::left_plane);
-            else if (diverges(pass->dynamics))
-                pass->end(Status::diverged);
-            else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time)) {
-                if (!ground.more()) {
-                    pass->end(Status::at_rest);
-                    continue;
-                }
-                if (at_rest_since < 0) at_rest_since = n + 1;
-                if (n + 1 < at_rest_since + steps_to(ground.pause())) continue;
-                result.events.back().slip = result.history.slip.back();
-                ground.next(static_cast<double>(n + 1) * dt);
-                result.events.push_back({ground.event()->name, ground.start(), ground.end(), 0.0, 0.0});
-                pass->watch.next_record(ground.end());
-                record_steps = steps_to(ground.end());
-                all_steps = record_steps + run_out;
-                at_rest_since = -1;
-            } else if (pass->watch.self_excited())
-                pass->end(Status::self_excited);
-        }
+        const bool stopped =
+            options_.progress && options_.progress(progress_of(*lanes[longest], halvings, passes[longest]->shown_rows(),
+                                                               n + 1, steps.row)) == RunAnswer::stop;
+        for (const auto& pass : passes)
+            if (pass->going()) pass->after_row(n, stopped);
     }
     const double seconds = clock.seconds() / static_cast<double>(lanes.size());
     std::vector<RunResult> results;
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        Pass& pass = *passes[i];
-        pass.recorder.finish();
-        if (adaptive && halvings == 0) lanes[i]->local_error = worst(pass.dynamics.local_errors());
-        if (adaptive) pass.result.dt = pass.dynamics.state().time / std::max(1, pass.dynamics.counts().steps);
-        pass.result.run_out = pass.watch.figures();
-        pass.result.events_left = ground.left();
-        end_lane(pass.dynamics, pass.strength, *lanes[i], pass.result);
-        pass.result.seconds.dynamics += seconds;
-        results.push_back(std::move(pass.result));
+        EarthquakePass& pass = *passes[i];
+        RunResult& result = pass.finish();
+        result.halvings = halvings;
+        const DynamicContact& dynamics = pass.dynamics();
+        if (adapts_steps(*lanes[i])) {
+            if (halvings == 0) lanes[i]->local_error = worst(dynamics.local_errors());
+            result.dt = dynamics.state().time / std::max(1, dynamics.counts().steps);
+        }
+        end_lane(dynamics, pass.strength(), *lanes[i], result);
+        result.seconds.dynamics += seconds;
+        results.push_back(std::move(result));
     }
     return results;
 }
@@ -313,16 +266,6 @@ PressureProfile EarthquakeRun::water_after(const ContactMemory& end, RunResult& 
     if (!options_.cracked_uplift_after) return options_.uplift_after;
     const CrackLengths& crack = result.base_water->largest;
     return options_.cracked_uplift_after(crack.upstream, crack.downstream);
-}
-
-/// Lanes of a sequence come to rest at times of their own, so each has a ground of its own.
-std::vector<RunResult> EarthquakeRun::shake_in_turn(const GroundMotion& motion, int halvings,
-                                                    std::span<Lane* const> lanes) const
-{
-    std::vector<RunResult> results;
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-        results.push_back(std::move(shake(motion, halvings, lanes.subspan(i, 1)).front()));
-    return results;
 }
 
 bool EarthquakeRun::rests_between(const GroundMotion& motion) const
@@ -363,8 +306,9 @@ void add_run_before(const RunResult& before, RunResult& run)
 
 /// A sequence whose water follows the crack between its records: each begins from a static state with it, as a run does
 /// that starts from the state another one has left (options.start), with the same bits.
-RunResult EarthquakeRun::shake_with_rests(const GroundMotion& motion, int halvings, Lane& first) const
+RunResult EarthquakeRun::shake_with_rests(int halvings, Lane& first) const
 {
+    const GroundMotion& motion = *first.motion;
     const std::size_t records = motion.events.size();
     const auto steps_of = [&](const GroundMotion& played) {
         const double end = motion.dt * static_cast<double>(played.accel_h.size() - 1);
@@ -405,7 +349,9 @@ RunResult EarthquakeRun::shake_with_rests(const GroundMotion& motion, int halvin
             later->steps_of_all = first.steps_of_all;
         }
         Lane* const lane[] = {later ? &*later : &first};
-        RunResult now = std::move(shake(alone, halvings, lane).front());
+        lane[0]->motion = &alone;
+        RunResult now = std::move(shake(halvings, lane).front());
+        first.motion = &motion;
         if (later) {
             add_run_before(run, now);
             first.later_errors[k - 1] = later->local_error;
@@ -496,9 +442,9 @@ SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
 }
 
 /// A pass with smaller steps; lanes whose error is still too large get the next one.
-void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const
+void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
 {
-    std::vector<RunResult> finer = shake(motion, halvings, lanes);
+    std::vector<RunResult> finer = shake(halvings, lanes);
     for (std::size_t i = 0; i < lanes.size(); ++i) {
         Lane& lane = *lanes[i];
         lane.next = 0;
@@ -527,48 +473,62 @@ void EarthquakeRun::refine(const GroundMotion& motion, int halvings, std::span<L
     }
 }
 
+std::size_t EarthquakeRun::runs_together() const
+{
+    constexpr Eigen::Index in_cache = 15'000; // moving unknowns; see docs/performance.md
+    constexpr std::size_t columns = 4;        // of the widest pass over the factor
+    return operators_ && in_motion().dam_unknowns() > in_cache ? columns : 1;
+}
+
 std::vector<RunResult> EarthquakeRun::run_all(const GroundMotion& motion, std::span<const Contact> contacts,
                                               const std::optional<ChosenSteps>& steps) const
 {
-    std::vector<RunResult> results(contacts.size());
-    std::vector<std::unique_ptr<Lane>> lanes;
+    std::vector<Shaking> shakings;
+    for (const Contact& contact : contacts) shakings.push_back({&motion, contact});
+    return run_all(shakings, steps);
+}
+
+std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
+                                              const std::optional<ChosenSteps>& steps) const
+{
+    std::vector<RunResult> results(shakings.size());
+    std::vector<std::unique_ptr<Lane>> lanes(shakings.size()); // null: it cannot move
     std::vector<Lane*> going;
     const int first = steps ? steps->halvings : scene_.time.substeps.value_or(0);
     const bool chosen = !steps && !scene_.time.substeps; // by the slip tolerance
-    const double step = scene_.time.dt.value_or(motion.dt) / (1 << first);
-    const bool movable = !operators_ || operators_->at(step).regular(); // explicit steps factorise nothing
-    for (const Contact& contact : contacts) {
-        if (!usable_ || !movable) break;
-        lanes.push_back(std::make_unique<Lane>(lane_of(contact)));
-        lanes.back()->steps = steps;
-        stand(*lanes.back(), options_.start ? &*options_.start : nullptr);
-        if (lanes.back()->stands()) going.push_back(lanes.back().get());
-    }
-    if (!going.empty()) {
-        std::vector<RunResult> coarse = shake(motion, first, going);
-        for (std::size_t i = 0; i < going.size(); ++i) {
-            going[i]->result = std::move(coarse[i]);
-            going[i]->result.slip_error = std::numeric_limits<double>::quiet_NaN();
-            going[i]->note_slips();
+    for (std::size_t i = 0; i < shakings.size(); ++i) {
+        results[i].message = why_not_;
+        if (!usable_) continue;
+        const double step = scene_.time.dt.value_or(shakings[i].motion->dt) / (1 << first);
+        if (operators_ && !operators_->at(step).regular()) { // explicit steps factorise nothing
+            results[i].message = fmt::format("The equations of a step of {:.4g} s could not be factorised.", step);
+            continue;
         }
+        lanes[i] = std::make_unique<Lane>(lane_of(shakings[i].contact));
+        lanes[i]->motion = shakings[i].motion;
+        lanes[i]->steps = steps;
+        stand(*lanes[i], options_.start ? &*options_.start : nullptr);
+        if (lanes[i]->stands()) going.push_back(lanes[i].get());
     }
-    for (Lane* lane : going) lane->next = first + 1;
+    std::vector<RunResult> coarse = shake(first, going);
+    for (std::size_t i = 0; i < going.size(); ++i) {
+        going[i]->result = std::move(coarse[i]);
+        going[i]->result.slip_error = std::numeric_limits<double>::quiet_NaN();
+        going[i]->note_slips();
+        going[i]->next = first + 1;
+    }
     for (int k = first + 1; chosen && k <= options_.largest_halvings; ++k) {
         std::vector<Lane*> now;
         for (Lane* lane : going)
             if (lane->next == k && lane->result.status != Status::interrupted) now.push_back(lane);
-        if (!now.empty()) refine(motion, k, now);
+        if (!now.empty()) refine(k, now);
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
-        if (usable_ && movable) {
-            const bool stands = lanes[i]->stands();
-            if (lanes[i]->next != 0 && chosen && over(lanes[i]->result.status))
-                lanes[i]->result.status = Status::tolerance_missed;
-            results[i] = std::move(lanes[i]->result);
+        if (Lane* lane = lanes[i].get()) {
+            const bool stands = lane->stands();
+            if (lane->next != 0 && chosen && over(lane->result.status)) lane->result.status = Status::tolerance_missed;
+            results[i] = std::move(lane->result);
             if (stands) judge(results[i]);
-        } else {
-            results[i].message =
-                usable_ ? fmt::format("The equations of a step of {:.4g} s could not be factorised.", step) : why_not_;
         }
         results[i].seconds.model = seconds_;
         results[i].damping = damping_.constants;

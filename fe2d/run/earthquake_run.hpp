@@ -24,6 +24,9 @@
 /// The staged run: gravity, water, uplift, earthquake, run-out, and the static state after it.
 namespace damslip::fe2d {
 
+class EarthquakePass;
+struct PassSteps;
+
 /// What the caller brings from other modules, and what only a run needs. All else is the scene's.
 struct RunOptions {
     AddedMassLaw added_mass;            ///< of the upstream face (ModelOptions::added_mass); empty: none
@@ -110,6 +113,12 @@ struct ChosenSteps {
     std::optional<double> step; ///< of an explicit scheme, whose limit depends on the mesh: Δt/2^halvings itself [s]
 };
 
+/// One of several runs of a model.
+struct Shaking {
+    const GroundMotion* motion = nullptr; ///< not null
+    Contact contact;                      ///< strength of the base
+};
+
 /// A scene made ready: mesh, matrices, rock condensed, loads, damping. Friction and motion may differ from run to run.
 /// The operators of each step size are made by the first run that needs them and shared by all; runs can go on in
 /// parallel.
@@ -145,11 +154,17 @@ public:
     /// @param contact  strength; default: the scene's
     RunResult run(const GroundMotion& motion, const std::optional<Contact>& contact = {}) const;
 
-    /// One motion with several strengths of the base, in lockstep on common passes over the factor: results in the same
-    /// order, the same bits as run() of each. Their dynamic seconds are equal shares of the common ones.
+    /// Several motions and strengths of the base, in lockstep on common passes over the factor where their steps are of the
+    /// same size: results in the same order, the same bits as run() of each. Their dynamic seconds are equal shares of the
+    /// common ones.
     /// @param steps  in place of those of options and scene; the slip then has no estimate of its error
+    std::vector<RunResult> run_all(std::span<const Shaking> shakings,
+                                   const std::optional<ChosenSteps>& steps = {}) const;
     std::vector<RunResult> run_all(const GroundMotion& motion, std::span<const Contact> contacts,
                                    const std::optional<ChosenSteps>& steps = {}) const;
+    /// How many runs gain by going in step in one run_all(), where they differ in the motion, too: 1 where the factor stays in
+    /// the processor's cache.
+    std::size_t runs_together() const;
     RunResult run_at(const GroundMotion& motion, const ChosenSteps& steps) const; ///< with the scene's strength
     /// Those of a run, for one on another mesh.
     ChosenSteps steps_of(const RunResult& run) const;
@@ -184,14 +199,16 @@ private:
     void stand(Lane& lane, const RunState* from) const;
     void go_on(StaticContact& statics, Lane& lane, const RunState& from) const;
     bool rests_between(const GroundMotion& motion) const;
-    RunResult shake_with_rests(const GroundMotion& motion, int halvings, Lane& lane) const;
+    RunResult shake_with_rests(int halvings, Lane& lane) const;
+    PassSteps pass_steps(const Lane& lane, int parts) const;
+    bool adapts_steps(const Lane& lane) const;
+    std::unique_ptr<EarthquakePass> pass_of(const Lane& lane, int halvings, const PassSteps& steps) const;
     double frame_interval(double record_end) const;
     StepControl control_of(const Lane& lane, int level) const;
-    void refine(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake_in_turn(const GroundMotion& motion, int halvings, std::span<Lane* const> lanes) const;
-    std::vector<RunResult> shake_explicitly(const GroundMotion& motion, int halvings,
-                                            std::span<Lane* const> lanes) const;
+    void refine(int halvings, std::span<Lane* const> lanes) const;
+    std::vector<RunResult> shake(int halvings, std::span<Lane* const> lanes) const;
+    std::vector<RunResult> shake_in_step(int halvings, std::span<Lane* const> lanes) const;
+    RunResult shake_explicitly(int halvings, const Lane& lane) const;
     PressureProfile water_after(const ContactMemory& end, RunResult& result) const;
     void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const;

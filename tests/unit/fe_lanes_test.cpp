@@ -50,6 +50,51 @@ TEST(FeLanes, RunsInStepHaveTheBitsOfSingleRuns)
     EXPECT_EQ(run.factorisations(), 1); // the single runs took what was there
 }
 
+// Motions of other lengths, polarities and strengths in step: each ends when its own dam is at rest. One with samples twice as
+// far apart has steps of another size and goes by itself.
+TEST(FeLanes, MotionsInStepHaveTheBitsOfSingleRuns)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    const EarthquakeRun run(scene, options_of(scene));
+    const GroundMotion longer = sines(1.0, 6.0), shorter = sines(1.5, 3.0);
+    GroundMotion flipped = longer, coarse = shorter;
+    for (double& a : flipped.accel_h) a = -a;
+    coarse.dt *= 2.0;
+    const Contact firm = frictions({0.84}).front(), slippery = frictions({0.68}).front();
+    const std::vector<Shaking> shakings{
+        {&longer, slippery}, {&coarse, firm}, {&shorter, firm}, {&flipped, slippery}, {&longer, firm}};
+    const std::vector<RunResult> together = run.run_all(shakings);
+    ASSERT_EQ(together.size(), shakings.size());
+    for (std::size_t i = 0; i < shakings.size(); ++i) {
+        SCOPED_TRACE(i);
+        expect_same(together[i], run.run(*shakings[i].motion, shakings[i].contact));
+    }
+    EXPECT_NE(together[0].slip, together[3].slip);
+    EXPECT_LT(together[2].end_time, together[0].end_time);
+    EXPECT_EQ(together[1].history.time[1], 2.0 * together[2].history.time[1]);
+}
+
+// Two sequences come to rest at times of their own, and so play their second records at times of their own.
+TEST(FeLanes, SequencesInStepHaveTheBitsOfSingleRuns)
+{
+    Scene scene = sliding_dam(0.77, 1.0, 5.0);
+    RunOptions options = options_of(scene);
+    scene.time.substeps = 0;
+    const EarthquakeRun run(scene, options);
+    GroundMotion sequence = sines(1.0, 4.0);
+    const std::size_t half = sequence.accel_h.size() / 2;
+    sequence.events = {{"first", 0}, {"second", half}};
+    const std::vector<Contact> contacts = frictions({0.84, 0.66});
+    const std::vector<RunResult> together = run.run_all(sequence, contacts);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const RunResult alone = run.run(sequence, contacts[i]);
+        expect_same(together[i], alone);
+        ASSERT_EQ(together[i].events.size(), 2U);
+        EXPECT_EQ(together[i].events[1].start, alone.events[1].start);
+    }
+    EXPECT_NE(together[0].events[1].start, together[1].events[1].start);
+}
+
 // Lanes that need more sub-steps go on without the others; every step size is factorised once for all.
 TEST(FeLanes, StepSizesAreSharedByAllFrictions)
 {

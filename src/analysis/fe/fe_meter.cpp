@@ -11,6 +11,12 @@ void FeMeter::begin(std::size_t runs)
     under_way_[std::this_thread::get_id()] = {static_cast<double>(runs), 0.0};
 }
 
+void FeMeter::more(std::size_t runs)
+{
+    const std::lock_guard lock(mutex_);
+    under_way_[std::this_thread::get_id()].runs += static_cast<double>(runs);
+}
+
 void FeMeter::step(const fe2d::RunProgress& p)
 {
     reached(static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps)));

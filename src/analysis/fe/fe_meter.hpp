@@ -17,6 +17,7 @@ public:
     explicit FeMeter(Watch& watch) : watch_(watch) {}
 
     void begin(std::size_t runs);          ///< a group begins on this thread
+    void more(std::size_t runs);           ///< join the group of this thread
     void step(const fe2d::RunProgress& p); ///< a step of all its runs, in lockstep
     void reached(double share);            ///< of the group, 0 ... 1
     void end();                            ///< it has ended

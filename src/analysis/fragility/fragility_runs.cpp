@@ -1,6 +1,7 @@
 #include "analysis/fragility/fragility_runs.hpp"
 
 #include "analysis/fe/fe_meter.hpp"
+#include "analysis/fe/group_queue.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -335,28 +336,14 @@ public:
     void run(const std::vector<MotionGroup>& groups, SampleStore& store, int jobs, FragilityRuns& runs)
     {
         for (const MotionGroup& group : groups) ++models_[group.model].groups_left;
+        GroupQueue queue(numbers_of_models(groups), thread_count(jobs));
         std::mutex mutex;
-        parallel_for(groups.size(), jobs, [&](std::size_t i) {
+        parallel_for(groups.size(), jobs, [&](std::size_t) {
             if (watch_.stop_asked()) return;
+            const std::optional<std::size_t> first = queue.next();
+            if (!first) return;
             const ProcessorClock clock;
-            meter_.begin(groups[i].ids.size());
-            DrawnModel& model = models_.at(groups[i].model);
-            store.begin(groups[i].ids);
-            try {
-                std::vector<FinishedRow> rows = rows_of(model, groups[i]);
-                std::erase_if(rows,
-                              [](const FinishedRow& row) { return row.results.status == word(Status::interrupted); });
-                store.finish(rows);
-            } catch (const Interrupted&) { // in the set-up: these are not finished
-            }
-            meter_.end();
-            {
-                const std::lock_guard lock(model.mutex);
-                if (--model.groups_left == 0) {
-                    model.reduced.reset();
-                    model.run.reset();
-                }
-            }
+            run(groups, *first, queue, store);
             const std::lock_guard lock(mutex);
             runs.seconds += clock.seconds();
         });
@@ -367,20 +354,72 @@ public:
     }
 
 private:
-    std::vector<FinishedRow> rows_of(DrawnModel& model, const MotionGroup& group)
+    std::vector<std::size_t> numbers_of_models(const std::vector<MotionGroup>& groups) const
     {
-        std::vector<FinishedRow> rows;
-        if (!made(model, plan_.draws[plan_.samples[group.ids.front()].draw])) {
-            FeSlip none;
-            none.status = Status::not_resolved;
-            for (const std::size_t id : group.ids) rows.push_back(fe_row(id, none));
-            return rows;
+        std::map<std::string_view, std::size_t> numbers;
+        for (const auto& [words, model] : models_) numbers.emplace(words, numbers.size());
+        std::vector<std::size_t> of_groups;
+        for (const MotionGroup& group : groups) of_groups.push_back(numbers.at(group.model));
+        return of_groups;
+    }
+
+    /// A group that the thread has taken, and others that go through the earthquake with it.
+    void run(const std::vector<MotionGroup>& groups, std::size_t first, GroupQueue& queue, SampleStore& store)
+    {
+        std::vector<const MotionGroup*> together{&groups[first]};
+        DrawnModel& model = models_.at(groups[first].model);
+        meter_.begin(groups[first].ids.size());
+        store.begin(groups[first].ids);
+        try {
+            const bool is_made = made(model, plan_.draws[plan_.samples[groups[first].ids.front()].draw]);
+            if (is_made && !model.reduced)
+                for (const std::size_t i :
+                     queue.more_of(first, model.run->runs_together() / groups[first].ids.size())) {
+                    together.push_back(&groups[i]);
+                    store.begin(groups[i].ids);
+                    meter_.more(groups[i].ids.size());
+                }
+            std::vector<FinishedRow> rows = is_made ? rows_of(model, together) : rows_without_model(groups[first]);
+            std::erase_if(rows, [](const FinishedRow& row) { return row.results.status == word(Status::interrupted); });
+            store.finish(rows);
+        } catch (const Interrupted&) { // in the set-up: these are not finished
         }
+        meter_.end();
+        const std::lock_guard lock(model.mutex);
+        model.groups_left -= together.size();
+        if (model.groups_left == 0) {
+            model.reduced.reset();
+            model.run.reset();
+        }
+    }
+
+    static std::vector<FinishedRow> rows_without_model(const MotionGroup& group)
+    {
+        FeSlip none;
+        none.status = Status::not_resolved;
+        std::vector<FinishedRow> rows;
+        for (const std::size_t id : group.ids) rows.push_back(fe_row(id, none));
+        return rows;
+    }
+
+    GroundMotion motion_of(const Ready& ready, const MotionGroup& group) const
+    {
         const FragilitySample& s = plan_.samples[group.ids.front()];
-        const GroundMotion motion = model.ready->motion((*plan_.suite.pairs)[s.record], s.factor, s.polarity);
-        std::vector<Contact> contacts;
-        for (const std::size_t id : group.ids)
-            contacts.push_back(contact_of(*model.ready, plan_.draws[plan_.samples[id].draw]));
+        return ready.motion((*plan_.suite.pairs)[s.record], s.factor, s.polarity);
+    }
+
+    std::vector<FinishedRow> rows_of(const DrawnModel& model, const std::vector<const MotionGroup*>& together) const
+    {
+        std::vector<std::size_t> ids;
+        std::vector<GroundMotion> motions;
+        for (const MotionGroup* group : together) motions.push_back(motion_of(*model.ready, *group));
+        std::vector<fe2d::Shaking> shakings;
+        for (std::size_t k = 0; k < together.size(); ++k)
+            for (const std::size_t id : together[k]->ids) {
+                shakings.push_back({&motions[k], contact_of(*model.ready, plan_.draws[plan_.samples[id].draw])});
+                ids.push_back(id);
+            }
+        std::vector<FinishedRow> rows;
         const auto put = [&](const auto& r, double slip_error) { // full runs and those on few modes
             FeSlip slip;
             slip.status = r.status;
@@ -389,20 +428,20 @@ private:
             slip.slip_error = reported(r.status, slip_error);
             if (!r.stages.empty() && std::isfinite(r.stages.back().critical_friction))
                 slip.critical_friction = r.stages.back().critical_friction;
-            rows.push_back(fe_row(group.ids[rows.size()], slip));
+            rows.push_back(fe_row(ids[rows.size()], slip));
             put_base(r, rows.back().results);
         };
         const InSolver timed;
         if (model.reduced) {
-            for (const Contact& contact : contacts) {
+            for (const fe2d::Shaking& shaking : shakings) {
                 if (watch_.stop_asked()) break;
                 const fe2d::ReducedResult r =
-                    model.reduced->run(motion, contact, {}, fe2d::TruncationEstimate::left_out);
+                    model.reduced->run(*shaking.motion, shaking.contact, {}, fe2d::TruncationEstimate::left_out);
                 put(r, r.step_error);
             }
             return rows;
         }
-        for (const fe2d::RunResult& r : model.run->run_all(motion, contacts)) put(r, r.slip_error);
+        for (const fe2d::RunResult& r : model.run->run_all(shakings)) put(r, r.slip_error);
         return rows;
     }
 

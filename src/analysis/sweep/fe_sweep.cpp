@@ -2,6 +2,7 @@
 
 #include "analysis/fe/contact_run.hpp"
 #include "analysis/fe/fe_meter.hpp"
+#include "analysis/fe/group_queue.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/input_error.hpp"
@@ -86,38 +87,58 @@ class FeGroups {
 public:
     FeGroups(const Sweep& inputs, const std::vector<FeGroup>& groups, Watch& watch, const BeginRows& begin,
              const TakeSlips& take)
-        : in_(inputs), meter_(watch), watch_(watch), begin_(begin), take_(take)
+        : in_(inputs), groups_(groups), meter_(watch), watch_(watch), begin_(begin), take_(take)
     {
         for (const FeGroup& group : groups) ++models_[key(group)].groups_left;
     }
 
-    FeSweepCounts run(const FeGroup& group)
+    /// A group that the thread has taken, and others that go through the earthquake with it.
+    FeSweepCounts run(std::size_t first, GroupQueue& queue)
     {
         FeSweepCounts counts;
-        meter_.begin(group.rows.size());
-        PreparedModel& model = models_.at(key(group));
-        const GridIndex at = in_.tasks.index(group.rows.front());
+        std::vector<const FeGroup*> together{&groups_[first]};
+        PreparedModel& model = models_.at(key(*together.front()));
+        meter_.begin(together.front()->rows.size());
         if (!watch_.stop_asked()) {
-            begin_(group.rows);
             try {
-                if (made(model, at, counts))
-                    run_prepared(model, at, group, counts);
-                else {
+                begin_(together.front()->rows);
+                if (made(model, in_.tasks.index(together.front()->rows.front()), counts)) {
+                    if (!model.reduced)
+                        for (const std::size_t i :
+                             queue.more_of(first, model.full->runs_together() / together.front()->rows.size())) {
+                            together.push_back(&groups_[i]);
+                            begin_(groups_[i].rows);
+                            meter_.more(groups_[i].rows.size());
+                        }
+                    run_prepared(model, together, counts);
+                } else {
                     FeSlip none;
                     none.status = Status::not_resolved;
-                    take_(group.rows, std::vector<FeSlip>(group.rows.size(), none));
+                    take_(together.front()->rows, std::vector<FeSlip>(together.front()->rows.size(), none));
                 }
             } catch (const Interrupted&) { // in the set-up: these rows are not finished
             }
         }
         meter_.end();
         const std::lock_guard lock(model.mutex);
-        if (--model.groups_left == 0) {
+        model.groups_left -= together.size();
+        if (model.groups_left == 0) {
             if (model.full) counts.factorisations += model.full->factorisations();
             model.reduced.reset();
             model.full.reset();
         }
         return counts;
+    }
+
+    /// Groups whose rows were stopped before go through the earthquake by themselves.
+    std::vector<std::size_t> models_of_groups() const
+    {
+        std::vector<std::size_t> numbers;
+        for (const FeGroup& group : groups_)
+            numbers.push_back(group.alone
+                                  ? models_.size() + numbers.size()
+                                  : static_cast<std::size_t>(std::distance(models_.begin(), models_.find(key(group)))));
+        return numbers;
     }
 
 private:
@@ -129,14 +150,19 @@ private:
                 in_.axes.method[group.method].reduced};
     }
 
-    void run_prepared(const PreparedModel& model, const GridIndex& at, const FeGroup& group, FeSweepCounts& counts)
+    GroundMotion motion_of(const FeGroup& group) const
     {
-        const GroundMotion motion = ground_motion(in_.scene, (*in_.records)[at.record], in_.axes.scale[at.scale],
-                                                  in_.axes.polarity[at.polarity]);
-        if (in_.axes.method[at.method].reduced)
-            run_reduced_group(model, motion, group, counts);
+        const GridIndex at = in_.tasks.index(group.rows.front());
+        return ground_motion(in_.scene, (*in_.records)[at.record], in_.axes.scale[at.scale],
+                             in_.axes.polarity[at.polarity]);
+    }
+
+    void run_prepared(const PreparedModel& model, const std::vector<const FeGroup*>& together, FeSweepCounts& counts)
+    {
+        if (model.reduced)
+            run_reduced_group(model, motion_of(*together.front()), *together.front(), counts);
         else
-            run_full(model, motion, group, counts);
+            run_full(model, together, counts);
     }
 
     /// @returns false where a solver found no answer: then there is no model, for any of its rows
@@ -182,23 +208,34 @@ private:
                                                         : with_friction(model.scene, friction).contact;
     }
 
-    void run_full(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group, FeSweepCounts& counts)
+    void run_full(const PreparedModel& model, const std::vector<const FeGroup*>& together, FeSweepCounts& counts)
     {
-        std::vector<Contact> contacts;
-        for (const std::size_t id : group.rows) contacts.push_back(contact(model, id));
-        std::vector<FeSlip> slips;
-        for (const fe2d::RunResult& r : model.full->run_all(motion, contacts)) {
-            slips.push_back(slip_of(r, r.slip_error));
-            slips.back().events = r.events;
-            slips.back().anchors = r.anchors;
-            for (const fe2d::LiftResult& lift : r.lifts)
-                if (slips.back().slip)
-                    slips.back().lift_slip = std::max(slips.back().lift_slip.value_or(0.0), lift.largest_slip);
-            if (keep_histories() && slips.back().slip)
-                slips.back().history = slip_history(r.history.time, r.history.slip);
-            count(r, counts);
+        std::vector<GroundMotion> motions;
+        for (const FeGroup* group : together) motions.push_back(motion_of(*group));
+        std::vector<fe2d::Shaking> shakings;
+        for (std::size_t k = 0; k < together.size(); ++k)
+            for (const std::size_t id : together[k]->rows) shakings.push_back({&motions[k], contact(model, id)});
+        const std::vector<fe2d::RunResult> results = model.full->run_all(shakings);
+        auto r = results.begin();
+        for (const FeGroup* group : together) {
+            std::vector<FeSlip> slips;
+            for (std::size_t k = 0; k < group->rows.size(); ++k, ++r) {
+                slips.push_back(full_slip_of(*r));
+                count(*r, counts);
+            }
+            take_(group->rows, slips);
         }
-        take_(group.rows, slips);
+    }
+
+    FeSlip full_slip_of(const fe2d::RunResult& r) const
+    {
+        FeSlip slip = slip_of(r, r.slip_error);
+        slip.events = r.events;
+        slip.anchors = r.anchors;
+        for (const fe2d::LiftResult& lift : r.lifts)
+            if (slip.slip) slip.lift_slip = std::max(slip.lift_slip.value_or(0.0), lift.largest_slip);
+        if (keep_histories() && slip.slip) slip.history = slip_history(r.history.time, r.history.slip);
+        return slip;
     }
 
     void run_reduced_group(const PreparedModel& model, const GroundMotion& motion, const FeGroup& group,
@@ -221,6 +258,7 @@ private:
     bool keep_histories() const { return in_.tasks.rows() <= most_rows_with_history; }
 
     const Sweep& in_;
+    const std::vector<FeGroup>& groups_;
     FeMeter meter_;
     Watch& watch_;
     const BeginRows& begin_;
@@ -254,8 +292,11 @@ FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& gro
                             const BeginRows& begin, const TakeSlips& take)
 {
     FeGroups runner(inputs, groups, watch, begin, take);
+    GroupQueue queue(runner.models_of_groups(), thread_count(jobs));
     std::vector<FeSweepCounts> counted(groups.size());
-    parallel_for(groups.size(), jobs, [&](std::size_t i) { counted[i] = runner.run(groups[i]); });
+    parallel_for(groups.size(), jobs, [&](std::size_t task) {
+        if (const std::optional<std::size_t> group = queue.next()) counted[task] = runner.run(*group, queue);
+    });
     FeSweepCounts sum;
     for (const FeSweepCounts& c : counted) add(c, sum);
     return sum;

@@ -168,7 +168,7 @@ std::vector<FeGroup> with_stopped_in_pieces(std::vector<FeGroup> groups, const s
             if (const auto found = stopped.find(id); found != stopped.end()) times = std::max(times, found->second);
         const std::size_t length = std::max<std::size_t>(1, times < 32 ? group.rows.size() >> times : 0);
         for (std::size_t first = 0; first < group.rows.size(); first += length) {
-            FeGroup piece{group.variant, group.motion, group.method, {}};
+            FeGroup piece{group.variant, group.motion, group.method, {}, times > 0};
             for (std::size_t k = first; k < std::min(group.rows.size(), first + length); ++k)
                 piece.rows.push_back(group.rows[k]);
             pieces.push_back(std::move(piece));

@@ -51,6 +51,7 @@ std::vector<std::size_t> shard_rows(const TaskList& tasks, const Shard& shard);
 struct FeGroup {
     std::size_t variant = 0, motion = 0, method = 0;
     std::vector<std::size_t> rows; ///< ids, by friction
+    bool alone = false;            ///< no other motion goes with it: its rows were stopped before they finished
 };
 
 /// FE rows among `rows` in groups, ordered by variant, method and motion. Each group is dealt out to
