@@ -1,5 +1,6 @@
 #include "sliding/block/fixed_yield.hpp"
 
+#include "sliding/block/coasting.hpp"
 #include "sliding/block/roots.hpp"
 
 #include <algorithm>
@@ -84,19 +85,6 @@ Movement follow(const Excess& excess, std::size_t k, double tau, double y0, doub
     }
 }
 
-/// Excess of zero ground acceleration over the yield is -constant: coasting after the record.
-struct Coasting {
-    double slip = 0.0;
-    bool stops = true;
-};
-
-Coasting coast(double rate, double yield, double factor, double longest)
-{
-    if (rate <= 0.0) return {};
-    if (yield > 0.0 && rate <= yield * longest) return {factor * rate * rate / (2.0 * yield), true};
-    return {factor * longest * (rate - 0.5 * yield * longest), false};
-}
-
 template <typename Down, typename Up>
 class Integration {
 public:
@@ -128,8 +116,9 @@ private:
         for (const SlipDirection direction : {SlipDirection::downstream, SlipDirection::upstream}) {
             const double y1 = excess(k + 1, direction);
             if (y1 <= 0.0) continue;
-            const double y0 = excess(k, direction);
-            return slide_from(k, std::clamp(dt_ * (-y0 / (y1 - y0)), tau, dt_), direction, 0.0);
+            const double y0 = excess(k, direction), start = std::clamp(dt_ * (-y0 / (y1 - y0)), tau, dt_);
+            if (start >= dt_) return next_after(k); // a last-digit excess: it starts on the sample
+            return slide_from(k, start, direction, 0.0);
         }
         return k + 1;
     }

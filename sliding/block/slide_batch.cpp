@@ -1,8 +1,10 @@
 #include "sliding/block/slide_batch.hpp"
 
 #include "core/parallel.hpp"
+#include "sliding/block/yield_lanes.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace damslip::sliding {
 namespace {
@@ -25,6 +27,45 @@ SlipSummary run_one(const SkippingMotion& motion, const SlipStages& stages, int 
                              {polarity, options.sliding.run_out_max, Scan::skip_blocks});
 }
 
+/// Runs of one motion, `at` in its results: neighbours in the lanes have one polarity and neighbouring yields, so that
+/// they move at the same times.
+struct Run {
+    std::size_t yield = 0;
+    std::size_t at = 0;
+    int polarity = 1;
+};
+
+std::vector<Run> sorted_runs(std::span<const FixedYield> yields, std::span<const int> polarities)
+{
+    std::vector<Run> runs;
+    for (std::size_t p = 0; p < polarities.size(); ++p) {
+        const std::size_t first = runs.size();
+        for (std::size_t y = 0; y < yields.size(); ++y) runs.push_back({y, y * polarities.size() + p, polarities[p]});
+        std::stable_sort(runs.begin() + first, runs.end(), [&](const Run& a, const Run& b) {
+            return yields[a.yield].downstream.law.constant < yields[b.yield].downstream.law.constant;
+        });
+    }
+    return runs;
+}
+
+/// `runs` of one polarity, at most as many as there are lanes; what the lanes do not know goes one by one.
+void slide_few(const SkippingMotion& motion, std::span<const Run> runs, std::span<const FixedYield> yields,
+               FixedYieldOptions options, std::span<SlipSummary> results)
+{
+    options.polarity = runs.front().polarity;
+    const bool fit = options.scan == Scan::skip_blocks && std::ranges::all_of(runs, [&](const Run& run) {
+                         return fits_lanes(motion, yields[run.yield], run.polarity);
+                     });
+    if (!fit) {
+        for (const Run& run : runs) results[run.at] = slide_fixed_yield(motion, yields[run.yield], options);
+        return;
+    }
+    std::array<FixedYield, yield_lanes> lanes;
+    for (std::size_t i = 0; i < yield_lanes; ++i) lanes[i] = yields[runs[std::min(i, runs.size() - 1)].yield];
+    const std::array<SlipSummary, yield_lanes> slips = slide_in_lanes(motion, lanes, options);
+    for (std::size_t i = 0; i < runs.size(); ++i) results[runs[i].at] = slips[i];
+}
+
 } // namespace
 
 std::vector<SlipSummary> slide_batch(std::span<const SkippingMotion> motions, std::span<const FixedYield> yields,
@@ -32,16 +73,15 @@ std::vector<SlipSummary> slide_batch(std::span<const SkippingMotion> motions, st
 {
     const std::size_t per_motion = yields.size() * polarities.size();
     std::vector<SlipSummary> results(motions.size() * per_motion);
-    // One piece of work is one motion with a few yields: long enough to be worth a thread's while, and its samples stay
+    const std::vector<Run> runs = sorted_runs(yields, polarities);
+    // One piece of work is one motion with one polarity: long enough to be worth a thread's while, and its samples stay
     // in the cache.
-    const std::size_t chunk = 8, chunks = (per_motion + chunk - 1) / chunk;
-    parallel_for(motions.size() * chunks, jobs, [&](std::size_t piece) {
-        const std::size_t m = piece / chunks, first = piece % chunks * chunk;
-        for (std::size_t i = first; i < std::min(first + chunk, per_motion); ++i) {
-            FixedYieldOptions run = options;
-            run.polarity = polarities[i % polarities.size()];
-            results[m * per_motion + i] = slide_fixed_yield(motions[m], yields[i / polarities.size()], run);
-        }
+    parallel_for(motions.size() * polarities.size(), jobs, [&](std::size_t piece) {
+        const std::size_t m = piece / polarities.size(), p = piece % polarities.size();
+        const std::span<const Run> here = std::span(runs).subspan(p * yields.size(), yields.size());
+        for (std::size_t i = 0; i < here.size(); i += yield_lanes)
+            slide_few(motions[m], here.subspan(i, std::min(yield_lanes, here.size() - i)), yields, options,
+                      std::span(results).subspan(m * per_motion, per_motion));
     });
     return results;
 }

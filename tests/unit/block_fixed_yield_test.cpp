@@ -5,6 +5,7 @@
 #include "verification/exact/block_slip.hpp"
 
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace damslip;
 using namespace damslip::sliding;
@@ -141,6 +142,20 @@ TEST(BlockFixedYield, coasts_after_the_record_and_says_when_it_does_not_stop)
     EXPECT_LT(relative(fixed.slip, 0.5 * 5.5), 1e-14);
 }
 
+// The crossing rounds to the end of the interval: the movement starts on the sample, and there is nothing to divide by.
+TEST(BlockFixedYield, starts_on_a_sample_above_the_yield_by_its_last_digit)
+{
+    const double above = std::nextafter(0.3, 1.0);
+    const SkippingMotion motion({"last digit", 0.01, {0.0, -0.9, above, above, 0.0}, {}, {}});
+    for (const Scan scan : {Scan::every_sample, Scan::skip_blocks})
+        for (const double up : {0.95, FixedYield::never_slides}) {
+            const SlipSummary s = slide_fixed_yield(motion, fixed_yield(0.3, up), {1, 60.0, scan});
+            EXPECT_GT(s.downstream_slip, 0.0);
+            EXPECT_LT(s.downstream_slip, 1e-19);
+            EXPECT_EQ(s.phases, 1);
+        }
+}
+
 TEST(BlockFixedYield, batches_do_not_depend_on_the_number_of_threads)
 {
     std::vector<SkippingMotion> motions;
@@ -161,6 +176,51 @@ TEST(BlockFixedYield, batches_do_not_depend_on_the_number_of_threads)
     const auto general = slide_batch(motions, blocks, polarities, SlideOptions{}, 3);
     for (std::size_t i = 0; i < one.size(); ++i)
         EXPECT_NEAR(general[i].slip, one[i].slip, 1e-12 * (one[i].downstream_slip + one[i].upstream_slip));
+}
+
+namespace {
+
+/// White noise in steps of the samples, with some samples that repeat, cancel, or are zero: meets of yields and samples.
+GroundMotion noise(unsigned seed, double dt, int samples, double grid)
+{
+    std::mt19937 random(seed);
+    GroundMotion motion{"noise", dt, {0.0}, {}, {}};
+    while (static_cast<int>(motion.accel_h.size()) < samples) {
+        const double a = static_cast<double>(random() % 20001) / 10000.0 - 1.0;
+        const double smooth = 0.7 * motion.accel_h.back() + a;
+        motion.accel_h.push_back(grid > 0.0 ? grid * std::round(smooth / grid) : smooth);
+    }
+    return motion;
+}
+
+} // namespace
+
+// Lanes go through a motion side by side; the plain integrator sees every sample of one block. Coarse grids of values
+// put yields on samples, so that starts and stops fall on them.
+TEST(BlockFixedYield, batches_have_the_bits_of_single_runs)
+{
+    std::vector<SkippingMotion> motions;
+    for (unsigned seed = 1; seed <= 40; ++seed)
+        motions.emplace_back(noise(seed, 0.005 * (seed % 5 + 1), 2 + 61 * static_cast<int>(seed),
+                                   seed % 3 == 0 ? 0.0 : 0.05 * (seed % 4)));
+    motions.emplace_back(wild_motion(3.0, 0.01, 5000));
+    motions.emplace_back(steady(2.0, 1.0)); // drives at its first sample, and to its end
+    GroundMotion with_vertical = wild_motion(3.0, 0.01, 700);
+    with_vertical.accel_v = wild_motion(1.0, 0.01, 700).accel_h;
+    motions.emplace_back(with_vertical);
+    std::vector<FixedYield> yields{fixed_yield(-0.1), fixed_yield(0.0), fixed_yield(0.5, 0.7)};
+    for (int i = 37; i >= 1; --i) yields.push_back(fixed_yield(0.05 * i)); // not sorted
+    for (FixedYield& yield : yields) yield.downstream.factor = 0.9 + 0.1 * yield.downstream.law.constant;
+    const int polarities[] = {1, -1};
+    for (const double run_out : {0.0, 60.0}) {
+        const auto batch = slide_batch(motions, yields, polarities, {1, run_out, Scan::skip_blocks}, 2);
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            const std::size_t m = i / 2 / yields.size(), y = i / 2 % yields.size();
+            EXPECT_TRUE(batch[i] ==
+                        slide_fixed_yield(motions[m], yields[y], {polarities[i % 2], run_out, Scan::every_sample}))
+                << "motion " << m << ", yield " << y << ", polarity " << polarities[i % 2];
+        }
+    }
 }
 
 TEST(BlockFixedYield, batch_passes_on_the_first_error)
