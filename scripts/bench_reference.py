@@ -36,6 +36,11 @@ class Case:
     scene: str = SCENE
 
 
+BATCH = "batch"  # not a scene: a row of the table that tests/bench/sliding_bench prints
+BATCH_NAME = "rigid block, batch, one thread, a sample and yield"
+BATCH_BAR = "0.90"
+
+
 FE_BEFORE = ["fe", "{scene}", "--json", "-q", "--polarity", "1"]
 FE = FE_BEFORE + ["--no-mesh-error"]
 MASSLESS = {"foundation": ['mass = "massless"']}
@@ -115,24 +120,53 @@ def run(program, side, folder, name, scene):
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
+def batch_nanoseconds(bench):
+    """What the bench of a program says of its batch on one thread: processor and wall time [ns per sample and yield]."""
+    out = subprocess.run([bench], check=True, capture_output=True, text=True).stdout
+    row = re.search(r"^batch, skipping blocks, threads: 1 +([0-9.]+) +([0-9.]+)", out, re.MULTILINE)
+    if not row:
+        sys.exit(f"{bench}: no row of the batch on one thread")
+    return float(row[1]), float(row[2])
+
+
+def print_batch(benches, runs):
+    measured = ([], [])
+    for _ in range(runs):
+        for i, bench in enumerate(benches):
+            measured[i].append(batch_nanoseconds(bench))
+    cpu, wall = zip(*([statistics.median(column) for column in zip(*rows)] for rows in measured))
+    print(f"{BATCH_NAME:64} {cpu[0]:>7.3f} ns {cpu[1]:>7.3f} ns {cpu[1] / cpu[0]:6.2f} {BATCH_BAR:>5} | "
+          f"{wall[0]:8.3f} {wall[1]:8.3f} |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--reference", required=True)
     parser.add_argument("--program", required=True)
+    parser.add_argument("--reference-bench", help="sliding_bench of the reference, for the case batch")
+    parser.add_argument("--program-bench", help="sliding_bench of this program")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--list", action="store_true")
     parser.add_argument("cases", nargs="*", metavar="CASE")
     arguments = parser.parse_args()
+    names = {key: case.name for key, case in CASES.items()} | {BATCH: BATCH_NAME}
     if arguments.list:
-        print("\n".join(f"{key:18} {case.name}" for key, case in CASES.items()))
+        print("\n".join(f"{key:18} {name}" for key, name in names.items()))
         return
-    wrong = [key for key in arguments.cases if key not in CASES]
+    wrong = [key for key in arguments.cases if key not in names]
     if wrong or arguments.runs < 1:
-        sys.exit(f"unknown case {', '.join(wrong)}; cases: {', '.join(CASES)}" if wrong else "--runs: 1 or more")
+        sys.exit(f"unknown case {', '.join(wrong)}; cases: {', '.join(names)}" if wrong else "--runs: 1 or more")
+    benches = [arguments.reference_bench, arguments.program_bench]
+    if BATCH in arguments.cases and not all(benches):
+        sys.exit("the case batch needs --reference-bench and --program-bench")
     programs = [str(pathlib.Path(p).resolve()) for p in (arguments.reference, arguments.program)]
     print(f"{'case':64} {'reference':>10} {'now':>10} {'ratio':>6} {'bar':>5} | {'wall':>8} {'now':>8} | {'MB':>5} {'now':>5}")
     with tempfile.TemporaryDirectory(prefix="damslip-bench-") as name:
-        for key in arguments.cases or CASES:
+        for key in arguments.cases or names:
+            if key == BATCH:
+                if all(benches):
+                    print_batch(benches, arguments.runs)
+                continue
             case, folder = CASES[key], pathlib.Path(name)
             sides = (case.reference, case.program)
             for program, side, label in zip(programs, sides, ("reference", "now")):
