@@ -1,6 +1,7 @@
 #include "sliding/equilibrium/shaken_base.hpp"
 
 #include "scene/section.hpp"
+#include "sliding/uplift/unchanged_uplift.hpp"
 
 #include <algorithm>
 
@@ -41,7 +42,6 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
 {
     const BaseLoad total = base_load(before.frame, load);
     const double length = before.frame.length;
-    const auto unchanged = [&](const Crack&) { return before.base.profile; };
     switch (static_case.crack) {
     case CrackRule::none:
         break;
@@ -54,7 +54,7 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
         return base;
     }
     case CrackRule::seismic_unchanged:
-        return cracked_base(total, length, unchanged);
+        return cracked_base_unchanged(total, length, before.base.profile);
     case CrackRule::seismic_zero:
         return cracked_base(total, length,
                             [&](const Crack& crack) { return without_new_crack(before.base, crack, length); });

@@ -1,5 +1,7 @@
 #include "sliding/uplift/crack.hpp"
 
+#include "sliding/uplift/unchanged_uplift.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,31 +36,39 @@ double distance_from_compressed_end(const CrackedBase& base, Side side, double l
 class Joint {
 public:
     Joint(const BaseLoad& load, double length, const CrackUplift& uplift, Side side, double opened)
-        : load_(load), length_(length), uplift_(uplift), side_(side), opened_(opened)
+        : load_(load), length_(length), uplift_(&uplift), side_(side), opened_(opened)
+    {
+    }
+    /// With the uplift of `closed`, whatever the crack.
+    Joint(const BaseLoad& load, double length, const CrackedBase& closed, Side side)
+        : load_(load), length_(length), closed_(&closed), side_(side), unchanged_(required_of(closed))
     {
     }
 
     CrackedBase state(double crack) const
     {
         const Crack wet{side_, std::max(crack, opened_)};
-        CrackedBase base = loaded(load_, uplift_(wet));
+        CrackedBase base = closed_ ? *closed_ : loaded(load_, (*uplift_)(wet));
         base.crack = wet;
         return base;
     }
-    double required(double crack) const
-    {
-        const CrackedBase base = state(crack);
-        const double d = distance_from_compressed_end(base, side_, length_);
-        return base.effective_normal > 0.0 && d > 0.0 ? length_ - 3.0 * d : std::numeric_limits<double>::infinity();
-    }
+    double required(double crack) const { return closed_ ? unchanged_ : required_of(state(crack)); }
     double excess(double crack) const { return required(crack) - crack; }
 
 private:
+    double required_of(const CrackedBase& base) const
+    {
+        const double d = distance_from_compressed_end(base, side_, length_);
+        return base.effective_normal > 0.0 && d > 0.0 ? length_ - 3.0 * d : std::numeric_limits<double>::infinity();
+    }
+
     const BaseLoad& load_;
     double length_;
-    const CrackUplift& uplift_;
+    const CrackUplift* uplift_ = nullptr;
+    const CrackedBase* closed_ = nullptr;
     Side side_;
-    double opened_;
+    double opened_ = 0.0;
+    double unchanged_ = 0.0; ///< required(), where the uplift does not change
 };
 
 /// Between `longer_needed` (excess > 0) and `enough` (excess <= 0).
@@ -99,6 +109,23 @@ std::vector<double> scan_bounds(std::vector<double> events, Side side, double le
     return events;
 }
 
+/// The end away from the resultant opens; without any N' left the heel does.
+Side opening_side(const CrackedBase& closed, double length)
+{
+    const bool toe_opens = closed.effective_normal > 0.0 && closed.resultant_distance < 0.5 * length;
+    return toe_opens ? Side::toe : Side::heel;
+}
+
+CrackedBase cracked_joint(const Joint& joint, const std::vector<double>& bounds, Side side, double length)
+{
+    const std::optional<double> crack = shortest_crack(joint, bounds);
+    CrackedBase base = joint.state(crack.value_or(length));
+    base.compressed_length = crack ? length - *crack : 0.0;
+    base.compressed_side = side == Side::heel ? Side::toe : Side::heel;
+    base.status = !crack ? CrackStatus::open : *crack > 0.0 ? CrackStatus::partial : CrackStatus::closed;
+    return base;
+}
+
 } // namespace
 
 bool cracked_through(const CrackedBase& base, double length)
@@ -120,19 +147,20 @@ CrackedBase cracked_base(const BaseLoad& load, double length, const CrackUplift&
                          const std::vector<double>& events)
 {
     const CrackedBase closed = loaded(load, uplift(opened));
-    // The end away from the resultant opens; without any N' left the heel does.
-    const bool toe_opens = closed.effective_normal > 0.0 && closed.resultant_distance < 0.5 * length;
-    const Side side = toe_opens ? Side::toe : Side::heel;
+    const Side side = opening_side(closed, length);
     const bool other_end = opened.length > 0.0 && side != opened.side;
-    const CrackUplift fixed = [&](const Crack&) { return closed.profile; };
-    const Joint joint(load, length, other_end ? fixed : uplift, side, other_end ? 0.0 : opened.length);
-    const std::optional<double> crack = shortest_crack(joint, scan_bounds(events, side, length));
-    CrackedBase base = joint.state(crack.value_or(length));
-    base.compressed_length = crack ? length - *crack : 0.0;
-    base.compressed_side = side == Side::heel ? Side::toe : Side::heel;
-    base.status = !crack ? CrackStatus::open : *crack > 0.0 ? CrackStatus::partial : CrackStatus::closed;
+    const Joint joint =
+        other_end ? Joint(load, length, closed, side) : Joint(load, length, uplift, side, opened.length);
+    CrackedBase base = cracked_joint(joint, scan_bounds(events, side, length), side, length);
     if (other_end) base.crack = opened;
     return base;
+}
+
+CrackedBase cracked_base_unchanged(const BaseLoad& load, double length, const PressureProfile& profile)
+{
+    const CrackedBase closed = loaded(load, profile);
+    const Side side = opening_side(closed, length);
+    return cracked_joint(Joint(load, length, closed, side), scan_bounds({}, side, length), side, length);
 }
 
 } // namespace damslip::sliding
