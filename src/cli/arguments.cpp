@@ -7,8 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 
 namespace damslip::cli {
@@ -35,15 +37,19 @@ void refuse_no_numbers(CLI::App& sub)
         if (option->get_type_name().starts_with("FLOAT")) option->check(finite);
 }
 
-void add(const Command& command, CLI::App& parent, Parser& p)
+/// Which commands have their flags declared: with hundreds of flags that takes longer than a short command itself.
+using Wanted = std::function<bool(const Command&)>;
+
+void add(const Command& command, CLI::App& parent, Parser& p, const Wanted& wanted)
 {
     CLI::App& sub = *parent.add_subcommand(command.name, command.description);
     sub.footer("Example:\n  " + command.example);
     if (!command.below.empty()) {
         sub.require_subcommand(1);
-        for (const Command& below : command.below) add(below, sub, p);
+        for (const Command& below : command.below) add(below, sub, p, wanted);
         return;
     }
+    if (!wanted(command)) return;
     sub.add_flag("--json", p.json, "one JSON object on standard output, for machines");
     sub.add_flag("-q,--quiet", p.quiet, "no progress, no talk");
     sub.add_flag("!--no-cache", p.cache,
@@ -52,14 +58,14 @@ void add(const Command& command, CLI::App& parent, Parser& p)
     refuse_no_numbers(sub);
 }
 
-void build(Parser& p)
+void build(Parser& p, const Wanted& wanted)
 {
     p.app.set_version_flag("--version", "damslip " + program_version());
     p.app.require_subcommand(1);
     p.app.footer(std::string("Examples:\n  damslip screen examples/reference_dam.toml\n  damslip sweep "
                              "examples/reference_dam.toml --friction 0.65:1.0:0.05\n") +
                  exit_codes);
-    for (const Command& command : commands()) add(command, p.app, p);
+    for (const Command& command : commands()) add(command, p.app, p, wanted);
 }
 
 /// The command that was typed.
@@ -123,7 +129,9 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
 Invocation parse_arguments(const std::vector<std::string>& arguments)
 {
     Parser parser;
-    build(parser);
+    build(parser, [&](const Command& command) { // what is not named cannot be the one that is typed
+        return std::find(arguments.begin(), arguments.end(), command.name) != arguments.end();
+    });
     if (arguments.empty()) throw HelpText{parser.app.help()};
     check_spelling(parser.app, arguments);
     try {
@@ -141,7 +149,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments)
 std::vector<CommandSummary> command_summaries()
 {
     Parser parser;
-    build(parser);
+    build(parser, [](const Command&) { return true; });
     return summaries_of(parser.app);
 }
 
