@@ -16,17 +16,81 @@ namespace {
 constexpr int looked_at = 33;             ///< frictions between the one that stands and the highest
 constexpr double settled_friction = 1e-7; ///< of the bisection [-]
 
-/// Largest slip of the rigid block with that friction [m]; without an end or without an answer: infinite.
-double largest_slip(const Ready& ready, KeptStatics& statics, const sliding::SkippingMotion& motion, int polarity,
-                    double friction)
-{
-    const Scene scene = with_friction(ready.scene, friction);
-    const RigidModel model = make_rigid_model(scene, ready.seepage->profile_of(scene), std::nullopt, &statics);
-    const sliding::SlideResult slide = slide_model(scene, model, motion, polarity);
-    return slide.status == Status::at_rest || slide.status == Status::rocks_first
-               ? slide.max_slip
-               : std::numeric_limits<double>::infinity();
-}
+/// The rigid block with one friction after the other.
+class Slips {
+public:
+    Slips(const Ready& ready, const sliding::SkippingMotion& motion, int polarity)
+        : ready_(ready), statics_(ready.statics ? *ready.statics : own_), motion_(motion), polarity_(polarity),
+          scene_(ready.scene)
+    {
+    }
+
+    /// Largest slip with that friction [m]; without an end or without an answer: infinite.
+    double largest(double friction)
+    {
+        scene_.contact = ready_.scene.contact; // a residual value that a lower friction has taken down comes back
+        scene_.wedge = ready_.scene.wedge;
+        set_friction(scene_, friction);
+        const RigidModel model = make_rigid_model(scene_, ready_.seepage->profile_of(scene_), std::nullopt, &statics_);
+        const sliding::SlideResult slide = slide_model(scene_, model, motion_, polarity_);
+        return slide.status == Status::at_rest || slide.status == Status::rocks_first
+                   ? slide.max_slip
+                   : std::numeric_limits<double>::infinity();
+    }
+
+private:
+    const Ready& ready_;
+    KeptStatics own_;
+    KeptStatics& statics_;
+    const sliding::SkippingMotion& motion_;
+    int polarity_;
+    Scene scene_;
+};
+
+/// A friction and by how much the block slips more than it may with it [m].
+struct Tried {
+    double friction = 0.0;
+    double excess = 0.0;
+};
+
+/// Says of the frictions between one that slips too far and one that does not on which side of the crossing they lie. A
+/// secant says where that is; a friction close to it, on the side asked for, then settles all that lie beyond.
+class Crossing {
+public:
+    Crossing(Slips& slips, double allowed, const Tried& more, const Tried& less)
+        : slips_(slips), allowed_(allowed), more_(more), less_(less)
+    {
+    }
+
+    bool slips_more(double friction)
+    {
+        if (!settled(friction)) try_near_crossing(friction);
+        if (!settled(friction)) try_at(friction);
+        return friction <= more_.friction;
+    }
+
+private:
+    bool settled(double friction) const { return friction <= more_.friction || friction >= less_.friction; }
+
+    void try_at(double friction)
+    {
+        const Tried tried{friction, slips_.largest(friction) - allowed_};
+        (tried.excess > 0.0 ? more_ : less_) = tried;
+    }
+    void try_near_crossing(double friction)
+    {
+        constexpr double off = 0.02; // of the way from the crossing to the friction
+        const double share = more_.excess / (more_.excess - less_.excess);
+        if (!std::isfinite(more_.excess) || !(share < 1.0)) return;
+        const double crossing = more_.friction + share * (less_.friction - more_.friction);
+        const double near = crossing + off * (friction - crossing);
+        if (near > more_.friction && near < less_.friction) try_at(near);
+    }
+
+    Slips& slips_;
+    double allowed_;
+    Tried more_, less_;
+};
 
 /// The first sample of the largest acceleration that drives it downstream.
 void find_peak(const GroundMotion& motion, NeededRow& row)
@@ -44,28 +108,28 @@ void find_peak(const GroundMotion& motion, NeededRow& row)
 std::optional<double> friction_for_slip(const Ready& ready, const sliding::SkippingMotion& motion, int polarity,
                                         double slip)
 {
-    KeptStatics own;
-    KeptStatics& statics = ready.statics ? *ready.statics : own;
-    const auto slips_more = [&](double friction) {
-        return largest_slip(ready, statics, motion, polarity, friction) > slip;
-    };
+    Slips slips(ready, motion, polarity);
+    const auto tried = [&](double friction) { return Tried{friction, slips.largest(friction) - slip}; };
     const double stands = std::max(0.0, ready.rigid_model().critical_friction);
-    if (!(stands < highest_friction) || slips_more(highest_friction)) return std::nullopt;
-    double more = stands, less = highest_friction;
+    if (!(stands < highest_friction)) return std::nullopt;
+    Tried less = tried(highest_friction);
+    if (less.excess > 0.0) return std::nullopt;
+    Tried more{stands, std::numeric_limits<double>::infinity()};
     for (int i = looked_at - 1; i >= 0; --i) {
-        const double friction = stands + (highest_friction - stands) * i / looked_at;
-        if (!slips_more(friction)) {
-            less = friction;
-            continue;
+        const Tried here = tried(stands + (highest_friction - stands) * i / looked_at);
+        if (here.excess > 0.0) {
+            more = here;
+            break;
         }
-        more = friction;
-        break;
+        less = here;
     }
-    while (less - more > settled_friction) {
-        const double middle = 0.5 * (more + less);
-        (slips_more(middle) ? more : less) = middle;
+    Crossing crossing(slips, slip, more, less);
+    double slides = more.friction, holds = less.friction;
+    while (holds - slides > settled_friction) {
+        const double middle = 0.5 * (slides + holds);
+        (crossing.slips_more(middle) ? slides : holds) = middle;
     }
-    return less;
+    return holds;
 }
 
 std::vector<NeededRow> needed_rows(const Ready& ready, int jobs)
