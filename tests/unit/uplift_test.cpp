@@ -1,5 +1,6 @@
 // Uplift profiles, their resultants and the cracked base.
 #include "sliding/uplift/crack.hpp"
+#include "sliding/uplift/unchanged_uplift.hpp"
 
 #include "core/input_error.hpp"
 #include "verification/exact/cracked_base.hpp"
@@ -188,6 +189,26 @@ TEST(UpliftCrack, DryJointOpensToThreeTimesTheLever)
     EXPECT_EQ(cracked_base({100.0, -500.0}, 10.0, dry).status, CrackStatus::closed);
     EXPECT_EQ(cracked_base({100.0, -1001.0}, 10.0, dry).status, CrackStatus::open); // resultant beyond the toe
     EXPECT_EQ(cracked_base({-1.0, 0.0}, 10.0, dry).status, CrackStatus::open);      // floats
+}
+
+// Found without the profile of each crack, the answer has the bits of the general search.
+TEST(UpliftCrack, AnUnchangedUpliftCracksToTheBitsOfTheGeneralSearch)
+{
+    const PressureProfile profile{{{0.0, 6.0}, {4.0, 2.0}, {10.0, 1.0}}};
+    for (const double normal : {-5.0, 10.0, 60.0, 100.0})
+        for (double arm = -1.0; arm < 11.0; arm += 0.37) {
+            const BaseLoad load{normal, -normal * arm};
+            const CrackedBase a = cracked_base(load, 10.0, [&](const Crack&) { return profile; });
+            const CrackedBase b = cracked_base_unchanged(load, 10.0, profile);
+            EXPECT_EQ(a.status, b.status);
+            EXPECT_EQ(a.crack.side, b.crack.side);
+            EXPECT_EQ(a.crack.length, b.crack.length);
+            EXPECT_EQ(a.compressed_length, b.compressed_length);
+            EXPECT_EQ(a.compressed_side, b.compressed_side);
+            EXPECT_EQ(a.effective_normal, b.effective_normal);
+            EXPECT_EQ(a.resultant_distance, b.resultant_distance);
+            EXPECT_EQ(a.uplift.force, b.uplift.force);
+        }
 }
 
 TEST(UpliftCrack, OpenedJointKeepsItsWater)
