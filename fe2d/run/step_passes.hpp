@@ -58,6 +58,7 @@ struct WorkSums {
     double inertia = 0.0, inertia_before = 0.0; ///< a₁ · M a₁, a₀ · M a₀
     double force = 0.0, force_before2 = 0.0;    ///< Δu · F₁, Δu · F₋₁
     double rate = 0.0, rate_before2 = 0.0;      ///< v₁ · ΔKu, v₋₁ · ΔKu
+    friend bool operator==(const WorkSums&, const WorkSums&) = default;
 };
 
 /// @param level  the same bits on every level
