@@ -33,7 +33,8 @@ struct StepAllocations {
 };
 
 /// @param mesh_size  away from the base [m] @param contact_size  on it [m]
-inline StepAllocations count_allocations(CountedRun which, double mesh_size, double contact_size, double duration = 20.0)
+inline StepAllocations count_allocations(CountedRun which, double mesh_size, double contact_size,
+                                         double duration = 20.0)
 {
     Scene scene = fe2d::test::sliding_dam(0.77, 1.0, contact_size);
     scene.mesh.size = mesh_size;
