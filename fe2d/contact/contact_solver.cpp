@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 
 namespace damslip::fe2d {
 
@@ -21,21 +20,6 @@ std::uint64_t fingerprint(const ContactStates& states)
     for (const ContactState state : states) hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
     return hash;
 }
-
-/// Remembers which sets of states have been tried.
-class Visited {
-public:
-    bool seen_before(const ContactStates& states)
-    {
-        const std::uint64_t mark = fingerprint(states);
-        if (std::find(marks_.begin(), marks_.end(), mark) != marks_.end()) return true;
-        marks_.push_back(mark);
-        return false;
-    }
-
-private:
-    std::vector<std::uint64_t> marks_;
-};
 
 /// Takes the cohesion of open pairs that carry shear. @returns whether there was one
 bool break_open_pairs(const ContactSolution& solution, double tolerance, ContactLaw& law)
@@ -52,6 +36,14 @@ bool break_open_pairs(const ContactSolution& solution, double tolerance, Contact
 }
 
 } // namespace
+
+bool ContactSolver::Visited::seen_before(const ContactStates& states)
+{
+    const std::uint64_t mark = fingerprint(states);
+    if (std::find(marks_.begin(), marks_.end(), mark) != marks_.end()) return true;
+    marks_.push_back(mark);
+    return false;
+}
 
 ContactState next_state(const ContactProblem& problem, const ContactSolution& solution, Index pair, double tolerance)
 {
@@ -80,6 +72,7 @@ ContactState next_state(const ContactProblem& problem, const ContactSolution& so
 ContactSolver::ContactSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, ContactOptions options)
     : stiffness_(std::move(stiffness)), options_(options), system_(*stiffness_)
 {
+    visited_.reserve(static_cast<std::size_t>(options.newton_iterations));
 }
 
 ContactSolver::ContactSolver(Eigen::MatrixXd stiffness, ContactOptions options)
@@ -100,13 +93,13 @@ bool ContactSolver::newton(const ContactProblem& problem, ContactSolution& solut
                            double tolerance)
 {
     const Index m = problem.law.pairs();
-    Visited visited;
-    ContactStates next(solution.states);
+    visited_.clear();
+    next_ = solution.states;
     for (int k = 0; k < options_.newton_iterations; ++k) {
-        if (visited.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
-        for (Index i = 0; i < m; ++i) next[static_cast<std::size_t>(i)] = next_state(problem, solution, i, tolerance);
-        if (next == solution.states) return true;
-        solution.states = next;
+        if (visited_.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
+        for (Index i = 0; i < m; ++i) next_[static_cast<std::size_t>(i)] = next_state(problem, solution, i, tolerance);
+        if (next_ == solution.states) return true;
+        solution.states = next_;
     }
     return false;
 }
@@ -115,9 +108,9 @@ bool ContactSolver::one_by_one(const ContactProblem& problem, ContactSolution& s
                                double tolerance, std::vector<Index>* opened)
 {
     const Index m = problem.law.pairs();
-    Visited visited;
+    visited_.clear();
     for (int k = 0; k < options_.switches_per_pair * static_cast<int>(m); ++k) {
-        if (visited.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
+        if (visited_.seen_before(solution.states) || !evaluate(problem, solution, report)) return false;
         Index worst = -1;
         double largest = tolerance;
         for (Index i = 0; i < m; ++i) {
@@ -140,8 +133,8 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
     assert(stiffness_->rows() == 2 * m && stuck_force.size() == 2 * m);
     const ContactProblem problem{*stiffness_, stuck_force, law};
     const double scale = stuck_force.cwiseAbs().maxCoeff(), tolerance = options_.tolerance * scale;
-    const ContactStates stuck(static_cast<std::size_t>(m), ContactState::stick);
-    if (solution.states.size() != stuck.size()) solution.states = stuck;
+    const auto set_stuck = [&] { solution.states.assign(static_cast<std::size_t>(m), ContactState::stick); };
+    if (static_cast<Index>(solution.states.size()) != m) set_stuck();
 
     ContactReport report;
     const auto finish = [&](ContactPath path) {
@@ -149,12 +142,13 @@ ContactReport ContactSolver::solve(const Eigen::VectorXd& stuck_force, const Con
         report.residual = scale > 0.0 ? complementarity_residual(problem, solution) / scale : 0.0;
         return report;
     };
-    const ContactStates start = solution.states;
+    start_ = solution.states;
     if (newton(problem, solution, report, tolerance)) return finish(ContactPath::newton);
-    solution.states = report.mechanism ? stuck : start;
+    solution.states = start_;
+    if (report.mechanism) set_stuck();
     if (one_by_one(problem, solution, report, tolerance)) return finish(ContactPath::worst_violator);
 
-    solution.states = stuck;
+    set_stuck();
     solution.displacement.setZero(2 * m);
     for (int restart = 0; restart < 4; ++restart) {
         gauss_seidel(problem, solution, options_.gauss_seidel_sweeps << restart, tolerance);
@@ -216,10 +210,10 @@ bool ContactSolver::break_one_by_one(const ContactProblem& problem, ContactSolut
 
 bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump, ContactSolution& solution)
 {
-    ContactLaw impulsive = law;
-    impulsive.cohesion.setZero(); // a force, no impulse
-    const Eigen::VectorXd held_impulse = *stiffness_ * held_jump;
-    if (!system_.set(solution.states, impulsive) || !system_.solve(impulsive, held_impulse, solution)) return false;
+    impulsive_ = law;
+    impulsive_.cohesion.setZero(); // a force, no impulse
+    held_impulse_.noalias() = *stiffness_ * held_jump;
+    if (!system_.set(solution.states, impulsive_) || !system_.solve(impulsive_, held_impulse_, solution)) return false;
     solution.displacement += held_jump;
     return true;
 }

@@ -2,6 +2,7 @@
 
 #include "fe2d/contact/released_system.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -85,9 +86,26 @@ private:
                           double tolerance);
     bool evaluate(const ContactProblem& problem, ContactSolution& solution, ContactReport& report);
 
+    /// Remembers which sets of states one search has tried.
+    class Visited {
+    public:
+        void reserve(std::size_t sets) { marks_.reserve(sets); }
+        void clear() { marks_.clear(); }
+        bool seen_before(const ContactStates& states);
+
+    private:
+        std::vector<std::uint64_t> marks_;
+    };
+
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;
     ContactOptions options_;
     ReleasedSystem system_;
+
+    // Work space: solutions with few changes of states allocate nothing.
+    Visited visited_;
+    ContactStates start_, next_;
+    ContactLaw impulsive_; ///< of land()
+    Eigen::VectorXd held_impulse_;
 };
 
 /// The state the result of a solution with states held asks for; the only place where states change.

@@ -93,10 +93,10 @@ bool JointSolver::land(const ContactLaw& law, const VectorXd& rate, ContactSolut
 
 bool JointSolver::hold(const ContactLaw& law, const VectorXd& values, ContactSolution& jumps)
 {
-    VectorXd held = VectorXd::Zero(values.size());
+    held_.setZero(values.size());
     for (Eigen::Index gap = 0; gap < values.size(); ++gap)
-        if (holds(jumps.states, gap)) held[gap] = -values[gap];
-    return rigid_->land(law, held, jumps);
+        if (holds(jumps.states, gap)) held_[gap] = -values[gap];
+    return rigid_->land(law, held_, jumps);
 }
 
 JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const Contact& law, const ContactOptions& options)
@@ -104,13 +104,18 @@ JointSolver::JointSolver(MatrixXd stiffness, const VectorXd& area, const Contact
 {
 }
 
-ContactReport JointSolver::solve(VectorXd stuck_force, const ContactLaw& law, VectorXd& elastic,
+ContactReport JointSolver::solve(const VectorXd& stuck_force, const ContactLaw& law, VectorXd& elastic,
                                  ContactSolution& solution)
 {
     if (slip_tolerance_) return slip_tolerance_->solve(stuck_force, law, elastic, solution);
-    elastic_stick_.soften(stuck_force, elastic);
+    const VectorXd* seen = &stuck_force;
+    if (elastic_stick_.active()) {
+        softened_ = stuck_force;
+        elastic_stick_.soften(softened_, elastic);
+        seen = &softened_;
+    }
     const ContactReport report =
-        soft_normal_ ? soft_normal_->solve(stuck_force, law, solution) : rigid_->solve(stuck_force, law, solution);
+        soft_normal_ ? soft_normal_->solve(*seen, law, solution) : rigid_->solve(*seen, law, solution);
     if (elastic_stick_.active()) elastic = elastic_stick_.give(solution.force);
     return report;
 }

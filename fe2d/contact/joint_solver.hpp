@@ -30,7 +30,7 @@ public:
     /// @param elastic      elastic part of the tangential gaps, at the start and at the end, m values [m]; zero where
     ///                     sticking is rigid
     /// @param solution     on entry states and forces of the start; its slips are net of the elastic part
-    ContactReport solve(Eigen::VectorXd stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
+    ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
                         ContactSolution& solution);
 
     /// Do gaps come to be held between two sets of states, so that land() has to bring them to rest? Never where
@@ -52,6 +52,7 @@ private:
     std::unique_ptr<ExponentialNormal> soft_normal_; ///< of V, or of V' behind the elastic stick
     std::unique_ptr<ContactSolver> rigid_;           ///< the same
     bool lands_ = false;
+    Eigen::VectorXd softened_, held_; ///< work space: λ⁰ behind the elastic stick; jumps of held gaps
 };
 
 /// Which of the 2m gaps a set of states holds as they are.

@@ -1,6 +1,7 @@
 #include "fe2d/contact/released_system.hpp"
 
 #include "core/defect.hpp"
+#include "fe2d/contact/two_levels.hpp"
 
 #include <Eigen/Core>
 
@@ -21,17 +22,6 @@ constexpr Index most_borders = 64;
 constexpr double smallest_pivot = 1e-13; ///< of a factor against the unknown's own diagonal entry of V
 constexpr double row_aim = 1e-13;        ///< of the released rows, relative to the largest stuck force: refine above
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
-
-// Compiled twice, the processor chooses: four numbers at a time in place of two, nothing fused, the same bits.
-// Not with checkers: the choice runs before they are set up.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
-    !defined(__SANITIZE_THREAD__)
-#define DAMSLIP_TWO_LEVELS __attribute__((target_clones("avx2", "default")))
-#define DAMSLIP_INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define DAMSLIP_TWO_LEVELS
-#define DAMSLIP_INDEPENDENT
-#endif
 
 /// y -= c₀ x₀ + c₁ x₁ + c₂ x₂ + c₃ x₃, each row in this order.
 DAMSLIP_TWO_LEVELS void subtract_four(const std::array<const double*, 4>& c, const double* const x, double* const y,

@@ -45,15 +45,15 @@ void RockMotion::begin(const RockStep& step, const VectorXd& constant)
     const StepConstants& c = step.constants();
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5,
                  b_k = step.stiffness_damping();
-    VectorXd load = c.a2 * qv_ + c.a3 * qa_ + cv * radiating_ + ca * radiating_a_ -
-                    rock_.stiffness.cwiseProduct(q_ - b_k * (cv * qv_ + ca * qa_));
+    modal_ = c.a2 * qv_ + c.a3 * qa_ + cv * radiating_ + ca * radiating_a_ -
+             rock_.stiffness.cwiseProduct(q_ - b_k * (cv * qv_ + ca * qa_));
     free_residual_ = b_k * (cv * rv_ + ca * ra_) - r_;
     if (constant.size() > 0) {
-        load.noalias() += rock_.modes.transpose() * constant;
+        modal_.noalias() += rock_.modes.transpose() * constant;
         free_residual_ += constant;
     }
     free_residual_ *= step.residual_share();
-    free_modal_.noalias() = step.inverse() * load;
+    free_modal_.noalias() = step.inverse() * modal_;
     free_.noalias() = rock_.modes * free_modal_;
     free_.noalias() += rock_.residual * free_residual_;
 }
@@ -69,12 +69,16 @@ void RockMotion::finish(const VectorXd& weighted_force)
     step_ = e_step_;
     step_.noalias() += rock_.modes * modal_step_;
 
-    const VectorXd before_v = qv_, before_a = qa_, before_rv = rv_;
+    before_qv_ = qv_;
+    before_qa_ = qa_;
+    before_rv_ = rv_;
     const auto update = [&](const VectorXd& step, VectorXd& x, VectorXd& velocity, VectorXd& acceleration) {
-        const VectorXd a1 = c.a0 * step - c.a2 * velocity - c.a3 * acceleration;
-        velocity = c.a1 * step - c.a4 * velocity - c.a5 * acceleration;
-        acceleration = a1;
-        x += step;
+        for (Index i = 0; i < x.size(); ++i) {
+            const double v = velocity[i], a = acceleration[i];
+            velocity[i] = c.a1 * step[i] - c.a4 * v - c.a5 * a;
+            acceleration[i] = c.a0 * step[i] - c.a2 * v - c.a3 * a;
+            x[i] += step[i];
+        }
     };
     update(modal_step_, q_, qv_, qa_);
     update(residual_step_, r_, rv_, ra_);
@@ -82,11 +86,11 @@ void RockMotion::finish(const VectorXd& weighted_force)
     e_ += e_step_;
     radiating_.noalias() = rock_.damping * qv_;
     radiating_a_.noalias() = rock_.damping * qa_;
-    add_energy(before_v, before_a, before_rv);
+    add_energy();
 }
 
 /// EnergyLedger with M = 1, for the two bodies in series.
-void RockMotion::add_energy(const VectorXd& before_v, const VectorXd& before_a, const VectorXd& before_rv)
+void RockMotion::add_energy()
 {
     const StepConstants& c = op_->constants();
     const double alpha = c.scheme.alpha, gamma = c.scheme.gamma, dt = c.dt, b_k = op_->stiffness_damping();
@@ -97,15 +101,16 @@ void RockMotion::add_energy(const VectorXd& before_v, const VectorXd& before_a, 
 
     energy_.kinetic = 0.5 * qv_.squaredNorm();
     energy_.strain = 0.5 * q_.dot(rock_.stiffness.cwiseProduct(q_)) + 0.5 * e_.dot(r_);
-    const VectorXd velocity = qv_ + before_v;
-    energy_.radiated += 0.5 * modal_step_.dot(rock_.damping * velocity);
+    modal_ = qv_ + before_qv_;
+    product_.noalias() = rock_.damping * modal_;
+    energy_.radiated += 0.5 * modal_step_.dot(product_);
     energy_.damping +=
-        0.5 * b_k * (modal_step_.dot(rock_.stiffness.cwiseProduct(velocity)) + e_step_.dot(rv_ + before_rv));
-    const VectorXd change = qa_ - before_a;
+        0.5 * b_k * (modal_step_.dot(rock_.stiffness.cwiseProduct(modal_)) + e_step_.dot(rv_ + before_rv_));
+    const VectorXd& change = modal_ = qa_ - before_qa_;
     const double half_beta = c.scheme.beta - 0.5 * gamma;
     double numerical = -(gamma - 0.5) * modal_step_.dot(change) +
                        (gamma - 0.5) * half_beta * dt * dt * change.squaredNorm() +
-                       0.5 * half_beta * dt * dt * (qa_.squaredNorm() - before_a.squaredNorm());
+                       0.5 * half_beta * dt * dt * (qa_.squaredNorm() - before_qa_.squaredNorm());
     if (alpha != 0.0)
         numerical += 0.5 * alpha *
                      (modal_step_.dot(now_.modal - before2_.modal) + e_step_.dot(now_.residual - before2_.residual));
@@ -116,49 +121,50 @@ void RockMotion::add_energy(const VectorXd& before_v, const VectorXd& before_a, 
     energy_.numerical += numerical;
 }
 
-VectorXd RockMotion::jump_velocity(const VectorXd& force)
+void RockMotion::land()
+{
+    if (landed_) return;
+    landed_ = true;
+    landed_modal_.setZero(q_.size());
+    landed_residual_.setZero(r_.size());
+}
+
+const VectorXd& RockMotion::jump_velocity(const VectorXd& force)
 {
     assert(op_);
     const double b_k = op_->stiffness_damping();
-    const VectorXd modal = op_->modal_pull() * force, residual = op_->residual_share() * force;
-    qv_ += modal;
-    rv_ += residual;
-    const VectorXd jump = op_->compliance() * force;
-    v_ += jump;
-    const VectorXd radiating = rock_.damping * modal;
-    radiating_ += radiating;
-    if (!landed_) {
-        landed_ = true;
-        landed_modal_.setZero(modal.size());
-        landed_residual_.setZero(residual.size());
-    }
-    const VectorXd damping = radiating + b_k * rock_.stiffness.cwiseProduct(modal);
-    landed_modal_ += damping;
-    landed_residual_ += b_k * residual;
-    now_.modal += damping;
-    now_.residual += b_k * residual;
+    modal_.noalias() = op_->modal_pull() * force;
+    residual_ = op_->residual_share() * force;
+    qv_ += modal_;
+    rv_ += residual_;
+    jump_.noalias() = op_->compliance() * force;
+    v_ += jump_;
+    product_.noalias() = rock_.damping * modal_;
+    radiating_ += product_;
+    land();
+    product_ += b_k * rock_.stiffness.cwiseProduct(modal_); // all damping forces
+    landed_modal_ += product_;
+    landed_residual_ += b_k * residual_;
+    now_.modal += product_;
+    now_.residual += b_k * residual_;
     const double kinetic = 0.5 * qv_.squaredNorm();
     energy_.numerical += energy_.kinetic - kinetic;
     energy_.kinetic = kinetic;
-    return jump;
+    return jump_;
 }
 
-VectorXd RockMotion::jump_acceleration(const VectorXd& force)
+const VectorXd& RockMotion::jump_acceleration(const VectorXd& force)
 {
     assert(op_);
-    const VectorXd modal = op_->modal_pull() * force;
-    qa_ += modal;
+    modal_.noalias() = op_->modal_pull() * force;
+    qa_ += modal_;
     ra_ += op_->residual_share() * force;
-    const VectorXd jump = op_->compliance() * force;
-    a_ += jump;
-    radiating_a_.noalias() += rock_.damping * modal;
-    if (!landed_) {
-        landed_ = true;
-        landed_modal_.setZero(modal.size());
-        landed_residual_.setZero(force.size());
-    }
-    landed_modal_ += modal / (1.0 + op_->constants().scheme.alpha); // M δa
-    return jump;
+    jump_.noalias() = op_->compliance() * force;
+    a_ += jump_;
+    radiating_a_.noalias() += rock_.damping * modal_;
+    land();
+    landed_modal_ += modal_ / (1.0 + op_->constants().scheme.alpha); // M δa
+    return jump_;
 }
 
 } // namespace damslip::fe2d

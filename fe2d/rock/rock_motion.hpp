@@ -64,10 +64,10 @@ public:
     const Eigen::VectorXd& step() const { return step_; } ///< Δu_c of the last finish() [m]
 
     /// Velocities jump by what the impulse-like `force` does through the operator of the last step, as its own forces do:
-    /// δu̇_c = W_r force. @returns δu_̇c
-    Eigen::VectorXd jump_velocity(const Eigen::VectorXd& force);
+    /// δu̇_c = W_r force. @returns δu_̇c; valid until the next jump
+    const Eigen::VectorXd& jump_velocity(const Eigen::VectorXd& force);
     /// The same of accelerations, after which forces on the interface have changed by force/(w ...) as the caller decides.
-    Eigen::VectorXd jump_acceleration(const Eigen::VectorXd& force);
+    const Eigen::VectorXd& jump_acceleration(const Eigen::VectorXd& force);
 
     const Eigen::VectorXd& displacement() const { return u_; } ///< of the interface [m]
     const Eigen::VectorXd& velocity() const { return v_; }
@@ -84,7 +84,8 @@ private:
         Eigen::VectorXd modal;    ///< (Ĉ + b_K K̂) q̇ + K̂ q
         Eigen::VectorXd residual; ///< r + b_K ṙ
     };
-    void add_energy(const Eigen::VectorXd& before_v, const Eigen::VectorXd& before_a, const Eigen::VectorXd& before_rv);
+    void add_energy();
+    void land(); ///< starts to collect what jumps do, unless it has begun
 
     const ReducedRock& rock_;
     const RockStep* op_ = nullptr;
@@ -94,10 +95,12 @@ private:
     Eigen::VectorXd free_modal_, free_residual_, free_; ///< Δq, Δr, Δu_c of the free step
     Eigen::VectorXd modal_step_, residual_step_, step_, e_step_;
     Instant now_, before_, before2_;
+    Eigen::VectorXd before_qv_, before_qa_, before_rv_; ///< q̇, q̈, ṙ at the start of the last step
     Eigen::VectorXd landed_modal_,
         landed_residual_; ///< damping forces of velocities that have jumped since the last step
     bool landed_ = false;
     RockEnergy energy_;
+    Eigen::VectorXd modal_, residual_, product_, jump_; ///< work space
 };
 
 } // namespace damslip::fe2d

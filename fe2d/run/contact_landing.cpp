@@ -29,15 +29,17 @@ ContactLanding::ContactLanding(const StepOperators& operators, double restitutio
 }
 
 std::optional<ContactLanding::Approach> ContactLanding::approach(const StepState& state, const StepRock& rock,
-                                                                 double dt) const
+                                                                 double dt)
 {
     const ContactStates& states = state.contact.states;
     if (!(restitution_ > 0.0) ||
         !std::all_of(states.begin(), states.end(), [](ContactState s) { return s == ContactState::open; }))
         return std::nullopt;
     const Index m = structure_.pairs();
-    Approach approach{dt, gap_values(state.v, state.rock_v, state.rate_t, rock),
-                      gap_values(state.a, state.rock_a, state.accel_t, rock).head(m)};
+    Approach approach{dt, {}, {}};
+    gap_values(state.a, state.rock_a, state.accel_t, rock, values_);
+    approach.accel = values_.head(m);
+    gap_values(state.v, state.rock_v, state.rate_t, rock, approach.rate);
     for (Index i = 0; i < m; ++i) {
         const double rate = approach.rate[i];
         const double square = rate * rate - 2.0 * approach.accel[i] * std::max(0.0, state.contact.opening[i]);
@@ -91,104 +93,104 @@ std::optional<ContactLanding::Rebound> ContactLanding::rebound(const StepConstan
 
 /// Contact forces go to zero, accelerations to those of the flight that begins.
 void ContactLanding::release(const DynamicOperator& op, JointSolver& solver, StepRock& rock, StepDam& dam,
-                             StepState& state, LandingForces& forces) const
+                             StepState& state)
 {
     const StepConstants& c = op.constants();
-    const VectorXd force = -state.contact.contact_force();
-    ContactSolution jumps{state.contact.states, solver.stiffness().llt().solve(c.a0 * force), c.a0 * force};
-    change_accelerations(op, jumps, force, rock, dam, state, forces);
+    force_ = -state.contact.contact_force();
+    jumps_ = {state.contact.states, solver.stiffness().llt().solve(c.a0 * force_), c.a0 * force_};
+    change_accelerations(op, rock, dam, state);
 }
 
 /// Normal and tangential gaps of any motion of dam and rock; the tangential ones are kept by themselves.
-VectorXd ContactLanding::gap_values(const VectorXd& dam, const VectorXd& rock_values, const VectorXd& tangential,
-                                    const StepRock& rock) const
+void ContactLanding::gap_values(const VectorXd& dam, const VectorXd& rock_values, const VectorXd& tangential,
+                                const StepRock& rock, VectorXd& gap)
 {
-    VectorXd gap = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
-    if (structure_.has_rock()) gap -= rock.trace() * rock_values;
+    gap.noalias() = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
+    if (structure_.has_rock()) {
+        on_gaps_.noalias() = rock.trace() * rock_values;
+        gap -= on_gaps_;
+    }
     gap.tail(tangential.size()) = tangential;
-    return gap;
 }
 
 /// What forces on the pairs change of dam and rock, through the operator of the step, as its own forces do.
-ContactLanding::Change ContactLanding::change_by(StepRock::Jump of, const ContactSolution& jumps,
-                                                 const DynamicOperator& op, StepRock& rock) const
+void ContactLanding::change_by(StepRock::Jump of, const DynamicOperator& op, StepRock& rock)
 {
-    DynamicOperator::Free free;
-    free.dam = VectorXd::Zero(structure_.dam_unknowns());
-    free.interface = VectorXd::Zero(op.interface_unknowns());
-    free.mean = VectorXd::Zero(structure_.planes().count());
-    VectorXd tilde;
-    op.finish(free, jumps.force, VectorXd::Zero(2 * structure_.pairs()), jumps.displacement, tilde);
-    op.factor().backward(free.dam);
-    VectorXd rock_change = rock.jump(of, op, free, jumps.displacement, tilde);
-    return {std::move(free.dam), std::move(rock_change)};
+    free_.dam.setZero(structure_.dam_unknowns());
+    free_.interface.setZero(op.interface_unknowns());
+    free_.mean.setZero(structure_.planes().count());
+    none_.setZero(2 * structure_.pairs());
+    op.finish(free_, jumps_.force, none_, jumps_.displacement, tilde_);
+    op.factor().backward(free_.dam);
+    rock.jump(of, op, free_, jumps_.displacement, tilde_, rock_);
 }
 
-std::optional<LandingForces> ContactLanding::land(const DynamicOperator& op, JointSolver& solver,
-                                                  const ContactStates& before, const ContactLaw& law, StepRock& rock,
-                                                  StepDam& dam, StepState& state,
-                                                  const std::optional<Approach>& approach) const
+const LandingForces* ContactLanding::land(const DynamicOperator& op, JointSolver& solver, const ContactStates& before,
+                                          const ContactLaw& law, StepRock& rock, StepDam& dam, StepState& state,
+                                          const std::optional<Approach>& approach)
 {
     ContactStates& states = state.contact.states;
-    if (!solver.lands(before, states)) return std::nullopt;
+    if (!solver.lands(before, states)) return nullptr;
     const bool shuts = solver.shuts(before, states);
     const Index m = structure_.pairs();
-    ContactSolution jumps{states, {}, {}};
-    VectorXd rate = gap_values(state.v, state.rock_v, state.rate_t, rock);
+    jumps_.states = states;
+    gap_values(state.v, state.rock_v, state.rate_t, rock, values_);
     std::optional<Rebound> rebounds;
     if (shuts && approach) rebounds = rebound(op.constants(), solver, law, *approach, states);
     if (rebounds) {
-        jumps.states = rebounds->states;
-        rate.head(m) -= rebounds->target;
+        jumps_.states = rebounds->states;
+        values_.head(m) -= rebounds->target;
     }
-    if (!(shuts ? solver.land(law, rate, jumps) : solver.hold(law, rate, jumps))) return std::nullopt;
-    states = jumps.states;
-    const auto [change, rock_change] = change_by(StepRock::Jump::velocity, jumps, op, rock);
-    state.v += change;
-    state.rock_v += rock_change;
-    change_tangential(jumps, states, state.rate_t);
+    if (!(shuts ? solver.land(law, values_, jumps_) : solver.hold(law, values_, jumps_))) return nullptr;
+    states = jumps_.states;
+    change_by(StepRock::Jump::velocity, op, rock);
+    state.v += free_.dam;
+    state.rock_v += rock_;
+    change_tangential(jumps_, states, state.rate_t);
 
-    LandingForces forces;
-    forces.dam = dam.change_velocity(op.constants(), change);
-    forces.rock = rock.damping_force(rock_change);
+    forces_.impact = 0.0;
+    dam.change_velocity(op.constants(), free_.dam, forces_.dam);
+    rock.damping_force(rock_, forces_.rock);
     if (slip_damping_.active()) {
-        forces.slip_rate = slip_damping_.weights.transpose() * jumps.displacement.tail(m);
-        forces.mean_velocity = slip_damping_.momentum.transpose() * change;
+        forces_.slip_rate.noalias() = slip_damping_.weights.transpose() * jumps_.displacement.tail(m);
+        forces_.mean_velocity.noalias() = slip_damping_.momentum.transpose() * free_.dam;
     }
     if (rebounds) {
-        forces.impact = rebounds->loss;
+        forces_.impact = rebounds->loss;
         states.assign(states.size(), ContactState::open);
-        release(op, solver, rock, dam, state, forces);
+        release(op, solver, rock, dam, state);
     } else if (shuts && !structure_.water()) {
-        settle(op, solver, law, rock, dam, state, forces);
+        settle(op, solver, law, rock, dam, state);
     }
-    return forces;
+    return &forces_;
 }
 
 void ContactLanding::settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock,
-                            StepDam& dam, StepState& state, LandingForces& forces) const
+                            StepDam& dam, StepState& state)
 {
-    const StepConstants& c = op.constants();
-    ContactSolution jumps{state.contact.states, {}, {}};
-    if (!solver.hold(law, gap_values(state.a, state.rock_a, state.accel_t, rock), jumps)) return;
-    change_accelerations(op, jumps, jumps.force / c.a0, rock, dam, state, forces);
+    jumps_.states = state.contact.states;
+    gap_values(state.a, state.rock_a, state.accel_t, rock, values_);
+    if (!solver.hold(law, values_, jumps_)) return;
+    force_ = jumps_.force / op.constants().a0;
+    change_accelerations(op, rock, dam, state);
 }
 
-/// @param force  on the pairs [N/m], @param jumps  accelerations that it gives the gaps, and a0 times it
-void ContactLanding::change_accelerations(const DynamicOperator& op, const ContactSolution& jumps,
-                                          const VectorXd& force, StepRock& rock, StepDam& dam, StepState& state,
-                                          LandingForces& forces) const
+/// By force_ on the pairs, and jumps_: accelerations that it gives the gaps, and a0 times it.
+void ContactLanding::change_accelerations(const DynamicOperator& op, StepRock& rock, StepDam& dam, StepState& state)
 {
     const StepConstants& c = op.constants();
-    const auto [change, rock_change] = change_by(StepRock::Jump::acceleration, jumps, op, rock);
-    state.a += change;
-    state.rock_a += rock_change;
-    change_tangential(jumps, state.contact.states, state.accel_t);
-    state.contact.force += force;
+    change_by(StepRock::Jump::acceleration, op, rock);
+    state.a += free_.dam;
+    state.rock_a += rock_;
+    change_tangential(jumps_, state.contact.states, state.accel_t);
+    state.contact.force += force_;
 
-    forces.dam += dam.change_acceleration(c, change) / (1.0 + c.scheme.alpha);
-    forces.dam.tail(2 * structure_.interface()) -= structure_.planes().gaps().transpose() * force;
-    if (structure_.has_rock()) forces.rock += rock.trace().transpose() * force;
+    forces_.dam += dam.change_acceleration(c, free_.dam) / (1.0 + c.scheme.alpha);
+    on_gaps_.noalias() = structure_.planes().gaps().transpose() * force_;
+    forces_.dam.tail(on_gaps_.size()) -= on_gaps_;
+    if (!structure_.has_rock()) return;
+    by_trace_.noalias() = rock.trace().transpose() * force_;
+    forces_.rock += by_trace_;
 }
 
 } // namespace damslip::fe2d

@@ -37,14 +37,14 @@ public:
         Eigen::VectorXd accel; ///< normal ones [m/s²]
     };
     /// Nothing where landings do not rebound, or some pair is shut. @param state  at the start of the step
-    std::optional<Approach> approach(const StepState& state, const StepRock& rock, double dt) const;
+    std::optional<Approach> approach(const StepState& state, const StepRock& rock, double dt);
 
     /// @param op, solver  of the step that has just been made @param before  states at its start
     /// @param state, dam, rock  at its end: velocities, accelerations, forces and products change
-    /// @returns nothing where no gap is newly held, or nothing can be done
-    std::optional<LandingForces> land(const DynamicOperator& op, JointSolver& solver, const ContactStates& before,
-                                      const ContactLaw& law, StepRock& rock, StepDam& dam, StepState& state,
-                                      const std::optional<Approach>& approach = {}) const;
+    /// @returns what happened; null where no gap is newly held, or nothing can be done. Valid until the next landing
+    const LandingForces* land(const DynamicOperator& op, JointSolver& solver, const ContactStates& before,
+                              const ContactLaw& law, StepRock& rock, StepDam& dam, StepState& state,
+                              const std::optional<Approach>& approach = {});
 
 private:
     struct Rebound {
@@ -54,23 +54,25 @@ private:
     };
     std::optional<Rebound> rebound(const StepConstants& constants, JointSolver& solver, const ContactLaw& law,
                                    const Approach& approach, const ContactStates& states) const;
-    void release(const DynamicOperator& op, JointSolver& solver, StepRock& rock, StepDam& dam, StepState& state,
-                 LandingForces& forces) const;
-    struct Change {
-        Eigen::VectorXd dam, rock;
-    };
-    Change change_by(StepRock::Jump of, const ContactSolution& jumps, const DynamicOperator& op, StepRock& rock) const;
-    Eigen::VectorXd gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock_values,
-                               const Eigen::VectorXd& tangential, const StepRock& rock) const;
+    void release(const DynamicOperator& op, JointSolver& solver, StepRock& rock, StepDam& dam, StepState& state);
+    void change_by(StepRock::Jump of, const DynamicOperator& op, StepRock& rock);
+    void gap_values(const Eigen::VectorXd& dam, const Eigen::VectorXd& rock_values, const Eigen::VectorXd& tangential,
+                    const StepRock& rock, Eigen::VectorXd& gap);
     void settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock, StepDam& dam,
-                StepState& state, LandingForces& forces) const;
-
-    void change_accelerations(const DynamicOperator& op, const ContactSolution& jumps, const Eigen::VectorXd& force,
-                              StepRock& rock, StepDam& dam, StepState& state, LandingForces& forces) const;
+                StepState& state);
+    void change_accelerations(const DynamicOperator& op, StepRock& rock, StepDam& dam, StepState& state);
 
     const ContactStructure& structure_;
     const SlipDamping& slip_damping_;
     double restitution_;
+
+    // Of the landing at hand.
+    LandingForces forces_;
+    ContactSolution jumps_;          ///< of rates or accelerations of the gaps, and impulses or forces times a0
+    DynamicOperator::Free free_;     ///< what they change of the dam
+    Eigen::VectorXd rock_;           ///< and of the rock
+    Eigen::VectorXd values_, force_; ///< of all gaps; on the pairs [N/m]
+    Eigen::VectorXd none_, tilde_, on_gaps_, by_trace_; ///< work space
 };
 
 } // namespace damslip::fe2d

@@ -6,7 +6,6 @@
 #include "fe2d/time/energy.hpp"
 
 #include <memory>
-#include <optional>
 
 namespace damslip::fe2d {
 
@@ -23,14 +22,14 @@ struct LandingForces {
 /// StepRock does, the planes contact, friction and slip damping, the water what WaterLedger finds.
 class ContactLedger {
 public:
-    ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start, const StepDam& dam,
+    ContactLedger(const StepOperators& operators, const Contact& joint, const StepState& start, StepDam& dam,
                   const StepRock& rock);
 
     /// A step has been made. @param state, dam, rock  at its end
-    void add(const StepConstants& constants, const StepState& state, const StepChange& step, const StepDam& dam,
+    void add(const StepConstants& constants, const StepState& state, const StepChange& step, StepDam& dam,
              const StepRock& rock);
     /// Impulses have changed velocities and forces of the present state.
-    void add_landing(LandingForces forces, const StepState& state, const StepDam& dam, const StepRock& rock);
+    void add_landing(const LandingForces& forces, const StepState& state, StepDam& dam, const StepRock& rock);
     /// P has changed. What moves on the rock is no motion of it: the forces of the two last instants are kept as they
     /// were, and the jump of the present ones counts with the next step. @param rock  with the new P
     void add_move(const Pairing::Matrix& change, const StepState& state, const StepRock& rock);
@@ -48,10 +47,11 @@ private:
         Eigen::VectorXd slip_rate;     ///< ωᵀ ġ_t, by plane
         Eigen::VectorXd mean_velocity; ///< Pᵀ v of SlipDamping, by plane
     };
-    void gather(const StepState& state, const StepDam& dam, const StepRock& rock, Forces& forces) const;
+    void gather(const StepState& state, StepDam& dam, const StepRock& rock, Forces& forces) const;
     Eigen::VectorXd across(const Forces& forces) const;
     double stored(const Eigen::VectorXd& opening) const;
-    Eigen::VectorXd add_laws(const StepState& state, const Eigen::VectorXd& gap_step);
+    void add_laws(const StepState& state, const Eigen::VectorXd& gap_step);
+    double slip_work(const Eigen::VectorXd& slip_rate, const Eigen::VectorXd& mean_velocity);
     void note_laws(const JointEnergy& now);
     WaterLedger::Instant water_instant(const StepState& state, const StepDam& dam, const StepRock& rock) const;
 
@@ -66,9 +66,13 @@ private:
     double stored_ = 0.0; ///< in soft normal contact, part of the strain energy [J/m]
     Forces forces_, before_, before2_;
     Eigen::VectorXd load_jump_; ///< force on the rock that moved with the last change of P [N/m]
-    std::optional<LandingForces> landed_;
+    bool has_landed_ = false;
+    LandingForces landed_;                            ///< since the last step, where it has landed
     std::shared_ptr<const WaterLedger> water_ledger_; ///< null: no acoustic water
     WaterLedger::Instant water_, water_before_, water_before2_;
+    // Of the step at hand, and work space.
+    Eigen::VectorXd rock_stiffness_step_, dam_step_, slip_, mean_; ///< K_c Δr; Δu without water; by plane
+    Eigen::VectorXd contact_force_, opening_before_, rate_, mean_rate_, drag_, two_velocities_, edges_;
 };
 
 } // namespace damslip::fe2d

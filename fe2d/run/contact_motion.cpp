@@ -40,8 +40,8 @@ LargestSlips::LargestSlips(const ContactPlanes& planes, VectorXd start)
 
 void LargestSlips::look(const VectorXd& slip)
 {
-    const VectorXd since = slip - start_;
-    for (Index k = 0; k < planes_.count(); ++k) largest_[k] = std::max(largest_[k], std::abs(planes_.mean(k, since)));
+    since_ = slip - start_;
+    for (Index k = 0; k < planes_.count(); ++k) largest_[k] = std::max(largest_[k], std::abs(planes_.mean(k, since_)));
 }
 
 } // namespace damslip::fe2d

@@ -53,7 +53,7 @@ public:
 
 private:
     const ContactPlanes& planes_;
-    Eigen::VectorXd start_, largest_;
+    Eigen::VectorXd start_, largest_, since_; ///< the last: work space
 };
 
 /// What a run of dam and contact shows while it goes on, however its steps are made.

@@ -2,6 +2,7 @@
 
 #include "core/defect.hpp"
 #include "core/stopwatch.hpp"
+#include "fe2d/run/step_passes.hpp"
 
 #include <cmath>
 
@@ -38,7 +39,7 @@ const StepContact& ContactStepper::contact_at(const StepRock& rock)
 }
 
 /// b_d, the rock's free motion and the known contact-like forces.
-void ContactStepper::begin(const StepState& state, const GroundAcceleration& ground, const StepDam& dam, StepRock& rock)
+void ContactStepper::begin(const StepState& state, const GroundAcceleration& ground, StepDam& dam, StepRock& rock)
 {
     const StepConstants& c = op_->constants();
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
@@ -47,16 +48,21 @@ void ContactStepper::begin(const StepState& state, const GroundAcceleration& gro
     if (defect(Defect::stiffness_damping_in_contact))
         known_ -= operators_.damping().constants.stiffness / c.dt * (state.contact.force - state.force_before);
     if (slip_damping_.active()) {
-        const VectorXd slip = slip_damping_.weights.transpose() * (cv * state.rate_t + ca * state.accel_t);
-        const VectorXd mean = slip_damping_.momentum.transpose() * (cv * state.v + ca * state.a);
-        free_.dam.noalias() -= slip_damping_.momentum * slip;
-        known_.tail(state.rate_t.size()) -= slip_damping_.weights * (slip_damping_.drag * slip - mean);
+        on_pairs_ = cv * state.rate_t + ca * state.accel_t;
+        slip_.noalias() = slip_damping_.weights.transpose() * on_pairs_;
+        motion_ = cv * state.v + ca * state.a;
+        mean_.noalias() = slip_damping_.momentum.transpose() * motion_;
+        free_.dam.noalias() -= slip_damping_.momentum * slip_;
+        drag_.noalias() = slip_damping_.drag * slip_;
+        drag_ -= mean_;
+        on_pairs_.noalias() = slip_damping_.weights * drag_;
+        known_.tail(state.rate_t.size()) -= on_pairs_;
     }
     rock.begin_step(*op_, state);
     rock.load_water(*op_, free_.dam);
 }
 
-ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& state, const StepRock& rock,
+ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& state, StepRock& rock,
                                     DynamicCounts& counts)
 {
     const StepContact& contact = contact_at(rock);
@@ -110,20 +116,15 @@ const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock
     const StepConstants& c = op_->constants();
     const Index m = structure_.pairs();
     change_.dam.swap(free_.dam);
-    change_.rock = rock.step(*op_, free_, change_.gap, tilde_);
+    rock.step(*op_, free_, change_.gap, tilde_, change_.rock);
 
-    const auto update = [&](const auto& step, VectorXd& velocity, VectorXd& acceleration) {
-        for (Index i = 0; i < velocity.size(); ++i) {
-            const double v = velocity[i], a = acceleration[i];
-            velocity[i] = c.a1 * step[i] - c.a4 * v - c.a5 * a;
-            acceleration[i] = c.a0 * step[i] - c.a2 * v - c.a3 * a;
-        }
-    };
-    update(change_.dam, state.v, state.a);
-    update(change_.rock, state.rock_v, state.rock_a);
-    update(change_.gap.tail(m), state.rate_t, state.accel_t);
-    state.u += change_.dam;
-    state.rock += change_.rock;
+    move_on(c, change_.dam, state.u, state.v, state.a);
+    move_on(c, change_.rock, state.rock, state.rock_v, state.rock_a);
+    for (Index i = 0; i < m; ++i) {
+        const double step = change_.gap[m + i], v = state.rate_t[i], a = state.accel_t[i];
+        state.rate_t[i] = c.a1 * step - c.a4 * v - c.a5 * a;
+        state.accel_t[i] = c.a0 * step - c.a2 * v - c.a3 * a;
+    }
     ContactMemory& memory = state.contact;
     state.force_before = memory.force;
     if (laws_.active()) state.law_force_before = memory.laws.force();
@@ -144,19 +145,20 @@ const StepChange& ContactStepper::end(const GroundAcceleration& ground, StepRock
 /// Local error of the slips' area means, the largest of all planes [m]: (1/6 - β) Δt² (s̈₁ - s̈₀), what Newmark's formula
 /// leaves of a linear acceleration (Zienkiewicz & Xie 1991), over the pairs that are not held all the step. It sees a
 /// slide that begins or ends within the step once its contact is solved.
-double ContactStepper::slip_error(const StepState& state) const
+double ContactStepper::slip_error(const StepState& state)
 {
     const StepConstants& c = op_->constants();
     const Index m = structure_.pairs();
     const ContactMemory& memory = state.contact;
-    VectorXd change = VectorXd::Zero(m);
+    VectorXd& change = on_pairs_;
+    change.setZero(m);
     for (Index i = 0; i < m; ++i) {
         if (holds(memory.states, m + i) && holds(solution_.states, m + i)) continue;
         const double step = solution_.displacement[m + i] + elastic_[i] - memory.elastic[i];
         change[i] = c.a0 * step - c.a2 * state.rate_t[i] - (c.a3 + 1.0) * state.accel_t[i];
     }
-    const VectorXd mean = structure_.planes().weights().transpose() * change;
-    return std::abs(1.0 / 6.0 - c.scheme.beta) * c.dt * c.dt * mean.cwiseAbs().maxCoeff();
+    mean_.noalias() = structure_.planes().weights().transpose() * change;
+    return std::abs(1.0 / 6.0 - c.scheme.beta) * c.dt * c.dt * mean_.cwiseAbs().maxCoeff();
 }
 
 /// The same of the dam's displacements, root mean square over its mass [m].

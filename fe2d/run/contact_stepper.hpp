@@ -24,14 +24,14 @@ public:
     const DynamicOperator& op() const { return *op_; }
     JointSolver& solver() { return *problems_.at(op_).solver; } ///< of the last solve()
 
-    void begin(const StepState& state, const GroundAcceleration& ground, const StepDam& dam, StepRock& rock);
+    void begin(const StepState& state, const GroundAcceleration& ground, StepDam& dam, StepRock& rock);
     Eigen::VectorXd& dam_vector() { return free_.dam; } ///< b_d, and Δu after the backward pass
-    ContactReport solve(const ContactLaw& law, const StepState& state, const StepRock& rock, DynamicCounts& counts);
+    ContactReport solve(const ContactLaw& law, const StepState& state, StepRock& rock, DynamicCounts& counts);
     void accept(const StepState& state);
     /// @returns what changed; valid until the next step
     const StepChange& end(const GroundAcceleration& ground, StepRock& rock, StepState& state);
 
-    double slip_error(const StepState& state) const;                            ///< after solve()
+    double slip_error(const StepState& state);                                  ///< after solve()
     double dam_error(const StepState& state) const;                             ///< when Δu is known
     double largest_stuck_force() const { return stuck_.cwiseAbs().maxCoeff(); } ///< of the step [N/m]
     int step_sizes() const { return static_cast<int>(problems_.size()); }
@@ -63,6 +63,7 @@ private:
     Eigen::VectorXd elastic_; ///< elastic part of the tangential gaps [m]
     JointLaws laws_;          ///< of the step; those of the state change in end()
     StepChange change_;
+    Eigen::VectorXd slip_, mean_, drag_, motion_, on_pairs_; ///< work space
 };
 
 } // namespace damslip::fe2d

@@ -84,14 +84,15 @@ void DynamicContact::begin(double dt, const GroundAcceleration& ground)
 void DynamicContact::end(const GroundAcceleration& ground, const ContactReport& report, const ContactLaw& law)
 {
     const DynamicOperator& op = stepper_.op();
-    const ContactStates states_before = state_.contact.states;
+    states_before_ = state_.contact.states;
     const auto approach = landing_.approach(state_, rock_, op.constants().dt);
     const StepChange& change = stepper_.end(ground, rock_, state_);
     dam_.end_step(op.constants(), state_);
     rock_.end_step(state_);
     ledger_.add(op.constants(), state_, change, dam_, rock_);
-    if (auto forces = landing_.land(op, stepper_.solver(), states_before, law, rock_, dam_, state_, approach)) {
-        ledger_.add_landing(std::move(*forces), state_, dam_, rock_);
+    if (const LandingForces* forces =
+            landing_.land(op, stepper_.solver(), states_before_, law, rock_, dam_, state_, approach)) {
+        ledger_.add_landing(*forces, state_, dam_, rock_);
         ++counts_.landings;
     }
     counts_.add(report, report.residual * stepper_.largest_stuck_force() / normal_force_);
@@ -137,8 +138,11 @@ ContactReport DynamicContact::advance(double dt, const GroundAcceleration& groun
 /// step() of each lane, its two passes made of all together.
 void DynamicContact::advance(std::span<Lane> lanes, double dt)
 {
-    std::vector<VectorXd*> vectors;
-    std::vector<Lane*> tried, whole;
+    if (lanes.empty()) return;
+    auto& [vectors, tried, whole, gathered] = lanes.front().run->together_;
+    vectors.clear();
+    tried.clear();
+    whole.clear();
     for (Lane& lane : lanes) {
         if (lane.run->cuts_.expected() > 0) {
             lane.report = lane.run->step(dt, lane.ground, *lane.law, 0);
@@ -150,7 +154,7 @@ void DynamicContact::advance(std::span<Lane> lanes, double dt)
     }
     if (tried.empty()) return;
     const InterfaceFactor& factor = tried.front()->run->stepper_.op().factor();
-    factor.forward(vectors);
+    factor.forward(vectors, gathered);
     vectors.clear();
     for (Lane* lane : tried) {
         DynamicContact& run = *lane->run;
@@ -163,7 +167,7 @@ void DynamicContact::advance(std::span<Lane> lanes, double dt)
         whole.push_back(lane);
         vectors.push_back(&run.stepper_.dam_vector());
     }
-    factor.backward(vectors);
+    factor.backward(vectors, gathered);
     for (Lane* lane : whole)
         if (lane->run->cut_after_step(0))
             lane->report = lane->run->in_halves(dt, lane->ground, *lane->law, 0);

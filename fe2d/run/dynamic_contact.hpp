@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -78,6 +79,15 @@ private:
     double normal_force_; ///< static N', the scale of residuals [N/m]
     DynamicCounts counts_;
     LargestSlips largest_slips_;
+    ContactStates states_before_; ///< work space: at the start of the step
+
+    /// Work space of steps of several lanes, kept by the first of them.
+    struct Together {
+        std::vector<Eigen::VectorXd*> vectors;
+        std::vector<Lane*> tried, whole;
+        std::vector<double> gathered;
+    };
+    Together together_;
 };
 
 } // namespace damslip::fe2d

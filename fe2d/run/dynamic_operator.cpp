@@ -156,20 +156,22 @@ void DynamicOperator::solve_free(Free& free, const VectorXd& rock_gap) const
 {
     const Index interface = interface_flexibility_.rows();
     set_product(interface_flexibility_, free.dam.tail(interface), free.interface);
-    free.gap = gaps_ * free.interface;
+    free.gap.noalias() = gaps_ * free.interface;
     if (rock_gap.size() > 0) free.gap -= rock_gap;
     if (!slip_damping_.active()) return;
-    free.mean = momentum_.bottomRows(interface).transpose() * free.interface;
+    free.mean.noalias() = momentum_.bottomRows(interface).transpose() * free.interface;
     for (Index k = 0; k < momentum_.cols(); ++k) free.mean[k] += factor_.inner_product(momentum_.col(k), free.dam);
 }
 
-void DynamicOperator::stuck_force(const StepContact& contact, const Free& free, const VectorXd& known,
-                                  VectorXd& stuck) const
+void DynamicOperator::stuck_force(const StepContact& contact, Free& free, const VectorXd& known, VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
     set_product(contact.to_stuck, free.gap, stuck);
     stuck += known / w;
-    if (slip_damping_.active()) stuck.tail(structure_.pairs()) -= slip_damping_.weights * (free.mean / w);
+    if (!slip_damping_.active()) return;
+    free.drag = free.mean / w;
+    free.on_pairs.noalias() = slip_damping_.weights * free.drag;
+    stuck.tail(structure_.pairs()) -= free.on_pairs;
 }
 
 void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& known, const VectorXd& gap,
@@ -180,9 +182,18 @@ void DynamicOperator::finish(Free& free, const VectorXd& force, const VectorXd& 
     if (slip_damping_.active()) {
         // λ̃ = w λ₁ - known - ω (κ' s - kᵀΔu),  kᵀΔu = mean + ζ s + zᵀλ̃
         const MatrixXd& weights = slip_damping_.weights;
-        const VectorXd slip = weights.transpose() * gap.tail(m);
-        tilde.tail(m) -= weights * (drag_ * slip - free.mean - zeta_ * slip);
-        tilde.tail(m) += weights * (unmixed_ * (z_.transpose() * tilde));
+        VectorXd &slip = free.slip, &drag = free.drag, &pulled = free.pulled;
+        slip.noalias() = weights.transpose() * gap.tail(m);
+        drag.noalias() = drag_ * slip;
+        pulled.noalias() = zeta_ * slip;
+        drag -= free.mean;
+        drag -= pulled;
+        free.on_pairs.noalias() = weights * drag;
+        tilde.tail(m) -= free.on_pairs;
+        pulled.noalias() = z_.transpose() * tilde;
+        drag.noalias() = unmixed_ * pulled;
+        free.on_pairs.noalias() = weights * drag;
+        tilde.tail(m) += free.on_pairs;
         free.dam.head(inner).noalias() += momentum_.topRows(inner) * slip;
         free.interface.noalias() += interface_momentum_ * slip;
     }

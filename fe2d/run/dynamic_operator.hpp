@@ -88,17 +88,18 @@ public:
 
     /// The step without contact forces at its end.
     struct Free {
-        Eigen::VectorXd dam;       ///< b_d after the forward pass of factor() [N/m]
-        Eigen::VectorXd interface; ///< Δu of the interface [m]
-        Eigen::VectorXd gap;       ///< Δg without λ̃ [m]
-        Eigen::VectorXd mean;      ///< kᵀA_d⁻¹b_d, K values
+        Eigen::VectorXd dam;                          ///< b_d after the forward pass of factor() [N/m]
+        Eigen::VectorXd interface;                    ///< Δu of the interface [m]
+        Eigen::VectorXd gap;                          ///< Δg without λ̃ [m]
+        Eigen::VectorXd mean;                         ///< kᵀA_d⁻¹b_d, K values
+        Eigen::VectorXd slip, drag, pulled, on_pairs; ///< work space, by plane and by pair
     };
     /// @param free  with `dam` = b_d after the forward pass on entry
     /// @param rock_gap  P r*, 2m [m]; empty: rigid base
     void solve_free(Free& free, const Eigen::VectorXd& rock_gap) const;
 
     /// λ⁰ for gaps that stay as they are; `known` = α λ₀ - (slip damping of the start) [N/m].
-    void stuck_force(const StepContact& contact, const Free& free, const Eigen::VectorXd& known,
+    void stuck_force(const StepContact& contact, Free& free, const Eigen::VectorXd& known,
                      Eigen::VectorXd& stuck) const;
 
     /// The step for λ₁ = `force` and Δg = `gap`: free.interface becomes Δu of the interface, and free.dam what the

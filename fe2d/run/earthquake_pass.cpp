@@ -49,6 +49,7 @@ EarthquakePass::EarthquakePass(DynamicContact start, PlayedGround ground, const 
     if (const MotionEvent* event = ground_.event())
         result_.events.push_back({event->name, 0.0, ground_.end(), 0.0, 0.0});
     watch_.add(probe_.instant(dynamics_, strength_.law()));
+    recorder_.reserve(static_cast<std::size_t>(record_rows_) + 1);
     add_row();
     going_ = all_rows_ > 0;
 }

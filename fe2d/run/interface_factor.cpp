@@ -349,9 +349,8 @@ void scatter(const std::vector<double>& together, std::span<Eigen::VectorXd* con
 
 /// In groups of four, then two, then one.
 template <class One, class Two, class Four>
-void in_groups(std::span<Eigen::VectorXd* const> vectors, One one, Two two, Four four)
+void in_groups(std::span<Eigen::VectorXd* const> vectors, std::vector<double>& together, One one, Two two, Four four)
 {
-    std::vector<double> together;
     while (!vectors.empty()) {
         const std::size_t lanes = vectors.size() >= 4 ? 4 : vectors.size() >= 2 ? 2 : 1;
         const auto group = vectors.first(lanes);
@@ -368,18 +367,18 @@ void in_groups(std::span<Eigen::VectorXd* const> vectors, One one, Two two, Four
 
 } // namespace
 
-void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b) const
+void InterfaceFactor::forward(std::span<Eigen::VectorXd* const> b, std::vector<double>& gathered) const
 {
     in_groups(
-        b, [this](double* x) { forward_one(x, vector_level()); }, [this](double* x) { forward_together<2>(x); },
-        [this](double* x) { forward_together<4>(x); });
+        b, gathered, [this](double* x) { forward_one(x, vector_level()); },
+        [this](double* x) { forward_together<2>(x); }, [this](double* x) { forward_together<4>(x); });
 }
 
-void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b) const
+void InterfaceFactor::backward(std::span<Eigen::VectorXd* const> b, std::vector<double>& gathered) const
 {
     in_groups(
-        b, [this](double* x) { backward_one(x, vector_level()); }, [this](double* x) { backward_together<2>(x); },
-        [this](double* x) { backward_together<4>(x); });
+        b, gathered, [this](double* x) { backward_one(x, vector_level()); },
+        [this](double* x) { backward_together<2>(x); }, [this](double* x) { backward_together<4>(x); });
 }
 
 double InterfaceFactor::inner_product(const Eigen::Ref<const Eigen::VectorXd>& a,

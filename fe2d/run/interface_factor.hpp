@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <span>
+#include <vector>
 
 namespace damslip::fe2d {
 
@@ -33,8 +34,9 @@ public:
     /// @param b  interface part: u_c on entry, kept
     void backward(Eigen::VectorXd& b, VectorLevel level = vector_level()) const;
     /// Several vectors in one pass over the factor: up to four at a time, each with the same bits as alone.
-    void forward(std::span<Eigen::VectorXd* const> b) const;
-    void backward(std::span<Eigen::VectorXd* const> b) const;
+    /// @param gathered  work space
+    void forward(std::span<Eigen::VectorXd* const> b, std::vector<double>& gathered) const;
+    void backward(std::span<Eigen::VectorXd* const> b, std::vector<double>& gathered) const;
     /// a_i^T A_ii⁻¹ b_i of two vectors after forward().
     double inner_product(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b) const;
 

@@ -70,12 +70,22 @@ bool at_rest(const RunHistory& history, double rest_time)
     return at_rest(history.time, history.slip, rest_time);
 }
 
-double base_rotation(const Plane& plane, const VectorXd& opening)
+BaseRotation::BaseRotation(const Plane& plane)
 {
     const VectorXd weights = plane.weights();
     const VectorXd arm = plane.distance.array() - weights.dot(plane.distance);
-    const VectorXd moments = weights.cwiseProduct(arm);
-    return -moments.dot(opening) / moments.dot(arm);
+    moments_ = weights.cwiseProduct(arm);
+    inertia_ = moments_.dot(arm);
+}
+
+double BaseRotation::of(const Eigen::Ref<const VectorXd>& opening) const
+{
+    return -moments_.dot(opening) / inertia_;
+}
+
+double base_rotation(const Plane& plane, const VectorXd& opening)
+{
+    return BaseRotation(plane).of(opening);
 }
 
 namespace {
@@ -89,12 +99,20 @@ Energy with_spent(Energy now, const Energy& before)
     return now;
 }
 
+std::vector<BaseRotation> rotations_of(const ContactPlanes& planes)
+{
+    std::vector<BaseRotation> rotations;
+    for (Index k = 0; k < planes.count(); ++k) rotations.emplace_back(planes[k]);
+    return rotations;
+}
+
 } // namespace
 
 HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series,
                                  const HistoryBefore& before)
     : dynamics_(dynamics), history_(history), series_(series), start_(before.slip_zero),
-      to_middle_(weights_at_middle(dynamics.structure().plane())), crest_start_(before.crest_zero), before_(before)
+      to_middle_(weights_at_middle(dynamics.structure().plane())), crest_start_(before.crest_zero), before_(before),
+      rotations_(rotations_of(dynamics.structure().planes()))
 {
     crest_ = 2 * dynamics.structure().order().new_node[dynamics.structure().model().mesh.crest.back()];
 }
@@ -102,7 +120,8 @@ HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& hist
 HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series,
                                  double frame_interval)
     : dynamics_(dynamics), history_(history), series_(series), start_(dynamics.state().contact.slip),
-      to_middle_(weights_at_middle(dynamics.structure().plane()))
+      to_middle_(weights_at_middle(dynamics.structure().plane())),
+      rotations_(rotations_of(dynamics.structure().planes()))
 {
     const Mesh& mesh = dynamics.structure().model().mesh;
     crest_ = 2 * dynamics.structure().order().new_node[mesh.crest.back()];
@@ -112,6 +131,43 @@ HistoryRecorder::HistoryRecorder(const ContactMotion& dynamics, RunHistory& hist
     history_.lifts.resize(static_cast<std::size_t>(dynamics.structure().planes().count() - 1));
 }
 
+void HistoryRecorder::reserve(std::size_t rows)
+{
+    RunHistory& h = history_;
+    rows += h.time.size();
+    for (auto* series : {&h.time,
+                         &h.ground_h,
+                         &h.ground_v,
+                         &h.slip,
+                         &h.slip_heel,
+                         &h.slip_middle,
+                         &h.slip_toe,
+                         &h.rocking,
+                         &h.crest_x,
+                         &h.normal_force,
+                         &h.shear_force,
+                         &h.normal_position,
+                         &h.moment,
+                         &h.open_length,
+                         &h.slipping_length,
+                         &h.largest_opening,
+                         &h.imbalance,
+                         &h.slide.thrust_over_friction,
+                         &h.slide.hops,
+                         &h.slide.unloaded_share,
+                         &h.slide.rate})
+        series->reserve(rows);
+    h.energy.reserve(rows);
+    for (LiftHistory& lift : h.lifts)
+        for (auto* series : {&lift.slip, &lift.rocking, &lift.normal_force, &lift.largest_opening})
+            series->reserve(rows);
+    if (series_ == PairSeries::none) return;
+    const std::size_t values = rows * static_cast<std::size_t>(dynamics_.structure().plane().pairs());
+    for (auto* series : {&h.by_pair.pressure, &h.by_pair.shear, &h.by_pair.slip, &h.by_pair.opening})
+        series->reserve(values);
+    h.by_pair.state.reserve(values);
+}
+
 void HistoryRecorder::add()
 {
     const DynamicState& s = dynamics_.state();
@@ -119,14 +175,16 @@ void HistoryRecorder::add()
     const ContactPlanes& planes = dynamics_.structure().planes();
     const Plane& plane = planes.base();
     const Index m = plane.pairs();
-    const VectorXd slip = c.slip - start_;
+    slip_ = c.slip - start_;
+    const VectorXd& slip = slip_;
     double open = 0.0, slipping = 0.0;
     for (Index i = 0; i < m; ++i) {
         const ContactState state = c.states[static_cast<std::size_t>(i)];
         if (state == ContactState::open) open += plane.area[i];
         if (is_slip(state)) slipping += plane.area[i];
     }
-    const VectorXd force = c.contact_force();
+    c.contact_force(contact_force_);
+    const VectorXd& force = contact_force_;
     const double normal = force.head(m).sum(), about_heel = force.head(m).dot(plane.distance);
     history_.time.push_back(before_.time + s.time);
     history_.ground_h.push_back(s.ground.h);
@@ -135,7 +193,7 @@ void HistoryRecorder::add()
     history_.slip_heel.push_back(slip[0]);
     history_.slip_middle.push_back(to_middle_.dot(slip.head(m)));
     history_.slip_toe.push_back(slip[m - 1]);
-    history_.rocking.push_back(base_rotation(plane, c.opening.head(m)));
+    history_.rocking.push_back(rotations_.front().of(c.opening.head(m)));
     history_.crest_x.push_back(s.u[crest_] - crest_start_);
     history_.normal_force.push_back(normal);
     history_.shear_force.push_back(-force.segment(planes.pairs(), m).sum());
@@ -194,8 +252,8 @@ void HistoryRecorder::add_lifts(const VectorXd& force)
     for (Index k = 1; k < planes.count(); ++k) {
         const Index first = planes.first(k), pairs = planes[k].pairs();
         LiftHistory& lift = history_.lifts[static_cast<std::size_t>(k - 1)];
-        lift.slip.push_back(planes.mean(k, c.slip - start_));
-        lift.rocking.push_back(base_rotation(planes[k], c.opening.segment(first, pairs)));
+        lift.slip.push_back(planes.mean(k, slip_));
+        lift.rocking.push_back(rotations_[static_cast<std::size_t>(k)].of(c.opening.segment(first, pairs)));
         lift.normal_force.push_back(force.segment(first, pairs).sum());
         lift.largest_opening.push_back(c.opening.segment(first, pairs).maxCoeff());
     }

@@ -87,6 +87,17 @@ struct RunHistory {
 /// @param opening  of the plane's pairs [m]
 double base_rotation(const Plane& plane, const Eigen::VectorXd& opening);
 
+/// base_rotation() of one plane, again and again.
+class BaseRotation {
+public:
+    explicit BaseRotation(const Plane& plane);
+    double of(const Eigen::Ref<const Eigen::VectorXd>& opening) const; ///< of the plane's pairs [m]; [rad]
+
+private:
+    Eigen::VectorXd moments_; ///< A_i (d_i - d̄) / Σ A_i
+    double inertia_;          ///< Σ A_i (d_i - d̄)² / Σ A_i
+};
+
 /// Has the mean slip stayed the same, to 1e-4 of it or 0.1 µm, for the rest time? Both histories [s, m] of one length.
 bool at_rest(const std::vector<double>& time, const std::vector<double>& slip, double rest_time);
 /// The same of base and lift joints.
@@ -110,8 +121,9 @@ public:
     /// Adds rows to a history. @param before  what its rows are counted from
     HistoryRecorder(const ContactMotion& dynamics, RunHistory& history, PairSeries series, const HistoryBefore& before);
 
-    void add();    ///< a row for the present state
-    void finish(); ///< the present state as the last frame, where frames are kept
+    void reserve(std::size_t rows); ///< that many will come at least: none of them has to look for memory
+    void add();                     ///< a row for the present state
+    void finish();                  ///< the present state as the last frame, where frames are kept
 
 private:
     void add_lifts(const Eigen::VectorXd& force);
@@ -126,7 +138,9 @@ private:
     Eigen::VectorXd to_middle_; ///< weights of the one or two pairs nearest to the middle of the base [-]
     Eigen::Index crest_ = 0;
     double crest_start_ = 0.0;
-    HistoryBefore before_; ///< of the first motion: nothing
+    HistoryBefore before_;                 ///< of the first motion: nothing
+    std::vector<BaseRotation> rotations_;  ///< by plane
+    Eigen::VectorXd slip_, contact_force_; ///< of the row at hand
 };
 
 } // namespace damslip::fe2d

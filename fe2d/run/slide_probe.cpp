@@ -11,6 +11,17 @@ namespace damslip::fe2d {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Hands over λ_c (ContactMemory::contact_force()) without a copy of it.
+template <class Use>
+auto with_contact_force(const ContactMemory& memory, const Use& use)
+{
+    return memory.laws.active() ? use(memory.force - memory.laws.force()) : use(memory.force);
+}
+
+} // namespace
+
 SlideProbe::SlideProbe(const ContactPlanes& planes, const StageResult& rest, const VectorXd& start) : planes_(planes)
 {
     balances_.push_back(rest.resultant);
@@ -45,7 +56,7 @@ SlideInstant SlideProbe::instant(double time, const ContactMemory& contact, cons
         now.thrust_work += balances_[plane].shear_force * slip;
     }
     const Index base = planes_.base().pairs();
-    now.normal_force = contact.contact_force().head(base).sum();
+    now.normal_force = with_contact_force(contact, [&](const auto& force) { return force.head(base).sum(); });
     now.open = std::all_of(contact.states.begin(), contact.states.begin() + base,
                            [](ContactState state) { return state == ContactState::open; });
     now.sliding_factor = sliding_factor(law);
@@ -63,7 +74,11 @@ SlideInstant SlideProbe::instant(const ContactMotion& dynamics, const ContactLaw
 double friction_work(const ContactMemory& before, const ContactMemory& after)
 {
     const Index m = after.slip.size();
-    return -0.5 * (before.contact_force().tail(m) + after.contact_force().tail(m)).dot(after.slip - before.slip);
+    return with_contact_force(before, [&](const auto& of_before) {
+        return with_contact_force(after, [&](const auto& of_after) {
+            return -0.5 * (of_before.tail(m) + of_after.tail(m)).dot(after.slip - before.slip);
+        });
+    });
 }
 
 } // namespace damslip::fe2d

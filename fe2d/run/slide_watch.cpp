@@ -7,10 +7,11 @@ namespace damslip::fe2d {
 
 namespace {
 
-constexpr double unloaded_below = 0.05; ///< of the static N' [-]
-constexpr double indicator_time = 1.0;  ///< before each row of the history [s]
-constexpr std::size_t windows = 3;      ///< that have to go on alike
-constexpr double walked_share = 0.1;    ///< of the slip [-]
+constexpr double unloaded_below = 0.05;  ///< of the static N' [-]
+constexpr double indicator_time = 1.0;   ///< before each row of the history [s]
+constexpr std::size_t usual_steps = 256; ///< twice those of that time, where steps are not short
+constexpr std::size_t windows = 3;       ///< that have to go on alike
+constexpr double walked_share = 0.1;     ///< of the slip [-]
 constexpr int walked_hops = 3;
 constexpr double smallest_change = 1e-9; ///< of times [s]; of work: lifts of the dam by a nanometre are none [m]
 
@@ -29,6 +30,7 @@ bool RunOutFigures::walked() const
 SlideWatch::SlideWatch(const SlideLimits& limits, std::function<double()> window)
     : limits_(limits), find_window_(std::move(window))
 {
+    second_.reserve(usual_steps);
 }
 
 double SlideWatch::window_end() const
@@ -50,7 +52,12 @@ void SlideWatch::add(const SlideInstant& now)
         }
     }
     second_.push_back(next);
-    while (second_.size() > 2 && second_[1].time <= now.time - indicator_time + smallest_change) second_.pop_front();
+    while (second_.size() - oldest_ > 2 && second_[oldest_ + 1].time <= now.time - indicator_time + smallest_change)
+        ++oldest_;
+    if (2 * oldest_ > second_.size()) { // it stays within the store it has
+        second_.erase(second_.begin(), second_.begin() + static_cast<std::ptrdiff_t>(oldest_));
+        oldest_ = 0;
+    }
     if (now.time < limits_.record_end - smallest_change) return;
     if (edges_.empty()) {
         edges_.push_back(next);
@@ -94,7 +101,7 @@ bool SlideWatch::goes_on() const
 
 void SlideWatch::add_row(SlideHistory& history) const
 {
-    const Tally &from = second_.front(), &now = second_.back();
+    const Tally &from = second_[oldest_], &now = second_.back();
     const double time = now.time - from.time;
     const auto share = [&](double change) { return time > 0.0 ? change / time : 0.0; };
     history.thrust_over_friction.push_back(chi(from, now));
@@ -109,8 +116,8 @@ RunOutFigures SlideWatch::figures() const
     if (second_.empty()) return figures;
     const Tally& now = second_.back();
     figures.sliding_factor = now.sliding_factor;
-    const double last_second = now.time - second_.front().time;
-    if (last_second > 0.0) figures.rate = (now.slip - second_.front().slip) / last_second;
+    const double last_second = now.time - second_[oldest_].time;
+    if (last_second > 0.0) figures.rate = (now.slip - second_[oldest_].slip) / last_second;
     figures.slip_shaking = edges_.empty() ? now.slip : edges_.front().slip;
     if (edges_.empty()) return figures;
     figures.slip_at_rest = now.slip - figures.slip_shaking;

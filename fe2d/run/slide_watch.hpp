@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -102,9 +101,10 @@ private:
 
     SlideLimits limits_;
     std::function<double()> find_window_;
-    double window_ = 0.0;      ///< [s]; 0: not asked for yet
-    std::deque<Tally> second_; ///< the last one, the present instant at its end
-    std::vector<Tally> edges_; ///< of the windows, the record's end first
+    double window_ = 0.0;       ///< [s]; 0: not asked for yet
+    std::vector<Tally> second_; ///< the last one, from `oldest_` on; the present instant at its end
+    std::size_t oldest_ = 0;    ///< what stands before it goes when it is more than half
+    std::vector<Tally> edges_;  ///< of the windows, the record's end first
     int hops_shaking_ = 0;
     double first_hop_ = 0.0, last_hop_ = 0.0; ///< of the run-out [s]
     bool self_excited_ = false;

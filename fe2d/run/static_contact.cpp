@@ -101,6 +101,12 @@ VectorXd ContactMemory::contact_force() const
     return laws.active() ? VectorXd(force - laws.force()) : force;
 }
 
+void ContactMemory::contact_force(VectorXd& carried) const
+{
+    carried = force;
+    if (laws.active()) carried -= laws.force();
+}
+
 StaticContact::StaticContact(std::shared_ptr<const StaticOperator> linear, const Contact& joint,
                              const ContactOptions& options)
     : linear_(std::move(linear)), options_(options),

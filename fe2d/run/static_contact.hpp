@@ -22,6 +22,7 @@ struct ContactMemory {
 
     /// λ_c: what contact and friction carry of `force` [N/m].
     Eigen::VectorXd contact_force() const;
+    void contact_force(Eigen::VectorXd& carried) const; ///< the same into a vector that is kept
 
     explicit ContactMemory(Eigen::Index pairs = 0)
         : force(Eigen::VectorXd::Zero(2 * pairs)), opening(Eigen::VectorXd::Zero(pairs)),

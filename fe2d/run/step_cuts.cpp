@@ -9,7 +9,7 @@ int StepCuts::expected() const
     return control_ ? std::min(expected_, control_->largest_cuts) : 0;
 }
 
-bool StepCuts::after_contact(const ContactReport& report, int cuts, const ContactStepper& step, const StepState& state,
+bool StepCuts::after_contact(const ContactReport& report, int cuts, ContactStepper& step, const StepState& state,
                              DynamicCounts& counts) const
 {
     const int more = control_ ? control_->largest_cuts : 0;

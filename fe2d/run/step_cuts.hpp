@@ -27,7 +27,7 @@ public:
     const std::vector<double>& local_errors() const { return local_errors_; } ///< of the steps made under control [m]
 
     /// Asked when the contact of a step is known and nothing of the step is kept yet. @param cuts  that led to it
-    bool after_contact(const ContactReport& report, int cuts, const ContactStepper& step, const StepState& state,
+    bool after_contact(const ContactReport& report, int cuts, ContactStepper& step, const StepState& state,
                        DynamicCounts& counts) const;
     /// Asked again when all of the step is known.
     bool after_step(int cuts, const ContactStepper& step, const StepState& state, DynamicCounts& counts);

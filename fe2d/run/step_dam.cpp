@@ -1,5 +1,7 @@
 #include "fe2d/run/step_dam.hpp"
 
+#include "fe2d/run/step_passes.hpp"
+
 namespace damslip::fe2d {
 
 using Eigen::VectorXd;
@@ -54,25 +56,35 @@ void StepDam::end_step(const StepConstants& c, const DynamicState& state)
 
 /// What the moving ground does to the dam and its added mass. Relative to the ground, which accelerates by (-a_h, +a_v),
 /// the load is -M r_x (-a_h) - M r_y a_v; the velocity that damping feels is (-v_h, +v_v), too.
-VectorXd StepDam::ground_force(const GroundAcceleration& ground) const
+void StepDam::ground_force(const GroundAcceleration& ground, VectorXd& force) const
 {
-    VectorXd force = inertia(structure_, ground);
+    force = inertia(structure_, ground);
     if (drags(ground)) force += ground.drag_h * structure_.dam_inertia_x() - ground.drag_v * structure_.dam_inertia_y();
-    return force;
 }
 
 void StepDam::right_hand_side(const StepConstants& c, const DynamicState& state, const GroundAcceleration& ground,
-                              VectorXd& b) const
+                              VectorXd& b)
 {
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
     const double a_m = damping_.constants.mass;
-    if (drags(ground) || drags(state.ground))
-        b = load_ + w * ground_force(ground) - alpha * ground_force(state.ground);
-    else
-        b = load_ + w * inertia(structure_, ground) - alpha * inertia(structure_, state.ground);
-    b = b - products_.stiffness_1 + products_.stiffness_2 + c.a2 * products_.mass_1 + c.a3 * products_.mass_2 +
-        (a_m * cv) * products_.dam_mass_1 + (a_m * ca) * products_.dam_mass_2;
-    if (structure_.gyrates()) b += structure_.gyration() * VectorXd(cv * state.v + ca * state.a);
+    if (drags(ground) || drags(state.ground)) {
+        ground_force(ground, ground_);
+        ground_force(state.ground, ground_before_);
+        b = load_ + w * ground_ - alpha * ground_before_;
+    } else {
+        ground_load(alpha, state.ground, ground, load_, structure_.inertia_x(), structure_.inertia_y(), b);
+    }
+    add_to_load(products_.stiffness_1, products_.stiffness_2,
+                {{c.a2, products_.mass_1},
+                 {c.a3, products_.mass_2},
+                 {a_m * cv, products_.dam_mass_1},
+                 {a_m * ca, products_.dam_mass_2}},
+                b);
+    if (structure_.gyrates()) {
+        motion_ = cv * state.v + ca * state.a;
+        gyration_.noalias() = structure_.gyration() * motion_;
+        b += gyration_;
+    }
     if (!structure_.water()) return;
     const auto weighted = [&](double GroundAcceleration::*part) {
         return w * ground.*part - alpha * state.ground.*part;
@@ -82,42 +94,50 @@ void StepDam::right_hand_side(const StepConstants& c, const DynamicState& state,
          weighted(&GroundAcceleration::velocity_v) * structure_.velocity_y();
 }
 
-VectorXd StepDam::change_velocity(const StepConstants& c, const VectorXd& change)
+void StepDam::change_velocity(const StepConstants& c, const VectorXd& change, VectorXd& damping)
 {
-    VectorXd stiffness_change, mass_change;
-    operators_.products().multiply(change, stiffness_change, mass_change);
-    structure_.clear_water(stiffness_change); // damping is the dam's
-    VectorXd dam_mass_change = mass_change;
-    structure_.leave_dam_mass(dam_mass_change, change);
-    VectorXd damping = damping_.constants.mass * dam_mass_change + damping_.constants.stiffness * stiffness_change;
-    if (structure_.gyrates()) damping += structure_.gyration() * change;
+    operators_.products().multiply(change, stiffness_change_, mass_change_);
+    structure_.clear_water(stiffness_change_); // damping is the dam's
+    dam_mass_change_ = mass_change_;
+    structure_.leave_dam_mass(dam_mass_change_, change);
+    damping = damping_.constants.mass * dam_mass_change_ + damping_.constants.stiffness * stiffness_change_;
+    if (structure_.gyrates()) {
+        gyration_.noalias() = structure_.gyration() * change;
+        damping += gyration_;
+    }
     structure_.clear_water(damping);
-    products_.mass_1 += mass_change;
-    products_.dam_mass_1 += dam_mass_change;
+    products_.mass_1 += mass_change_;
+    products_.dam_mass_1 += dam_mass_change_;
     products_.stiffness_2 +=
-        damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change;
-    return damping;
+        damping_.constants.stiffness * (c.scheme.alpha + (1.0 + c.scheme.alpha) * c.a4) * stiffness_change_;
 }
 
-VectorXd StepDam::change_acceleration(const StepConstants& c, const VectorXd& change)
+const VectorXd& StepDam::change_acceleration(const StepConstants& c, const VectorXd& change)
 {
-    VectorXd stiffness_change, mass_change;
-    operators_.products().multiply(change, stiffness_change, mass_change);
-    products_.mass_2 += mass_change;
-    products_.stiffness_2 += damping_.constants.stiffness * (1.0 + c.scheme.alpha) * c.a5 * stiffness_change;
-    VectorXd dam_mass_change = mass_change;
-    structure_.leave_dam_mass(dam_mass_change, change);
-    products_.dam_mass_2 += dam_mass_change;
-    return mass_change;
+    operators_.products().multiply(change, stiffness_change_, mass_change_);
+    products_.mass_2 += mass_change_;
+    products_.stiffness_2 += damping_.constants.stiffness * (1.0 + c.scheme.alpha) * c.a5 * stiffness_change_;
+    dam_mass_change_ = mass_change_;
+    structure_.leave_dam_mass(dam_mass_change_, change);
+    products_.dam_mass_2 += dam_mass_change_;
+    return mass_change_;
 }
 
-void StepDam::instant(const DynamicState& state, Instant& now) const
+void StepDam::instant(const DynamicState& state, Instant& now)
 {
-    now.ground = ground_force(state.ground);
-    now.force = damping_.constants.mass * products_.dam_mass_1 + products_.stiffness_1 - load_ - now.ground;
+    if (drags(state.ground)) {
+        ground_force(state.ground, now.ground);
+        now.force = damping_.constants.mass * products_.dam_mass_1 + products_.stiffness_1 - load_ - now.ground;
+    } else {
+        instant_forces(state.ground, damping_.constants.mass, structure_.inertia_x(), structure_.inertia_y(),
+                       products_.dam_mass_1, products_.stiffness_1, load_, now.ground, now.force);
+    }
     now.velocity = state.v;
     now.accel = state.a;
-    if (structure_.gyrates()) now.force += structure_.gyration() * state.v;
+    if (structure_.gyrates()) {
+        gyration_.noalias() = structure_.gyration() * state.v;
+        now.force += gyration_;
+    }
     for (VectorXd* vector : {&now.force, &now.velocity, &now.accel}) structure_.clear_water(*vector);
 }
 

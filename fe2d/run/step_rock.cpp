@@ -77,9 +77,12 @@ void StepRock::begin_step(const DynamicOperator& op, const DynamicState& state)
         }
         const StepConstants& c = op.constants();
         const double alpha = c.scheme.alpha, w = 1.0 + alpha, scale = structure_.water()->scale;
-        VectorXd constant(op.rock_step()->rock().interface());
-        constant << load_, -scale * ((alpha + w * c.a4) * on_floor(state.v) + w * c.a5 * on_floor(state.a));
-        motion_->begin(*op.rock_step(), constant);
+        constant_.resize(op.rock_step()->rock().interface());
+        constant_.head(load_.size()) = load_;
+        for (Index k = 0; k < constant_.size() - load_.size(); ++k)
+            constant_[load_.size() + k] =
+                -scale * ((alpha + w * c.a4) * on_floor(state.v, k) + w * c.a5 * on_floor(state.a, k));
+        motion_->begin(*op.rock_step(), constant_);
         return;
     }
     if (!structure_.has_rock()) return;
@@ -88,11 +91,9 @@ void StepRock::begin_step(const DynamicOperator& op, const DynamicState& state)
     free_ = (rest_ - state.rock + (b_k * cv) * state.rock_v + (b_k * ca) * state.rock_a) / (w * (1.0 + c.a1 * b_k));
 }
 
-VectorXd StepRock::on_floor(const VectorXd& dam) const
+double StepRock::on_floor(const VectorXd& dam, Index k) const
 {
-    VectorXd values(static_cast<Index>(structure_.floor().size()));
-    for (Index k = 0; k < values.size(); ++k) values[k] = dam[structure_.floor()[static_cast<std::size_t>(k)]];
-    return values;
+    return dam[structure_.floor()[static_cast<std::size_t>(k)]];
 }
 
 void StepRock::load_water(const DynamicOperator& op, VectorXd& dam) const
@@ -101,28 +102,32 @@ void StepRock::load_water(const DynamicOperator& op, VectorXd& dam) const
     const StepConstants& c = op.constants();
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, scale = structure_.water()->scale;
     const Index floor = op.rock_step()->rock().floor;
-    const VectorXd load =
-        op.floor_factor() * motion_->free_step().tail(floor) -
-        scale * ((alpha + w * c.a4) * motion_->velocity().tail(floor) + w * c.a5 * motion_->acceleration().tail(floor));
-    for (Index k = 0; k < floor; ++k) dam[structure_.floor()[static_cast<std::size_t>(k)]] += load[k];
+    const auto free = motion_->free_step().tail(floor), velocity = motion_->velocity().tail(floor),
+               acceleration = motion_->acceleration().tail(floor);
+    for (Index k = 0; k < floor; ++k)
+        dam[structure_.floor()[static_cast<std::size_t>(k)]] +=
+            op.floor_factor() * free[k] - scale * ((alpha + w * c.a4) * velocity[k] + w * c.a5 * acceleration[k]);
 }
 
 /// What forces on the pairs, and the floor's pressures with them, are on the interface of radiating rock.
-VectorXd StepRock::weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
-                                  const VectorXd& tilde) const
+const VectorXd& StepRock::weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
+                                         const VectorXd& tilde)
 {
-    VectorXd force = -(trace_.transpose() * tilde);
-    if (!op.has_floor()) return force;
-    VectorXd with_floor(op.rock_step()->rock().interface());
-    with_floor << force, op.floor_factor() * op.on_floor(dam.interface);
-    return with_floor;
+    on_rock_.noalias() = trace_.transpose() * tilde;
+    weighted_.resize(op.rock_step()->rock().interface());
+    weighted_.head(on_rock_.size()) = -on_rock_;
+    if (op.has_floor())
+        weighted_.tail(weighted_.size() - on_rock_.size()) = op.floor_factor() * op.on_floor(dam.interface);
+    return weighted_;
 }
 
-VectorXd StepRock::free_gap() const
+const VectorXd& StepRock::free_gap()
 {
-    if (!structure_.has_rock()) return {};
-    if (motion_) return trace_ * motion_->free_step().head(trace_.cols());
-    return trace_ * free_;
+    if (motion_)
+        free_gap_.noalias() = trace_ * motion_->free_step().head(trace_.cols());
+    else if (structure_.has_rock())
+        free_gap_.noalias() = trace_ * free_;
+    return free_gap_;
 }
 
 FloorMotion StepRock::floor() const
@@ -132,35 +137,49 @@ FloorMotion StepRock::floor() const
     return {motion_->displacement().tail(rows), motion_->velocity().tail(rows)};
 }
 
-VectorXd StepRock::step(const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
-                        const VectorXd& tilde)
+void StepRock::step(const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
+                    const VectorXd& tilde, VectorXd& change)
 {
-    if (!structure_.has_rock()) return {};
+    if (!structure_.has_rock()) return;
     if (motion_) {
         motion_->finish(weighted_force(op, dam, tilde));
-        return motion_->step().head(trace_.cols());
+        change = motion_->step().head(trace_.cols());
+    } else if (structure_.matching()) {
+        opposite(dam, gap, change);
+    } else {
+        by_compliance(op.rock_share(), tilde, change);
+        change = free_ - change;
     }
-    if (structure_.matching()) return opposite(dam, gap);
-    return free_ - op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
 }
 
-VectorXd StepRock::jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
-                        const VectorXd& tilde)
+void StepRock::jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam, const VectorXd& gap,
+                    const VectorXd& tilde, VectorXd& change)
 {
-    if (!structure_.has_rock()) return {};
+    if (!structure_.has_rock()) return;
     if (motion_) {
-        const VectorXd force = weighted_force(op, dam, tilde);
-        const VectorXd jump = of == Jump::velocity ? motion_->jump_velocity(force) : motion_->jump_acceleration(force);
-        return jump.head(trace_.cols());
+        const VectorXd& force = weighted_force(op, dam, tilde);
+        change = (of == Jump::velocity ? motion_->jump_velocity(force) : motion_->jump_acceleration(force))
+                     .head(trace_.cols());
+    } else if (structure_.matching()) {
+        opposite(dam, gap, change);
+    } else {
+        by_compliance(-op.rock_share(), tilde, change);
     }
-    if (structure_.matching()) return opposite(dam, gap);
-    return -op.rock_share() * (structure_.rock_flexibility() * (trace_.transpose() * tilde));
+}
+
+/// share K_c⁻¹ Pᵀ λ̃
+void StepRock::by_compliance(double share, const VectorXd& tilde, VectorXd& change)
+{
+    on_rock_.noalias() = trace_.transpose() * tilde;
+    change.noalias() = (share * structure_.rock_flexibility()) * on_rock_;
 }
 
 /// The rock's nodes follow from the gaps.
-VectorXd StepRock::opposite(const DynamicOperator::Free& dam, const VectorXd& gap) const
+void StepRock::opposite(const DynamicOperator::Free& dam, const VectorXd& gap, VectorXd& change)
 {
-    return trace_.transpose() * VectorXd(structure_.planes().gaps() * dam.interface - gap);
+    on_pairs_.noalias() = structure_.planes().gaps() * dam.interface;
+    on_pairs_ -= gap;
+    change.noalias() = trace_.transpose() * on_pairs_;
 }
 
 void StepRock::end_step(const DynamicState& state)
@@ -170,11 +189,13 @@ void StepRock::end_step(const DynamicState& state)
     if (structure_.has_rock()) set_product(structure_.rock_stiffness(), state.rock, force_);
 }
 
-VectorXd StepRock::damping_force(const VectorXd& velocity) const
+void StepRock::damping_force(const VectorXd& velocity, VectorXd& force) const
 {
-    if (!structure_.has_rock()) return {};
-    if (motion_) return VectorXd::Zero(velocity.size());
-    return stiffness_damping_ * (structure_.rock_stiffness() * velocity);
+    if (!structure_.has_rock()) return;
+    if (motion_)
+        force.setZero(velocity.size());
+    else
+        force.noalias() = (stiffness_damping_ * structure_.rock_stiffness()) * velocity;
 }
 
 void StepRock::instant(const DynamicState& state, BodyInstant& now) const

@@ -44,31 +44,35 @@ public:
     void begin_step(const DynamicOperator& op, const DynamicState& state);
     /// What the rock's free motion does to the water on a floor that is its own. @param dam  b_d, before the forward pass
     void load_water(const DynamicOperator& op, Eigen::VectorXd& dam) const;
-    FloorMotion floor() const;        ///< at the end of the last step
-    Eigen::VectorXd free_gap() const; ///< free motion as part of the gaps, P r*, 2m [m]; empty: rigid base
-    /// Δr. @param change  of the gaps [m] @param tilde  λ̃ [N/m], both of the step, as in DynamicOperator
-    Eigen::VectorXd step(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
-                         const Eigen::VectorXd& tilde);
+    FloorMotion floor() const; ///< at the end of the last step
+    /// Free motion as part of the gaps, P r*, 2m [m]; empty: rigid base. Valid until the next step.
+    const Eigen::VectorXd& free_gap();
+    /// @param gap  change of the gaps [m] @param tilde  λ̃ [N/m], both of the step, as in DynamicOperator
+    /// @param change  gets Δr [m]; empty: rigid base
+    void step(const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
+              const Eigen::VectorXd& tilde, Eigen::VectorXd& change);
     enum class Jump { velocity, acceleration };
     /// The same by impulses, of velocities or accelerations: without free motion.
-    Eigen::VectorXd jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam,
-                         const Eigen::VectorXd& gap, const Eigen::VectorXd& tilde);
+    void jump(Jump of, const DynamicOperator& op, const DynamicOperator::Free& dam, const Eigen::VectorXd& gap,
+              const Eigen::VectorXd& tilde, Eigen::VectorXd& change);
     void end_step(const DynamicState& state);
-    Eigen::VectorXd damping_force(const Eigen::VectorXd& velocity) const; ///< b_K K_c ṙ [N/m]; empty: rigid base
+    /// b_K K_c ṙ [N/m]; empty: rigid base
+    void damping_force(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
 
     // For the ledger. Of radiating rock instant() has the loads alone, stiffness_step() and damping_force() nothing.
     void instant(const DynamicState& state, BodyInstant& now) const;
-    double strain(const DynamicState& state) const;                           ///< [J/m]
-    Eigen::VectorXd stiffness_step() const { return force_ - force_before_; } ///< K_c Δr [N/m]
+    double strain(const DynamicState& state) const;                                       ///< [J/m]
+    void stiffness_step(Eigen::VectorXd& force) const { force = force_ - force_before_; } ///< K_c Δr [N/m]
     const Eigen::VectorXd& load() const { return load_; } ///< f_r; since rest, of radiating rock [N/m]
     RockEnergy energy() const { return motion_ ? motion_->energy() : RockEnergy(); } ///< of radiating rock
 
 private:
     void find_load();
-    Eigen::VectorXd on_floor(const Eigen::VectorXd& dam) const;
-    Eigen::VectorXd weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
-                                   const Eigen::VectorXd& tilde) const;
-    Eigen::VectorXd opposite(const DynamicOperator::Free& dam, const Eigen::VectorXd& gap) const;
+    double on_floor(const Eigen::VectorXd& dam, Eigen::Index k) const;
+    const Eigen::VectorXd& weighted_force(const DynamicOperator& op, const DynamicOperator::Free& dam,
+                                          const Eigen::VectorXd& tilde);
+    void opposite(const DynamicOperator::Free& dam, const Eigen::VectorXd& gap, Eigen::VectorXd& change);
+    void by_compliance(double share, const Eigen::VectorXd& tilde, Eigen::VectorXd& change);
 
     const ContactStructure& structure_;
     double stiffness_damping_;         ///< b_K [s]
@@ -78,10 +82,12 @@ private:
     Pairing::Matrix trace_;
     double trace_slip_ = 0.0; ///< slip it was made for [m]
     int place_ = 0;
-    Eigen::VectorXd geometric_rest_;       ///< see opening() [m]
-    Eigen::VectorXd load_, rest_;          ///< f_r [N/m], K_c⁻¹ f_r
-    Eigen::VectorXd force_, force_before_; ///< K_c r
-    Eigen::VectorXd free_;                 ///< r* of massless rock
+    Eigen::VectorXd geometric_rest_;                           ///< see opening() [m]
+    Eigen::VectorXd load_, rest_;                              ///< f_r [N/m], K_c⁻¹ f_r
+    Eigen::VectorXd force_, force_before_;                     ///< K_c r
+    Eigen::VectorXd free_;                                     ///< r* of massless rock
+    Eigen::VectorXd free_gap_;                                 ///< P r*
+    Eigen::VectorXd constant_, weighted_, on_pairs_, on_rock_; ///< work space
 };
 
 } // namespace damslip::fe2d

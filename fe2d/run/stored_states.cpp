@@ -8,7 +8,12 @@ namespace damslip::fe2d {
 void StateKeeper::look(const DynamicState& state, double time, double slip, double crest_x)
 {
     const auto keep = [&](Instant instant) {
-        kept_[static_cast<std::size_t>(instant)] = {instant, time, slip, state.u, state.rock};
+        StoredState& kept = kept_[static_cast<std::size_t>(instant)]; // its vectors keep their memory
+        kept.instant = instant;
+        kept.time = time;
+        kept.slip = slip;
+        kept.dam = state.u;
+        kept.rock = state.rock;
     };
     if (kept_.empty()) {
         kept_.resize(static_cast<std::size_t>(Instant::end) + 1);

@@ -179,10 +179,11 @@ TEST(FeRunParts, lanes_have_the_bits_of_one)
     alone = together;
     std::vector<VectorXd*> lanes;
     for (VectorXd& vector : together) lanes.push_back(&vector);
-    factor.forward(lanes);
+    std::vector<double> gathered;
+    factor.forward(lanes, gathered);
     for (VectorXd& vector : alone) factor.forward(vector);
     EXPECT_TRUE(together == alone);
-    factor.backward(lanes);
+    factor.backward(lanes, gathered);
     for (VectorXd& vector : alone) factor.backward(vector);
     EXPECT_TRUE(together == alone);
 }
