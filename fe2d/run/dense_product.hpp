@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/run/vector_level.hpp"
+#include "core/vector_level.hpp"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/vector_level.hpp"
 #include "fe2d/run/node_order.hpp"
-#include "fe2d/run/vector_level.hpp"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/vector_level.hpp"
 #include "fe2d/run/contact_motion.hpp"
-#include "fe2d/run/vector_level.hpp"
 #include "fe2d/time/scheme.hpp"
 
 #include <Eigen/Core>
