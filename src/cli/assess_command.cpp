@@ -1,6 +1,5 @@
-#include "cli/assess_command.hpp"
-
 #include "analysis/assess/assess.hpp"
+#include "cli/flags.hpp"
 #include "cli/print_pdf.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
@@ -20,6 +19,14 @@ using namespace pages;
 
 namespace {
 
+struct AssessArguments {
+    RunInputs inputs;
+    double budget = 120.0;     ///< wall time [s]
+    int jobs = 0;              ///< threads of the quick levels; 0: all cores
+    std::filesystem::path out; ///< folder for report.html, assess.json, scene.resolved.toml; empty: none
+    std::filesystem::path pdf; ///< the report as PDF; empty: none
+};
+
 Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
 {
     if (!(a.budget > 0.0 && std::isfinite(a.budget)))
@@ -32,8 +39,8 @@ Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
     return scene;
 }
 
-} // namespace
-
+/// Every level on one dam, with a recommended slip and its range.
+/// @returns exit_no_answer where no level has an answer, and the dam does not fail under its static loads either
 int assess_dam(const AssessArguments& a, const Streams& streams)
 {
     const Scene given = scene_to_assess(a, streams);
@@ -49,6 +56,28 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
     }
     if (!a.pdf.empty()) print_pdf(page_html(assess_page(assessment, given)), a.pdf);
     return assessment.recommended || assessment.verdict == Verdict::fail ? exit_ok : exit_no_answer;
+}
+
+void assess_flags(CLI::App& sub, AssessArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    sub.add_option("--budget", a.budget, "seconds of wall time; what does not fit is left out and named")
+        ->capture_default_str();
+    sub.add_option("--out", a.out, "folder for report.html, assess.json and the resolved scene")
+        ->check(output_to(OutputPath::folder, "--out"));
+    add_pdf(sub, a.pdf);
+    sub.add_option("-j,--jobs", a.jobs, "threads of the quick levels; 0: all cores")->check(CLI::Range(0, 1024));
+}
+
+} // namespace
+
+Command assess_command()
+{
+    return {"assess", "every level on one dam: which one governs, what moves it, the slip to use and its range",
+            "damslip assess examples/reference_dam.toml --out results/assess",
+            with_flags<AssessArguments>(assess_flags, assess_dam)};
 }
 
 } // namespace damslip::cli

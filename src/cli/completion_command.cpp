@@ -1,6 +1,5 @@
-#include "cli/completion_command.hpp"
-
 #include "cli/arguments.hpp"
+#include "cli/flags.hpp"
 #include "core/usage_error.hpp"
 
 #include <fmt/format.h>
@@ -173,8 +172,7 @@ fi
                        zsh_names(commands, ""), below, cases);
 }
 
-} // namespace
-
+/// Prints a completion script for bash, zsh or fish.
 int completion(const std::string& shell, const Streams& streams)
 {
     std::vector<CommandSummary> commands = command_summaries();
@@ -189,6 +187,19 @@ int completion(const std::string& shell, const Streams& streams)
         throw UsageError(Diagnostic{"", 0, 0, fmt::format("completion {}: this shell is not known.", shell),
                                     "bash, zsh or fish", "for example  damslip completion bash"});
     return exit_ok;
+}
+
+void completion_flags(CLI::App& sub, std::string& shell)
+{
+    sub.add_option("SHELL", shell, "bash, zsh or fish")->required();
+}
+
+} // namespace
+
+Command completion_command()
+{
+    return {"completion", "completion script for bash, zsh or fish", "source <(damslip completion bash)",
+            with_flags<std::string>(completion_flags, completion)};
 }
 
 } // namespace damslip::cli

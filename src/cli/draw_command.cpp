@@ -1,5 +1,3 @@
-#include "cli/draw_command.hpp"
-
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/status.hpp"
@@ -9,6 +7,14 @@
 
 namespace damslip::cli {
 
+namespace {
+
+struct DrawArguments {
+    RunInputs inputs;
+    std::filesystem::path out; ///< empty: standard output
+};
+
+/// The section of a scene as SVG.
 int draw(const DrawArguments& arguments, const Streams& streams)
 {
     const Scene scene = read_run_scene(arguments.inputs, streams);
@@ -20,8 +26,6 @@ int draw(const DrawArguments& arguments, const Streams& streams)
         write_file(arguments.out, svg);
     return exit_ok;
 }
-
-namespace {
 
 void draw_flags(CLI::App& sub, DrawArguments& a)
 {

@@ -1,17 +1,53 @@
-#include "cli/fe_command.hpp"
-
+#include "analysis/fe/contact_runs.hpp"
+#include "analysis/fe/model_spread.hpp"
+#include "analysis/fe/state_file.hpp"
+#include "analysis/fe/tied_runs.hpp"
+#include "analysis/prepare/rock_warnings.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
+#include "cli/flags.hpp"
 #include "cli/print_pdf.hpp"
+#include "cli/spectrum_input.hpp"
+#include "cli/terminal/terminal_watch.hpp"
 #include "core/usage_error.hpp"
+#include "pages/fe/fe_output.hpp"
+#include "pages/fe/fe_report.hpp"
+#include "pages/fe/frame_files.hpp"
+#include "pages/fe/reduced_report.hpp"
+#include "pages/fe/rock_lines.hpp"
+#include "pages/fe/tied_report.hpp"
+#include "pages/fe/water_notes.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <optional>
 #include <ostream>
 
 namespace damslip::cli {
 
 using namespace pages;
+
+namespace {
+
+struct FeArguments {
+    RunInputs inputs;
+    std::string base =
+        "contact";               ///< "contact": the dam slides, opens and rocks on its base; "tied": it is bonded to it
+    bool reduced = false;        ///< on few modes of the dam, with an error estimate; contact base only
+    std::optional<int> frames;   ///< of a series for ParaView, by record, >= 2; none: no series
+    std::optional<int> modes;    ///< elastic modes kept by a reduced run, 1 ... 1000; none: its own choice
+    std::filesystem::path out;   ///< folder for summary.json, history_*.csv, fields; empty: none
+    std::filesystem::path pdf;   ///< the report on paper; empty: none
+    std::optional<int> polarity; ///< -1 flips the horizontal component; none: the scene's, else both are run
+    bool spread = false;         ///< run the other rock and the other water, too, on the worst record
+    std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
+    SpectrumArguments spectrum;                ///< peaks by the modes, too
+    bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
+
+    bool reports() const { return !out.empty() || !pdf.empty(); }
+};
 
 FeOptions fe_options(const FeArguments& arguments)
 {
@@ -19,6 +55,9 @@ FeOptions fe_options(const FeArguments& arguments)
             arguments.modes};
 }
 
+/// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked
+/// for. The response spectrum's tables and section stand at the end.
+/// @param spectrum  null: not asked for @param page  made where a report is wanted
 void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scene, const SpectrumLevel* spectrum,
                 const FieldSeries& fields, const std::function<Page()>& page, const Streams& streams)
 {
@@ -42,6 +81,108 @@ void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scen
     if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
 }
 
+/// @throws UsageError, InputError
+FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
+{
+    FeOptions options = fe_options(arguments);
+    if (!arguments.state_out.empty()) {
+        check_state_file(ready.scene, "--state-out");
+        if (ready.records().size() != 1 || polarities_of(options, ready.scene).size() != 1)
+            refuse_usage("--state-out with several runs.", "one record, or one sequence, of one polarity",
+                         "add  --polarity 1 , and one  --record FILE  where the scene has several");
+    }
+    if (arguments.state_in.empty()) return options;
+    check_state_file(ready.scene, "--state-in");
+    options.start = read_state(arguments.state_in, ready.given);
+    return options;
+}
+
+/// `fe`: the dam slides, opens and rocks on its base. Static stages, earthquake with exact Coulomb contact, run-out, static state after
+/// it; the rigid block's slip beside it.
+int run_contact(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
+{
+    TerminalWatch watch(streams);
+    ContactRuns all(ready, options_with_state(arguments, ready), watch);
+    const fe2d::EarthquakeRun& model = all.model();
+    const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift()};
+    FieldSeries fields(arguments.out, model.model());
+    std::optional<FeReport> page;
+    if (arguments.reports()) page.emplace(shared);
+    ModelNotes of_model(ready.scene, model);
+    const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
+        of_model.add(r.record, motion);
+        keep_contact_run(arguments.out, shared, r, fields);
+        if (page) page->add(r, motion);
+        if (const std::string series = write_frames(arguments.out, {ready.scene, model, all.uplift()}, r);
+            !series.empty() && !streams.quiet)
+            streams.talk << "for ParaView: " << (arguments.out / series).string() << "\n";
+        r.fe.history.by_pair = {};
+        r.fe.history.frames = {};
+        r.fe.history.states = {};
+    });
+    if (!arguments.state_out.empty() && !runs.empty() && has_slip(runs.front()))
+        write_state(arguments.state_out, ready.given, runs.front().fe.state, runs.front().label());
+    const std::string spread = spread_line(model_spread(ready, runs, arguments.spread, watch), runs);
+    const std::vector<std::string> messages = contact_messages(ready.scene, runs, of_model.lines());
+    put_answer(
+        contact_answer(shared, runs, messages, spread), arguments, ready.scene, spectrum, fields,
+        [&] { return page->page(runs, messages, spread); }, streams);
+    return runs.size() == all.whole() ? exit_code_of(runs) : exit_no_answer;
+}
+
+/// `fe --reduced`: static stages by the full model, earthquake on few modes of the dam; the slip with an estimate of what the reduction
+/// changes.
+int run_reduced(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
+{
+    TerminalWatch watch(streams);
+    ReducedRuns all(ready, fe_options(arguments), watch);
+    const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
+        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
+    });
+    std::vector<std::string> messages = reduced_messages(ready.scene, runs);
+    for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
+    const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
+                                all.uplift(), runs,       messages};
+    const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
+    put_answer(
+        reduced_answer(in), arguments, ready.scene, spectrum, no_fields, [&] { return reduced_page(in); }, streams);
+    return runs.size() == all.whole() ? exit_code_of(as_contact_runs(runs)) : exit_no_answer;
+}
+
+/// `fe --base tied`: static stages and the linear earthquake run of a dam bonded to its base.
+int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLevel* spectrum, const Streams& streams)
+{
+    TerminalWatch watch(streams);
+    TiedRuns all(ready, fe_options(arguments), watch);
+    const fe2d::Model& model = all.model();
+    FieldSeries fields(arguments.out, model);
+    for (const fe2d::StaticStage& s : all.statics().stages) fields.add(s.name, 0.0, s.displacement, s.elastic);
+    std::vector<TiedRun> runs = all.run([&](TiedRun& r) {
+        if (r.history.displacement.size())
+            fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
+                       r.history.displacement, r.history.displacement);
+        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, r);
+    });
+    for (TiedRun& r : runs) {
+        if (all.water()) {
+            r.notes.push_back(water_counts(*all.water()));
+            for (std::string& warning : reservoir_warnings(ready.scene, 20.0)) r.notes.push_back(std::move(warning));
+        }
+        for (std::string& warning : rock_warnings(ready.scene, model.mesh, r.motion))
+            r.notes.push_back(std::move(warning));
+    }
+    const FePageFrame frame = tied_frame(ready.scene, ready.plan, ready.records(), model, all.water());
+    put_answer(
+        tied_answer(frame, all.statics(), runs), arguments, ready.scene, spectrum, fields,
+        [&] { return tied_page(frame, all.statics(), runs); }, streams);
+    const bool whole = runs.size() == ready.records().size() &&
+                       std::all_of(runs.begin(), runs.end(),
+                                   [](const TiedRun& r) { return r.history.status == fe2d::TiedRunStatus::complete; });
+    return whole ? exit_ok : exit_no_answer;
+}
+
+/// Staged finite-element run of every record of the scene, both polarities beside each other. @returns exit_no_answer when a run did not end properly; what was
+/// computed is written all the same.
 int fe(const FeArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
@@ -63,6 +204,61 @@ int fe(const FeArguments& arguments, const Streams& streams)
     if (arguments.reduced) return run_reduced(arguments, ready, found.get(), streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)
                                     : run_contact(arguments, ready, found.get(), streams);
+}
+
+void fe_flags(CLI::App& sub, FeArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    sub.add_option(
+           "--polarity", a.polarity,
+           "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
+        ->check(CLI::IsMember({1, -1}))
+        ->group("Ground motion");
+    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_rock(sub, a.inputs);
+    sub.add_option("--base", a.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
+        ->check(CLI::IsMember({"contact", "tied"}))
+        ->capture_default_str();
+    sub.add_flag("!--no-mesh-error", a.mesh_error,
+                 "leave out the run on elements of twice the size that tells what the mesh leaves open of the slip");
+    sub.add_flag(
+        "--spread", a.spread,
+        "run the worst record on massless rock (or radiating, where the scene's has no mass) and with added mass in "
+        "place of acoustic water, too: how far the models lie apart");
+    sub.add_option("--state-out", a.state_out,
+                   "file for the state of the joints after the earthquake, of one record and polarity")
+        ->check(output_to(OutputPath::file, "--state-out"))
+        ->group("State of the joints");
+    sub.add_option("--state-in", a.state_in,
+                   "go on from that file: the same dam as another earthquake has left it; the slip counts from there")
+        ->group("State of the joints");
+    CLI::Option* reduced =
+        sub.add_flag("--reduced", a.reduced, "earthquake on few modes of the dam; slip with an error estimate")
+            ->group("Reduced run");
+    sub.add_option("--modes", a.modes, "elastic modes kept (12)")
+        ->check(CLI::Range(1, 1000))
+        ->needs(reduced)
+        ->group("Reduced run");
+    reduced->excludes(sub.get_option("--base"));
+    CLI::Option* out =
+        sub.add_option("--out", a.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
+            ->check(output_to(OutputPath::folder, "--out"));
+    sub.add_option("--frames", a.frames,
+                   "so many instants of each record as a time series for ParaView: frames_*.pvd in the folder of --out")
+        ->check(CLI::Range(2, 10000))
+        ->needs(out)
+        ->excludes(reduced);
+    add_response_spectrum(sub, a.spectrum);
+    add_pdf(sub, a.pdf);
+}
+
+} // namespace
+
+Command fe_command()
+{
+    return {"fe", "staged finite-element run: gravity, impounding, uplift, earthquake",
+            "damslip fe examples/reference_dam.toml --out results/fe", with_flags<FeArguments>(fe_flags, fe)};
 }
 
 } // namespace damslip::cli

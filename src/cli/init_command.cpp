@@ -1,10 +1,10 @@
-#include "cli/init_command.hpp"
-
+#include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
 #include "core/status.hpp"
 #include "core/usage_error.hpp"
 #include "pages/scene/drawn_section.hpp"
+#include "pages/scene/scene_template.hpp"
 #include "scene/read.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +14,12 @@
 namespace damslip::cli {
 
 namespace {
+
+struct InitArguments {
+    std::filesystem::path out = "dam.toml";
+    pages::SceneTemplate dam;
+    bool force = false; ///< replaces a file
+};
 
 /// A number from the terminal; nothing for an empty line: what is assumed stays.
 std::optional<double> asked(const std::string& what, const std::string& otherwise, const Streams& streams)
@@ -44,8 +50,7 @@ void ask_for_the_rest(pages::SceneTemplate& dam, const Streams& streams)
     ask(dam.friction, "friction of the base [-]", 0.8);
 }
 
-} // namespace
-
+/// Writes a commented scene and its drawing beside it. Asks for what is missing where somebody sits at the terminal.
 int init(const InitArguments& arguments, const Streams& streams)
 {
     InitArguments a = arguments;
@@ -74,6 +79,32 @@ int init(const InitArguments& arguments, const Streams& streams)
     streams.out << fmt::format("{}: the scene, assumptions marked\n{}: its section\nnext:  damslip screen {}\n",
                                a.out.string(), drawing.string(), a.out.string());
     return exit_ok;
+}
+
+void init_flags(CLI::App& sub, InitArguments& a)
+{
+    sub.add_option("FILE", a.out, "scene to write")
+        ->capture_default_str()
+        ->check(output_to(OutputPath::regular_file, "FILE"));
+    sub.add_option("--height", a.dam.height, "of the dam [m]; asked for at a terminal")->check(in_range(1.0, 1000.0));
+    sub.add_option("--base", a.dam.base, "length of the base [m] (0.8 of the height)")->check(in_range(0.1, 2000.0));
+    sub.add_option("--crest", a.dam.crest, "width of the crest [m] (0.1 of the height)")->check(in_range(0.1, 1000.0));
+    sub.add_option("--level", a.dam.level, "of the water above the heel [m] (0.95 of the height)")
+        ->check(in_range(0.1, 3000.0));
+    sub.add_option("--friction", a.dam.friction, "of the base [-] (0.8)")->check(in_range(0.01, 10.0));
+    sub.add_option("--allowable", a.dam.allowable, "slip [mm] (50)")->check(in_range(0.1, 100000.0));
+    sub.add_option("--title", a.dam.title, "of the dam")->capture_default_str();
+    sub.add_option("--record", a.dam.records, "horizontal accelerogram(s)");
+    sub.add_option("--vertical", a.dam.verticals, "vertical accelerogram(s), one for each --record");
+    sub.add_flag("--force", a.force, "replace FILE where it is there");
+}
+
+} // namespace
+
+Command init_command()
+{
+    return {"init", "a commented scene of your own dam, with its drawing",
+            "damslip init dam.toml --height 62.5 --base 45", with_flags<InitArguments>(init_flags, init)};
 }
 
 } // namespace damslip::cli

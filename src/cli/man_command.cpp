@@ -1,17 +1,24 @@
-#include "cli/man_command.hpp"
-
 #include "cli/arguments.hpp"
+#include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "core/version.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <ostream>
+#include <string>
+#include <vector>
 
 namespace damslip::cli {
 
 namespace {
+
+struct ManArguments {
+    std::vector<std::string> command; ///< "record", "info"; empty: the program's own page
+    std::filesystem::path out;        ///< folder for all pages; empty: one page on standard output
+};
 
 constexpr const char* release_date = "2026-11-21"; ///< of this version; a page must not depend on when it was built
 
@@ -162,8 +169,7 @@ std::string page(const CommandSummary& given, const std::vector<CommandSummary>&
     return out;
 }
 
-} // namespace
-
+/// Manual pages from the help texts: damslip.1, damslip-screen.1, damslip-record-info.1, ...
 int man(const ManArguments& arguments, const Streams& streams)
 {
     const std::vector<CommandSummary> all = command_summaries();
@@ -178,6 +184,21 @@ int man(const ManArguments& arguments, const Streams& streams)
                                     "a command that damslip --help lists", "for example  damslip man fe"});
     streams.out << page(*found, all);
     return exit_ok;
+}
+
+void man_flags(CLI::App& sub, ManArguments& a)
+{
+    sub.add_option("COMMAND", a.command, "the command whose page is printed; none: the program's own");
+    sub.add_option("--out", a.out, "folder for the pages of all commands")
+        ->check(output_to(OutputPath::folder, "--out"));
+}
+
+} // namespace
+
+Command man_command()
+{
+    return {"man", "manual pages, made from the help texts", "damslip man fe | man -l -",
+            with_flags<ManArguments>(man_flags, man)};
 }
 
 } // namespace damslip::cli

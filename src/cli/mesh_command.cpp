@@ -1,6 +1,5 @@
-#include "cli/mesh_command.hpp"
-
 #include "analysis/second_solver/second_solver.hpp"
+#include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "fe2d/gmsh/write_gmsh.hpp"
@@ -21,6 +20,17 @@ namespace damslip::cli {
 using namespace pages;
 
 namespace {
+
+struct MeshArguments {
+    RunInputs inputs;
+    std::filesystem::path out;      ///< Gmsh file; empty: none
+    std::string format = "4.1";     ///< of the Gmsh file: "2.2" or "4.1"
+    std::string base = "twice";     ///< nodes of the base in it: "twice" or "shared"
+    std::string to = "gmsh";        ///< for whom `out` is: "gmsh" or "calculix"
+    std::string analysis = "modes"; ///< of the deck for CalculiX: "modes", "tied" or "static-contact"
+    int modes = 10;                 ///< of that deck: found, or superposed
+    std::filesystem::path results;  ///< .dat file that ccx made of the deck, to compare with; empty: none
+};
 
 fe2d::BaseNodes base_nodes(const MeshArguments& arguments, const fe2d::Mesh& mesh)
 {
@@ -85,8 +95,8 @@ int calculix(const MeshArguments& arguments, const Streams& streams)
     return all ? exit_ok : exit_no_answer;
 }
 
-} // namespace
-
+/// The mesh of a scene as contact runs have it, the program's own or an imported one: sizes, shapes, contact pairs; written as a
+/// Gmsh file where asked for.
 int mesh(const MeshArguments& arguments, const Streams& streams)
 {
     if (arguments.to == "calculix") return calculix(arguments, streams);
@@ -117,6 +127,41 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
         streams.out << given.title << "\n\n" << text(table);
     }
     return exit_ok;
+}
+
+void mesh_flags(CLI::App& sub, MeshArguments& a)
+{
+    add_scene(sub, a.inputs);
+    sub.add_option(
+           "--out", a.out,
+           "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it; deck for CalculiX with --to calculix")
+        ->check(output_to(OutputPath::file, "--out"));
+    sub.add_option("--format", a.format, "version of the Gmsh file")
+        ->check(CLI::IsMember({"2.2", "4.1"}))
+        ->capture_default_str();
+    sub.add_option("--base", a.base, "nodes between dam and rock in the Gmsh file: twice, or shared by both")
+        ->check(CLI::IsMember({"twice", "shared"}))
+        ->capture_default_str();
+    sub.add_option("--to", a.to,
+                   "for whom --out is: gmsh (the mesh), or calculix (mesh, materials, loads: a deck to run)")
+        ->check(CLI::IsMember({"gmsh", "calculix"}))
+        ->capture_default_str();
+    sub.add_option("--analysis", a.analysis, "what CalculiX is to compute")
+        ->check(CLI::IsMember({"modes", "tied", "static-contact"}))
+        ->capture_default_str();
+    sub.add_option("--modes", a.modes, "modes that CalculiX finds, or superposes in a tied run")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    sub.add_option("--results", a.results, "the .dat file that ccx made of the deck: our results beside its own")
+        ->check(CLI::ExistingFile);
+}
+
+} // namespace
+
+Command mesh_command()
+{
+    return {"mesh", "the finite-element mesh of a scene: sizes and shapes; written for Gmsh or CalculiX",
+            "damslip mesh examples/reference_dam.toml --out dam.msh", with_flags<MeshArguments>(mesh_flags, mesh)};
 }
 
 } // namespace damslip::cli

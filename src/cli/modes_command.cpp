@@ -1,5 +1,4 @@
-#include "cli/modes_command.hpp"
-
+#include "cli/flags.hpp"
 #include "core/usage_error.hpp"
 #include "pages/modes/modes_page.hpp"
 
@@ -10,6 +9,17 @@ namespace damslip::cli {
 
 using namespace pages;
 
+namespace {
+
+struct ModesArguments {
+    RunInputs inputs;
+    int count = 10;                  ///< modes
+    bool frequency_response = false; ///< transfer functions, 0.1 ... 20 Hz
+    std::filesystem::path out;       ///< folder for mode shapes (VTU) and transfer functions (CSV); empty: none
+};
+
+/// Natural frequencies, effective masses and damping coefficients of the dam on its rock with its water, tied base. Acoustic water:
+/// every coupled mode up to 20 Hz. reservoir.model = "auto" is decided by the compressibility criterion.
 int modes(const ModesArguments& arguments, const Streams& streams)
 {
     const Scene given = read_run_scene(arguments.inputs, streams);
@@ -19,6 +29,25 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     streams.out << (streams.form == Form::json ? modes_json(given, result).dump(2) + "\n" : modes_text(given, result));
     if (!arguments.out.empty()) write_modes(arguments.out, given, result);
     return result.complete() ? exit_ok : exit_no_answer;
+}
+
+void modes_flags(CLI::App& sub, ModesArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    add_rock(sub, a.inputs);
+    sub.add_option("-n,--count", a.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
+    sub.add_flag("--frf", a.frequency_response,
+                 "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");
+    sub.add_option("--out", a.out, "folder for the mode shapes as VTU files and the transfer functions as CSV")
+        ->check(output_to(OutputPath::folder, "--out"));
+}
+
+} // namespace
+
+Command modes_command()
+{
+    return {"modes", "natural frequencies, effective masses, Rayleigh and modified Rayleigh coefficients",
+            "damslip modes examples/reference_dam.toml --count 5", with_flags<ModesArguments>(modes_flags, modes)};
 }
 
 } // namespace damslip::cli

@@ -1,5 +1,3 @@
-#include "cli/regress_command.hpp"
-
 #include "analysis/screen/regression_rows.hpp"
 #include "cli/flags.hpp"
 #include "core/number.hpp"
@@ -11,11 +9,19 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 namespace damslip::cli {
 
 namespace {
+
+/// What is known of an earthquake without its record. In the units of the flags.
+struct RegressArguments {
+    double yield_g = 0.0, pga_g = 0.0;
+    std::optional<double> pgv_cm_s, arias_m_s, mean_period_s, magnitude, period_s, sa_13_g, sa_15_g, cycles;
+    std::optional<double> allowable_mm; ///< then k(d*) of each
+};
 
 sliding::RegressionInputs inputs_of(const RegressArguments& a)
 {
@@ -60,8 +66,7 @@ Table coefficient_table(const sliding::RegressionInputs& inputs, double allowabl
     return table;
 }
 
-} // namespace
-
+/// Slips by the regressions from given measures of the motion.
 int regress(const RegressArguments& a, const Streams& streams)
 {
     const sliding::RegressionInputs inputs = inputs_of(a);
@@ -79,8 +84,6 @@ int regress(const RegressArguments& a, const Streams& streams)
     }
     return rows.back().valid ? exit_ok : exit_no_answer;
 }
-
-namespace {
 
 void regress_flags(CLI::App& sub, RegressArguments& a)
 {

@@ -1,12 +1,13 @@
-#include "cli/screen_command.hpp"
-
 #include "analysis/spectrum/spectrum_level.hpp"
+#include "cli/flags.hpp"
 #include "cli/print_pdf.hpp"
+#include "cli/spectrum_input.hpp"
 #include "core/usage_error.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/screen/screen_report.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 namespace damslip::cli {
@@ -14,6 +15,16 @@ namespace damslip::cli {
 using namespace pages;
 
 namespace {
+
+struct ScreenArguments {
+    RunInputs inputs;
+    std::filesystem::path out;  ///< folder for summary.json, displacements.csv and the resolved scene; empty: none
+    std::filesystem::path pdf;  ///< the report on paper; empty: none
+    bool rocking = false;       ///< the block that rocks, too, where the sliding one holds
+    SpectrumArguments spectrum; ///< peaks by the modes, too
+    bool mean_polarity = false; ///< a table with the mean of both polarities
+    int jobs = 0;               ///< threads; 0: all cores
+};
 
 /// The response spectrum's answer, on the model of finite elements.
 std::shared_ptr<const SpectrumLevel> spectrum_of_elements(const SpectrumArguments& a,
@@ -26,8 +37,7 @@ std::shared_ptr<const SpectrumLevel> spectrum_of_elements(const SpectrumArgument
                                prepare(given, Method::finite_elements, ready.pairs, {.stop = streams.stop}));
 }
 
-} // namespace
-
+/// Limit equilibrium, yield accelerations, rigid-block displacements and regressions for every record of the scene.
 int screen(const ScreenArguments& arguments, const Streams& streams)
 {
     PrepareOptions options;
@@ -64,6 +74,31 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
     }
     return statuses_of(s).exit_code();
+}
+
+void screen_flags(CLI::App& sub, ScreenArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    sub.add_option("--scheme", a.inputs.scheme, "of the rigid block: exact (default) or slammer");
+    sub.add_flag("--rocking", a.rocking,
+                 "the block that rocks and slides, too; without it where the sliding block does not hold");
+    sub.add_flag("--mean-polarity", a.mean_polarity, "a table with the mean slip of both polarities of each record");
+    add_response_spectrum(sub, a.spectrum);
+    sub.add_option("--out", a.out, "folder for summary.json, displacements.csv and the resolved scene")
+        ->check(output_to(OutputPath::folder, "--out"));
+    add_pdf(sub, a.pdf);
+    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+}
+
+} // namespace
+
+Command screen_command()
+{
+    return {"screen", "limit equilibrium, yield accelerations, rigid-block displacement and regressions",
+            "damslip screen examples/reference_dam.toml --record ns.at2 --vertical up.at2",
+            with_flags<ScreenArguments>(screen_flags, screen)};
 }
 
 } // namespace damslip::cli

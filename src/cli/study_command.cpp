@@ -1,6 +1,5 @@
-#include "cli/study_command.hpp"
-
 #include "analysis/sweep/sweep_identity.hpp"
+#include "cli/flags.hpp"
 #include "cli/input/make_axes.hpp"
 #include "cli/input/sweep_arguments.hpp"
 #include "cli/terminal/terminal_watch.hpp"
@@ -25,6 +24,14 @@ using namespace pages;
 using namespace study;
 
 namespace {
+
+struct StudyArguments {
+    RunInputs inputs;
+    std::string method = "rigid,rigid-v,fe,fe-whole-steps,fe-goldgruber-2015,fe-radiating";
+    std::filesystem::path out; ///< folder for rows.csv, findings.csv and report.html
+    int jobs = 0;              ///< threads; 0: all cores
+    bool resume = false;       ///< go on from rows.csv.journal
+};
 
 SweepArguments grid_arguments(const StudyArguments& a)
 {
@@ -58,8 +65,8 @@ void check_scene(const Scene& scene)
         usage("there is no record.", "a [[motion.record]] in the scene or --record", "add  --record FILE");
 }
 
-} // namespace
-
+/// `damslip study`: the grid of Goldgruber (2015), chapter 4, on the scene's dam under its first record, and what of the source's
+/// findings came out.
 int study(const StudyArguments& arguments, const Streams& streams)
 {
     // 1. the scene and the grid of the chapter
@@ -119,6 +126,28 @@ int study(const StudyArguments& arguments, const Streams& streams)
         code = worse_exit_code(code, step.unanswered.exit_code());
     }
     return code;
+}
+
+void study_flags(CLI::App& sub, StudyArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    sub.add_option("--method", a.method, "as of sweep; with fe the finite elements run to the default accuracy")
+        ->capture_default_str();
+    sub.add_option("-o,--out", a.out, "folder for rows.csv, findings.csv and report.html")
+        ->check(output_to(OutputPath::folder, "--out"))
+        ->required();
+    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    sub.add_flag("--resume", a.resume, "go on where a study with the same --out stopped");
+}
+
+} // namespace
+
+Command study_command()
+{
+    return {
+        "study",
+        "the study of Goldgruber (2015), chapter 4: 6 frictions, 3 uplifts, 3 waters, 2 sizes; figures and findings",
+        "damslip study examples/thesis-study/dam.toml --out study", with_flags<StudyArguments>(study_flags, study)};
 }
 
 } // namespace damslip::cli
