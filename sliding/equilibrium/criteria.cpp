@@ -5,10 +5,27 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <span>
+#include <string_view>
 
 namespace damslip::sliding {
 
 namespace {
+
+/// Required values of one document for one kind of combination; 0: the document does not say.
+struct CriteriaRow {
+    CombinationKind kind;
+    double sliding, sliding_residual, flotation, overturning; ///< [-]
+    ResultantZone resultant;
+};
+
+/// A shipped set of required values. Only values read in the cited text are shipped; for any other document the user
+/// gives the required values in the combinations.
+struct CriteriaDocument {
+    std::string_view name;     ///< for criteria.document
+    std::string_view citation; ///< printed beside every verdict
+    std::span<const CriteriaRow> rows;
+};
 
 // CADAM3D help, page "Performance criteria" (cadam3d.com/help/Performancecriteria.html), table "Safety factors,
 // stability criteria and allowable stresses": columns normal, unusual (ineffective drains or ice), post-seismic,
@@ -69,11 +86,6 @@ Requirements from_document(const Scene& scene, const Combination& combination)
 }
 
 } // namespace
-
-std::span<const CriteriaDocument> criteria_documents()
-{
-    return documents;
-}
 
 Requirements requirements(const Scene& scene, const Combination& combination)
 {

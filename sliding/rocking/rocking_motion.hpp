@@ -94,7 +94,6 @@ private:
     double tipping_moment(Stance stance, double bond, double x, const State& y) const;
     double friction(double path_slipped) const { return friction_at(block_.stages[stage_].slip, path_slipped); }
     double next_stage_path() const;
-    double sum_of_losses() const { return y_[work_friction] + landing_loss_; }
 
     const RockingBlock& block_;
     SlidingOptions options_;

@@ -114,23 +114,4 @@ double batch_size(double cost_set_up, double cost_run, double icc)
     return std::max(1.0, std::sqrt(cost_set_up / cost_run * (1.0 - icc) / icc));
 }
 
-double intraclass_correlation(std::span<const double> values, std::size_t m)
-{
-    if (m < 2 || values.size() < 2 * m || values.size() % m != 0)
-        throw ParameterError("values", fmt::format("{}", values.size()),
-                             fmt::format("two groups of {} at least, m >= 2", m));
-    const std::size_t groups = values.size() / m;
-    const double size = static_cast<double>(m), count = static_cast<double>(groups);
-    double whole = 0.0, between = 0.0, within = 0.0;
-    for (const double v : values) whole += v / static_cast<double>(values.size());
-    for (std::size_t g = 0; g < groups; ++g) {
-        double mean = 0.0;
-        for (std::size_t k = 0; k < m; ++k) mean += values[g * m + k] / size;
-        between += size * (mean - whole) * (mean - whole) / (count - 1.0);
-        for (std::size_t k = 0; k < m; ++k) within += std::pow(values[g * m + k] - mean, 2) / (count * (size - 1.0));
-    }
-    const double all = between + (size - 1.0) * within;
-    return all > 0.0 ? std::clamp((between - within) / all, 0.0, 1.0) : 0.0;
-}
-
 } // namespace damslip::probability

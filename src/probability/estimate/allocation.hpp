@@ -64,8 +64,4 @@ std::vector<std::uint64_t> allocate_strata(std::span<const Stratum> strata, doub
 /// set-ups (Cochran 1977, 10.6).
 double batch_size(double cost_set_up, double cost_run, double icc);
 
-/// ICC of a balanced pilot by analysis of variance: (MS_between - MS_within) / (MS_between + (m - 1) MS_within), within 0 ... 1.
-/// @param values  groups of m values each, group by group
-double intraclass_correlation(std::span<const double> values, std::size_t m);
-
 } // namespace damslip::probability

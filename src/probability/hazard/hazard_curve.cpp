@@ -271,15 +271,6 @@ double HazardCurve::rate_at(double x) const
     return rate_[above - 1] * std::pow(x / x_[above - 1], -slope(above - 1));
 }
 
-double HazardCurve::level_at(double rate) const
-{
-    if (!(rate <= rate_.front() && rate >= rate_.back())) return not_a_number;
-    std::size_t i = 0;
-    while (rate_[i] > rate) ++i;
-    if (rate_[i] == rate) return x_[i];
-    return x_[i - 1] * std::pow(rate / rate_[i - 1], -1.0 / slope(i - 1));
-}
-
 HazardFile parse_hazard_curve(std::string_view text, const std::string& file, std::optional<Site> site)
 {
     return HazardReader(text, file).read(site);

@@ -16,8 +16,7 @@ public:
 
     const std::vector<double>& x() const { return x_; }
     const std::vector<double>& rate() const { return rate_; }
-    double rate_at(double x) const;     ///< NaN outside the points
-    double level_at(double rate) const; ///< x with H(x) = rate; NaN outside; of a flat part its lower end
+    double rate_at(double x) const; ///< NaN outside the points
     /// -d ln H / d ln x of the segment between points i and i + 1; >= 0.
     double slope(std::size_t i) const;
 

@@ -49,9 +49,4 @@ double normal_quantile(double u)
     return gsl_cdf_ugaussian_Pinv(u);
 }
 
-double normal_between(double a, double b)
-{
-    return a > 0.0 ? normal_cdf(-a) - normal_cdf(-b) : normal_cdf(b) - normal_cdf(a);
-}
-
 } // namespace damslip::probability

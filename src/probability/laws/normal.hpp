@@ -15,7 +15,4 @@ double mills(double z);
 /// z with Phi(z) = u. u = 0 and u = 1: minus and plus infinity; outside [0, 1]: NaN.
 double normal_quantile(double u);
 
-/// Phi(b) - Phi(a), a <= b, without cancellation where both lie in the same tail.
-double normal_between(double a, double b);
-
 } // namespace damslip::probability

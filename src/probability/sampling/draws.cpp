@@ -49,11 +49,4 @@ std::size_t RecordDraw::operator()(std::uint32_t sample) const
     return static_cast<std::size_t>(std::upper_bound(below_.begin(), below_.end() - 1, u) - below_.begin());
 }
 
-std::vector<double> stratified_batch(const Stream& stream, std::uint32_t sample, std::uint32_t n)
-{
-    std::vector<double> u;
-    for (std::uint32_t k = 0; k < n; ++k) u.push_back(std::min((k + stream.uniform(sample, k)) / n, 1.0 - 0x1p-53));
-    return u;
-}
-
 } // namespace damslip::probability

@@ -30,7 +30,4 @@ private:
     bool equal_;
 };
 
-/// n uniform numbers of one sample, ascending, one at random in each of n equal strata: u_k = (k + v_k) / n. Each has weight 1/n.
-std::vector<double> stratified_batch(const Stream& stream, std::uint32_t sample, std::uint32_t n);
-
 } // namespace damslip::probability

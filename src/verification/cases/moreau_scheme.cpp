@@ -48,8 +48,8 @@ void MoreauScheme::gauss_seidel()
     const Index m = friction_.size();
     for (Index i = 0; i < m; ++i)
         if (!shut_[static_cast<std::size_t>(i)]) impulse_[i] = impulse_[m + i] = 0.0;
-    int sweep = 0;
-    for (double change = 1.0; change > 1e-12 && sweep < 20000; ++sweep) {
+    double change = 1.0;
+    for (int sweep = 0; change > 1e-12 && sweep < 20000; ++sweep) {
         change = 0.0;
         const double scale = std::max(impulse_.head(m).maxCoeff(), 1e-300);
         const auto set = [&](Index k, double value) {
@@ -65,7 +65,6 @@ void MoreauScheme::gauss_seidel()
             set(t, std::clamp(stick, -limit, limit));
         }
     }
-    largest_sweeps_ = std::max(largest_sweeps_, sweep);
 }
 
 bool MoreauScheme::all_shut() const

@@ -37,7 +37,6 @@ public:
     const Eigen::VectorXd& velocity() const { return v_; }
     const Eigen::VectorXd& impulse() const { return impulse_; } ///< P of the last step, 2m [N s/m]
     Eigen::VectorXd gaps() const { return system_.interface_map * u_; }
-    int largest_sweeps() const { return largest_sweeps_; }
 
     // The problem of the last step: rates = free_rates() + delassus() impulse(), in pairs that are shut.
     const Eigen::MatrixXd& delassus() const { return delassus_; }
@@ -55,7 +54,6 @@ private:
     Eigen::MatrixXd delassus_;           ///< B times that
     Eigen::VectorXd u_, v_, load_, impulse_, free_rates_;
     std::vector<char> shut_;
-    int largest_sweeps_ = 0;
 };
 
 } // namespace damslip::verification

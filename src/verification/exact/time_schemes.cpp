@@ -54,11 +54,7 @@ NumericalVibration numerical_vibration(const SchemeParameters& scheme, double da
     std::size_t pair = 0;
     while (pair < 2 && !(roots[pair].imag() > 0.0)) ++pair;
     const double angle = std::arg(roots[pair]), modulus = std::abs(roots[pair]);
-    double spurious = 0.0;
-    for (const Complex& z : roots)
-        if (std::abs(z.imag()) < 1e-14) spurious = std::max(spurious, std::abs(z));
-    return {omega_dt * std::sqrt(1.0 - damping_ratio * damping_ratio) / angle, -std::log(modulus) / angle, modulus,
-            spurious};
+    return {omega_dt * std::sqrt(1.0 - damping_ratio * damping_ratio) / angle, -std::log(modulus) / angle, modulus};
 }
 
 DiscreteResponse discrete_steady_state(const SchemeParameters& s, double omega, double damping_ratio, double load_omega,

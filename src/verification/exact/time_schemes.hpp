@@ -26,7 +26,6 @@ struct NumericalVibration {
     double period_ratio;  ///< T̄/T_d, Ω_d/Ω̄ with Ω_d = Ω√(1-ζ²) [-]
     double damping_ratio; ///< ζ̄ = -ln|z| / Ω̄ [-]
     double modulus;       ///< |z| of the pair [-]
-    double spurious_root; ///< modulus of the third root [-]
 };
 NumericalVibration numerical_vibration(const SchemeParameters& scheme, double damping_ratio, double omega_dt);
 
