@@ -8,10 +8,10 @@ namespace {
 void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
 {
     add_run_inputs(sub, a.inputs);
-    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    add_scale(sub, a.inputs);
     sub.add_flag("--all-records", a.all_records, "all records of the scene, the worst counts; else its first")
         ->group("Ground motion");
-    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_friction(sub, a.inputs);
     sub.add_option("--tolerance", a.tolerance, "names the cheapest rung within this share of the finest's slip")
         ->capture_default_str();
     sub.add_option("--repeats", a.repeats, "runs of a rung for its median time; fewer of rungs above a second")
@@ -21,9 +21,8 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
         ->capture_default_str();
     sub.add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
     sub.add_option("--rung", a.rung, "run this rung alone, named as in the table: fe-acoustic:dt/4,2h");
-    sub.add_option("--out", a.out,
-                   "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes")
-        ->check(output_to(OutputPath::folder, "--out"));
+    add_out(sub, a.out, OutputPath::folder,
+            "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes");
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
     add_pdf(sub, a.pdf);
     const char* const group = "Probability";
@@ -40,7 +39,7 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
         ->group(group);
     sub.add_flag("--reduced", a.middle, "finite elements on few modes as a third model, between them and the block")
         ->group(group);
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024))->group(group);
+    add_jobs(sub, a.jobs)->group(group);
     sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));
 }
 

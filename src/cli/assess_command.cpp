@@ -52,7 +52,7 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
         write_file(a.out / "assess.json", json);
         write_file(a.out / "scene.resolved.toml", resolved_toml(given));
         write_file(a.out / "report.html", page_html(assess_page(assessment, given)));
-        if (!streams.quiet) streams.talk << "report: " << (a.out / "report.html").string() << "\n";
+        name_report(a.out / "report.html", streams);
     }
     if (!a.pdf.empty()) print_pdf(page_html(assess_page(assessment, given)), a.pdf);
     return assessment.recommended || assessment.verdict == Verdict::fail ? exit_ok : exit_no_answer;
@@ -61,14 +61,13 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
 void assess_flags(CLI::App& sub, AssessArguments& a)
 {
     add_run_inputs(sub, a.inputs);
-    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
-    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_scale(sub, a.inputs);
+    add_friction(sub, a.inputs);
     sub.add_option("--budget", a.budget, "seconds of wall time; what does not fit is left out and named")
         ->capture_default_str();
-    sub.add_option("--out", a.out, "folder for report.html, assess.json and the resolved scene")
-        ->check(output_to(OutputPath::folder, "--out"));
+    add_out(sub, a.out, OutputPath::folder, "folder for report.html, assess.json and the resolved scene");
     add_pdf(sub, a.pdf);
-    sub.add_option("-j,--jobs", a.jobs, "threads of the quick levels; 0: all cores")->check(CLI::Range(0, 1024));
+    add_jobs(sub, a.jobs, "threads of the quick levels; 0: all cores");
 }
 
 } // namespace

@@ -30,8 +30,7 @@ int draw(const DrawArguments& arguments, const Streams& streams)
 void draw_flags(CLI::App& sub, DrawArguments& a)
 {
     add_scene(sub, a.inputs);
-    sub.add_option("-o,--out", a.out, "SVG file; without it the drawing goes to standard output")
-        ->check(output_to(OutputPath::file, "--out"));
+    add_out(sub, a.out, OutputPath::file, "SVG file; without it the drawing goes to standard output", "-o,--out");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/tied_scheme.hpp"
 #include "cli/flags.hpp"
+#include "cli/print_pdf.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
@@ -87,7 +88,7 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
                                                : ablation_text(ablations, ready.plan));
     if (!arguments.report.empty()) {
         write_file(arguments.report, page_html(ablation_page(ablations, given, ready.plan)));
-        if (!streams.quiet) streams.talk << "report: " << arguments.report.string() << "\n";
+        name_report(arguments.report, streams);
     }
     return unanswered_runs(runs).exit_code();
 }
@@ -111,8 +112,8 @@ void explain_flags(CLI::App& sub, ExplainArguments& a)
 {
     add_run_inputs(sub, a.inputs);
     add_rock(sub, a.inputs);
-    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
-    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_scale(sub, a.inputs);
+    add_friction(sub, a.inputs);
     sub.add_option("--method", a.method, "rigid or fe")->check(CLI::IsMember({"rigid", "fe"}))->capture_default_str();
     const char* const group = "Ablation";
     CLI::Option* ablate =
@@ -123,10 +124,7 @@ void explain_flags(CLI::App& sub, ExplainArguments& a)
         ->check(output_to(OutputPath::file, "--report"))
         ->needs(ablate)
         ->group(group);
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")
-        ->check(CLI::Range(0, 1024))
-        ->needs(ablate)
-        ->group(group);
+    add_jobs(sub, a.jobs, "threads; 0: all cores; with 1 (default) the seconds are fair")->needs(ablate)->group(group);
 }
 
 } // namespace

@@ -78,7 +78,7 @@ void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scen
     }
     if (arguments.pdf.empty()) return;
     print_pdf(page_html(report), arguments.pdf);
-    if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
+    name_report(arguments.pdf, streams);
 }
 
 /// @throws UsageError, InputError
@@ -209,13 +209,13 @@ int fe(const FeArguments& arguments, const Streams& streams)
 void fe_flags(CLI::App& sub, FeArguments& a)
 {
     add_run_inputs(sub, a.inputs);
-    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
+    add_scale(sub, a.inputs);
     sub.add_option(
            "--polarity", a.polarity,
            "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
         ->check(CLI::IsMember({1, -1}))
         ->group("Ground motion");
-    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_friction(sub, a.inputs);
     add_rock(sub, a.inputs);
     sub.add_option("--base", a.base, "contact: the dam slides, opens and rocks; tied: it is bonded to its base")
         ->check(CLI::IsMember({"contact", "tied"}))
@@ -241,9 +241,8 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->needs(reduced)
         ->group("Reduced run");
     reduced->excludes(sub.get_option("--base"));
-    CLI::Option* out =
-        sub.add_option("--out", a.out, "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene")
-            ->check(output_to(OutputPath::folder, "--out"));
+    CLI::Option* out = add_out(sub, a.out, OutputPath::folder,
+                               "folder for summary.json, histories (CSV), fields (VTU) and the resolved scene");
     sub.add_option("--frames", a.frames,
                    "so many instants of each record as a time series for ParaView: frames_*.pvd in the folder of --out")
         ->check(CLI::Range(2, 10000))

@@ -34,6 +34,16 @@ void add_run_inputs(CLI::App& sub, RunInputs& in)
     sub.add_option("--vertical-column", in.vertical_column, "the same of the vertical files")->group("Ground motion");
 }
 
+void add_scale(CLI::App& sub, RunInputs& in)
+{
+    sub.add_option("--scale", in.scale, "factor on all records")->group("Ground motion");
+}
+
+void add_friction(CLI::App& sub, RunInputs& in)
+{
+    sub.add_option("--friction", in.friction, "Coulomb mu instead of the scene's");
+}
+
 void add_rock(CLI::App& sub, RunInputs& in)
 {
     sub.add_option("--rock", in.rock, "radiating (with mass, waves leave) or massless, in place of the scene's rock")
@@ -77,6 +87,17 @@ CLI::Validator in_range(double low, double high)
         return fmt::format("{} is not allowed: a number from {:g} to {:g}", text, low, high);
     };
     return {check, fmt::format("FLOAT in [{:g} - {:g}]", low, high)};
+}
+
+CLI::Option* add_jobs(CLI::App& sub, int& jobs, const std::string& text)
+{
+    return sub.add_option("-j,--jobs", jobs, text)->check(CLI::Range(0, 1024));
+}
+
+CLI::Option* add_out(CLI::App& sub, std::filesystem::path& target, OutputPath kind, const std::string& text,
+                     const std::string& names)
+{
+    return sub.add_option(names, target, text)->check(output_to(kind, "--out"));
 }
 
 void add_pdf(CLI::App& sub, std::filesystem::path& target)

@@ -43,11 +43,11 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();
     sub.add_flag("--allow-scaling", a.allow_scaling, "records may be scaled beyond suite.max_scale; they are listed");
-    sub.add_option("-o,--out", a.out,
-                   "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
-                   "(OpenQuake) and a journal for --resume")
-        ->check(output_to(OutputPath::folder, "--out"));
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_out(sub, a.out, OutputPath::folder,
+            "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
+            "(OpenQuake) and a journal for --resume",
+            "-o,--out");
+    add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
     sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
     sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a journal in --out")

@@ -189,8 +189,7 @@ int man(const ManArguments& arguments, const Streams& streams)
 void man_flags(CLI::App& sub, ManArguments& a)
 {
     sub.add_option("COMMAND", a.command, "the command whose page is printed; none: the program's own");
-    sub.add_option("--out", a.out, "folder for the pages of all commands")
-        ->check(output_to(OutputPath::folder, "--out"));
+    add_out(sub, a.out, OutputPath::folder, "folder for the pages of all commands");
 }
 
 } // namespace

@@ -38,8 +38,8 @@ void modes_flags(CLI::App& sub, ModesArguments& a)
     sub.add_option("-n,--count", a.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
     sub.add_flag("--frf", a.frequency_response,
                  "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");
-    sub.add_option("--out", a.out, "folder for the mode shapes as VTU files and the transfer functions as CSV")
-        ->check(output_to(OutputPath::folder, "--out"));
+    add_out(sub, a.out, OutputPath::folder,
+            "folder for the mode shapes as VTU files and the transfer functions as CSV");
 }
 
 } // namespace

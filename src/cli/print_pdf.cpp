@@ -110,6 +110,11 @@ std::string last_words(const std::filesystem::path& said)
 
 } // namespace
 
+void name_report(const std::filesystem::path& file, const Streams& streams)
+{
+    if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
+}
+
 void check_pdf(const std::filesystem::path& target)
 {
     if (!find_browser())

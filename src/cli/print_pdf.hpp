@@ -1,10 +1,15 @@
 #pragma once
 
+#include "cli/terminal/streams.hpp"
+
 #include <filesystem>
 #include <string>
 
-/// Reports as PDF: printed by a Chromium of this machine, without a window and without a network.
+/// Reports: where they are, and as PDF, printed by a Chromium of this machine, without a window and without a network.
 namespace damslip::cli {
+
+/// "report: FILE" in the talk, unless it is to be quiet.
+void name_report(const std::filesystem::path& file, const Streams& streams);
 
 /// For use before anything is computed. @throws UsageError  no Chromium on the PATH, or nothing can be written there
 void check_pdf(const std::filesystem::path& target);

@@ -35,8 +35,7 @@ void add_input(CLI::App& sub, RecordInput& in)
 
 void add_target(CLI::App& sub, RecordTarget& target, std::string& form)
 {
-    sub.add_option("-o,--out", target.out, "file; without it: standard output")
-        ->check(output_to(OutputPath::file, "--out"));
+    add_out(sub, target.out, OutputPath::file, "file; without it: standard output", "-o,--out");
     sub.add_option("--to", form, "csv, csv-time or at2; default: by the ending of --out");
 }
 
@@ -96,8 +95,7 @@ void scale_flags(CLI::App& sub, RecordScaleArguments& a)
 void spectrum_flags(CLI::App& sub, RecordSpectrumArguments& a)
 {
     add_input(sub, a.input);
-    sub.add_option("-o,--out", a.out, "CSV file; without it a table on standard output")
-        ->check(output_to(OutputPath::file, "--out"));
+    add_out(sub, a.out, OutputPath::file, "CSV file; without it a table on standard output", "-o,--out");
     sub.add_option("--damping", a.ratio, "damping ratio")->capture_default_str();
     sub.add_option("--from", a.from, "first period [s]")->capture_default_str();
     sub.add_option("--to", a.to, "last period [s]")->capture_default_str();
@@ -139,8 +137,8 @@ void suite_flags(CLI::App& sub, RecordSuiteArguments& a)
     sub.add_option("--max-scale", a.max_scale, "largest factor; the smallest is one over it")->capture_default_str();
     sub.add_flag("--match", a.match, "then match each by wavelets to the spectrum, over 0.05 to 2 s");
     sub.add_option("--tolerance", a.tolerance, "largest deviation of a matched spectrum")->capture_default_str();
-    sub.add_option("-o,--out", a.out, "list of the records with their factors, for --records and [suite] files")
-        ->check(output_to(OutputPath::file, "--out"));
+    add_out(sub, a.out, OutputPath::file, "list of the records with their factors, for --records and [suite] files",
+            "-o,--out");
 }
 
 int run_generate(const Filter<RecordGenerateArguments>& a, const Streams& streams)

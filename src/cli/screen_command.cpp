@@ -71,7 +71,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     }
     if (!arguments.pdf.empty()) {
         print_pdf(screen_report(in), arguments.pdf);
-        if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
+        name_report(arguments.pdf, streams);
     }
     return statuses_of(s).exit_code();
 }
@@ -79,17 +79,16 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
 void screen_flags(CLI::App& sub, ScreenArguments& a)
 {
     add_run_inputs(sub, a.inputs);
-    sub.add_option("--scale", a.inputs.scale, "factor on all records")->group("Ground motion");
-    sub.add_option("--friction", a.inputs.friction, "Coulomb mu instead of the scene's");
+    add_scale(sub, a.inputs);
+    add_friction(sub, a.inputs);
     sub.add_option("--scheme", a.inputs.scheme, "of the rigid block: exact (default) or slammer");
     sub.add_flag("--rocking", a.rocking,
                  "the block that rocks and slides, too; without it where the sliding block does not hold");
     sub.add_flag("--mean-polarity", a.mean_polarity, "a table with the mean slip of both polarities of each record");
     add_response_spectrum(sub, a.spectrum);
-    sub.add_option("--out", a.out, "folder for summary.json, displacements.csv and the resolved scene")
-        ->check(output_to(OutputPath::folder, "--out"));
+    add_out(sub, a.out, OutputPath::folder, "folder for summary.json, displacements.csv and the resolved scene");
     add_pdf(sub, a.pdf);
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_jobs(sub, a.jobs);
 }
 
 } // namespace

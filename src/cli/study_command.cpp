@@ -133,10 +133,9 @@ void study_flags(CLI::App& sub, StudyArguments& a)
     add_run_inputs(sub, a.inputs);
     sub.add_option("--method", a.method, "as of sweep; with fe the finite elements run to the default accuracy")
         ->capture_default_str();
-    sub.add_option("-o,--out", a.out, "folder for rows.csv, findings.csv and report.html")
-        ->check(output_to(OutputPath::folder, "--out"))
+    add_out(sub, a.out, OutputPath::folder, "folder for rows.csv, findings.csv and report.html", "-o,--out")
         ->required();
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_jobs(sub, a.jobs);
     sub.add_flag("--resume", a.resume, "go on where a study with the same --out stopped");
 }
 

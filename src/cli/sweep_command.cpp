@@ -80,11 +80,11 @@ void put_pages(const SweepArguments& arguments, const SweepReportInput& in, cons
         std::filesystem::path page = arguments.out;
         page.replace_extension(".html");
         write_file(page, html);
-        if (!streams.quiet) streams.talk << "report: " << page.string() << "\n";
+        name_report(page, streams);
     }
     if (arguments.pdf.empty()) return;
     print_pdf(html, arguments.pdf);
-    if (!streams.quiet) streams.talk << "report: " << arguments.pdf.string() << "\n";
+    name_report(arguments.pdf, streams);
 }
 
 bool reports(const SweepArguments& arguments)

@@ -62,13 +62,12 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
                  "estimate for every row of fe-reduced what the modes left out change");
     sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(in_range(1.0, 1e20));
     sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
-    sub.add_option(
-           "-o,--out", a.out,
-           "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
-           "output")
-        ->check(output_to(OutputPath::regular_file, "--out"));
+    add_out(sub, a.out, OutputPath::regular_file,
+            "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
+            "output",
+            "-o,--out");
     add_pdf(sub, a.pdf);
-    sub.add_option("-j,--jobs", a.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
+    add_jobs(sub, a.jobs);
     add_sweep_parts(sub, a);
 }
 

@@ -30,17 +30,7 @@ std::string sweep_command_line(const SweepArguments& a)
     if (a.inputs.dt) add("--dt", shortest(*a.inputs.dt));
     add("--column", a.inputs.column);
     add("--vertical-column", a.inputs.vertical_column);
-    add("--friction", a.friction);
-    add("--friction-deg", a.friction_deg);
-    add("--level", a.level);
-    add("--uplift", a.uplift);
-    add("--opening-water", a.opening_water);
-    add("--reservoir", a.reservoir);
-    add("--size", a.size);
-    add("--period", a.period);
-    add("--damping", a.damping);
-    add("--scale", a.scale);
-    add("--polarity", a.polarity);
+    for (const GridFlag& f : grid_flags) add(f.flag, a.*f.list);
     add("--method", a.method);
     if (a.modes) add("--modes", std::to_string(*a.modes));
     if (a.truncation_error) line += " --truncation-error";
@@ -73,27 +63,41 @@ std::string merge_command_line(const SweepArguments& arguments, std::size_t part
     return line + " --out " + shell_quoted(arguments.out.string());
 }
 
-std::string slurm_script(const SweepArguments& arguments, std::size_t parts)
+std::string slurm_head(const std::string& name, std::size_t parts, int jobs)
 {
     return fmt::format(R"(#!/bin/sh
-#SBATCH --job-name=damslip-sweep
-#SBATCH --array=0-{0}
+#SBATCH --job-name={0}
+#SBATCH --array=0-{1}
 #SBATCH --ntasks=1
-#SBATCH --cpus-per-task={1}
+#SBATCH --cpus-per-task={2}
 #SBATCH --time=04:00:00
 #SBATCH --mem-per-cpu=2G
-#SBATCH --output=damslip-sweep-%A-%a.log
-# Adjust time and memory; add partition and account. Submit in the folder the paths below start from:
+#SBATCH --output={0}-%A-%a.log
+)",
+                       name, parts - 1, std::max(1, jobs));
+}
+
+std::string slurm_exec(const std::string& command, std::size_t parts)
+{
+    return fmt::format(R"(set -eu
+exec {} --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --resume --quiet --shard "$SLURM_ARRAY_TASK_ID/{}"
+)",
+                       command, parts);
+}
+
+std::string slurm_script(const SweepArguments& arguments, std::size_t parts)
+{
+    return slurm_head("damslip-sweep", parts, arguments.jobs) +
+           fmt::format(
+               R"(# Adjust time and memory; add partition and account. Submit in the folder the paths below start from:
 #   sbatch this-script
 # A part that was stopped goes on where it was when it is submitted again:  sbatch --array=3,7 this-script
 # Sites limit the array (scontrol show config: MaxArraySize); fewer parts: write this script again with --parts N.
 # When all parts are there:
-#   {3}
-set -eu
-exec {2} --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --resume --quiet --shard "$SLURM_ARRAY_TASK_ID/{4}"
+#   {}
 )",
-                       parts - 1, std::max(1, arguments.jobs), sweep_command_line(arguments),
-                       merge_command_line(arguments, parts), parts);
+               merge_command_line(arguments, parts)) +
+           slurm_exec(sweep_command_line(arguments), parts);
 }
 
 } // namespace damslip::cli

@@ -30,4 +30,21 @@ struct SweepArguments {
     std::vector<std::filesystem::path> merge; ///< part files, or folders of them, to put together instead
 };
 
+/// A flag of the grid and its list as typed.
+struct GridFlag {
+    const char* flag;
+    std::string SweepArguments::*list;
+};
+inline constexpr GridFlag grid_flags[] = {{"--friction", &SweepArguments::friction},
+                                          {"--friction-deg", &SweepArguments::friction_deg},
+                                          {"--level", &SweepArguments::level},
+                                          {"--uplift", &SweepArguments::uplift},
+                                          {"--opening-water", &SweepArguments::opening_water},
+                                          {"--reservoir", &SweepArguments::reservoir},
+                                          {"--size", &SweepArguments::size},
+                                          {"--period", &SweepArguments::period},
+                                          {"--damping", &SweepArguments::damping},
+                                          {"--scale", &SweepArguments::scale},
+                                          {"--polarity", &SweepArguments::polarity}};
+
 } // namespace damslip::cli
