@@ -49,20 +49,6 @@ Scene of_first_order(Scene scene)
     return scene;
 }
 
-/// Our results beside those of ccx.
-Table second_solver_table(const std::vector<SecondResult>& results)
-{
-    const std::vector<ColumnOf<SecondResult>> columns{
-        {{"quantity", "quantity"}, [](const SecondResult& r) { return r.what; }},
-        {{"unit", "unit"}, [](const SecondResult& r) { return r.unit; }},
-        {{"damslip", "damslip", "", 7}, [](const SecondResult& r) { return r.ours; }},
-        {{"calculix", "CalculiX", "", 7}, [](const SecondResult& r) { return r.theirs; }},
-        {{"difference", "difference", "–", 2}, [](const SecondResult& r) { return r.difference; }},
-        {{"allowed", "allowed", "–", 2}, [](const SecondResult& r) { return r.allowed; }},
-        {{"within", "within"}, [](const SecondResult& r) { return r.within(); }}};
-    return table_of<SecondResult>("Beside CalculiX", columns, results);
-}
-
 int calculix(const MeshArguments& arguments, const Streams& streams)
 {
     if (arguments.out.empty() && arguments.results.empty())
@@ -132,10 +118,9 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
 void mesh_flags(CLI::App& sub, MeshArguments& a)
 {
     add_scene(sub, a.inputs);
-    sub.add_option(
-           "--out", a.out,
-           "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it; deck for CalculiX with --to calculix")
-        ->check(output_to(OutputPath::file, "--out"));
+    add_out(
+        sub, a.out, OutputPath::file,
+        "Gmsh file (.msh, ASCII) with physical groups, as mesh.file reads it; deck for CalculiX with --to calculix");
     sub.add_option("--format", a.format, "version of the Gmsh file")
         ->check(CLI::IsMember({"2.2", "4.1"}))
         ->capture_default_str();

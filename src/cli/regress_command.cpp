@@ -5,6 +5,7 @@
 #include "core/units.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/screen/given_tables.hpp"
 #include "pages/screen/screen_tables.hpp"
 
 #include <fmt/format.h>
@@ -40,39 +41,13 @@ sliding::RegressionInputs inputs_of(const RegressArguments& a)
     return in;
 }
 
-struct CoefficientRow {
-    std::string id, model;
-    std::optional<double> coefficient;
-};
-
-Table coefficient_table(const sliding::RegressionInputs& inputs, double allowable)
-{
-    std::vector<CoefficientRow> rows;
-    for (const sliding::Regression& r : sliding::regressions())
-        if (const std::optional<double> k = yield_coefficient_for(r, inputs, allowable))
-            rows.push_back({std::string(r.id), std::string(r.name), k});
-    using R = CoefficientRow;
-    Table table =
-        table_of<R>(fmt::format("Yield coefficient for a median slip of {:.4g} mm", allowable / units::mm),
-                    {{{"id", "id"}, &R::id},
-                     {{"model", "regression"}, &R::model},
-                     {{"k_allowable", "k(d*)", "g", 4}, [](const R& r) { return optional_cell(r.coefficient); }},
-                     {{"k_allowable_over_pga", "k(d*)/PGA", "–", 3},
-                      [&](const R& r) { return optional_cell(r.coefficient, inputs.pga_g); }}},
-                    rows);
-    table.notes.push_back(
-        "regressions whose inputs are given; those that slip less even at the smallest yield of their data "
-        "are left out. Half of the slips are larger than the median.");
-    return table;
-}
-
 /// Slips by the regressions from given measures of the motion.
 int regress(const RegressArguments& a, const Streams& streams)
 {
     const sliding::RegressionInputs inputs = inputs_of(a);
     const std::vector<RegressionRow> rows = regression_rows("given measures", inputs);
     std::optional<Table> coefficients;
-    if (a.allowable_mm) coefficients = coefficient_table(inputs, *a.allowable_mm * units::mm);
+    if (a.allowable_mm) coefficients = pages::allowable_coefficient_table(inputs, *a.allowable_mm * units::mm);
     if (streams.form == Form::json) {
         nlohmann::ordered_json j{{"command", "regress"}, {"yield_g", a.yield_g}, {"pga_g", a.pga_g}};
         j["regressions"] = pages::json_of(pages::regression_table(rows));

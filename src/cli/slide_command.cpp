@@ -9,6 +9,7 @@
 #include "core/usage_error.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/screen/given_tables.hpp"
 #include "records/read/number_table.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/ground_motion.hpp"
@@ -167,50 +168,6 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
     return motions;
 }
 
-/// Of both ways: the graver.
-Status status_of(const GivenYieldRow& row)
-{
-    const int normal = status_row(row.normal.status).exit_code, inverse = status_row(row.inverse.status).exit_code;
-    if (normal != inverse) return worse_exit_code(normal, inverse) == normal ? row.normal.status : row.inverse.status;
-    return row.normal.status == Status::at_rest ? row.inverse.status : row.normal.status;
-}
-
-Cell slip_or_none(const GivenYieldRow& row, double slip)
-{
-    return optional_cell(reported(status_of(row), slip / units::mm));
-}
-
-Table given_yield_table(const GivenYieldBlock& block, const std::vector<GivenYieldRow>& rows)
-{
-    using R = GivenYieldRow;
-    std::vector<ColumnOf<R>> columns{
-        {{"yield_g", "a_y", "g", 5}, [](const R& r) { return r.yield / standard_gravity; }},
-        {{"record", "record"}, &R::record},
-        {{"method", "method"}, &R::method},
-        {{"pga_g", "PGA", "g", 4}, [](const R& r) { return r.pga / standard_gravity; }},
-        {{"yield_over_pga", "a_y/PGA", "–", 4},
-         [](const R& r) { return r.pga > 0 ? finite_cell(r.yield / r.pga) : Cell(); }},
-        {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return slip_or_none(r, r.normal.max_slip); }},
-        {{"slip_inverse_mm", "slip, record flipped", "mm", 5},
-         [](const R& r) { return slip_or_none(r, r.inverse.max_slip); }},
-        {{"slip_mean_mm", "mean of both", "mm", 5}, [](const R& r) { return slip_or_none(r, r.mean_slip()); }},
-        {{"largest_acceleration_g", "largest acceleration", "g", 4},
-         [](const R& r) { return r.largest_acceleration / standard_gravity; }},
-        {{"status", "status"}, [](const R& r) { return word(status_of(r)); }}};
-    if (block.flexible) {
-        const auto period = [](const R& r) { return r.mode ? Cell(r.mode->period) : Cell(); };
-        const auto damping = [](const R& r) { return r.mode ? Cell(100.0 * r.mode->damping_ratio) : Cell(); };
-        columns.insert(columns.end() - 1,
-                       {{{"period_s", "period", "s", 4}, period}, {{"damping_percent", "damping", "%", 4}, damping}});
-    }
-    Table table = table_of<R>("Slip on a given yield acceleration", columns, rows);
-    table.notes.push_back(
-        fmt::format("{}{}.", block.yield.size() > 1 ? "a_y: at rest, then as the table over the slip; " : "",
-                    block.two_way ? "the block slides both ways, slip: the largest on the way" : "one way, downhill"));
-    table.notes.push_back("horizontal component alone; the largest acceleration is the mass's own on average.");
-    return table;
-}
-
 void slide_flags(CLI::App& sub, SlideArguments& a)
 {
     const char* const yield = "Yield acceleration";
@@ -275,7 +232,7 @@ int slide_on_yield(const SlideArguments& a, const Streams& streams)
         block.yield = yield;
         for (GivenYieldRow& row : given_yield_runs(block, motions, methods)) rows.push_back(std::move(row));
     }
-    const Table table = given_yield_table(block, rows);
+    const Table table = pages::given_yield_table(block, rows);
     if (streams.form == Form::json) {
         nlohmann::ordered_json j = pages::json_header("slide");
         j["two_way"] = block.two_way;

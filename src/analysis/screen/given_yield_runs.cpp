@@ -49,6 +49,13 @@ GivenYieldRow given_yield_run(const GivenYieldBlock& block, const sliding::SlipS
 
 } // namespace
 
+Status GivenYieldRow::status() const
+{
+    const int one = status_row(normal.status).exit_code, other = status_row(inverse.status).exit_code;
+    if (one != other) return worse_exit_code(one, other) == one ? normal.status : inverse.status;
+    return normal.status == Status::at_rest ? inverse.status : normal.status;
+}
+
 std::vector<GivenYieldRow> given_yield_runs(const GivenYieldBlock& block, const std::vector<GroundMotion>& motions,
                                             const std::vector<std::string>& methods)
 {

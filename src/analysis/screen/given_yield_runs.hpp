@@ -31,6 +31,7 @@ struct GivenYieldRow {
     double largest_acceleration = 0.0;          ///< of the mass on average, the larger of both; rigid: PGA [m/s^2]
     std::optional<sliding::FlexibleBlock> mode; ///< of a flexible one; of a column the one it has in this motion
     bool settled = true;                        ///< the column's strain did
+    Status status() const;                      ///< of both ways the graver
     double mean_slip() const { return 0.5 * (normal.max_slip + inverse.max_slip); } ///< [m]
 };
 
