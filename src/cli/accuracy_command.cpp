@@ -140,7 +140,7 @@ void write_rung_scenes(const std::filesystem::path& out, const Scene& scene, con
 void write_csv(const std::filesystem::path& out, const Scene& scene, const std::vector<RungResult>& results,
                double tolerance)
 {
-    write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge(results, tolerance)));
+    write_file(out / "accuracy.csv", accuracy_csv(scene, results, judge_rungs(results, tolerance)));
 }
 
 /// One rung alone: its slip, by record.
@@ -220,7 +220,7 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
 
     const LadderFacts facts = runner.facts();
     const std::vector<RungResult> results = climb_aloud(a, loaded, runner, facts, watch, streams);
-    const Judgement judgement = judge(results, a.tolerance);
+    const Judgement judgement = judge_rungs(results, a.tolerance);
     const std::vector<std::string> messages = messages_of(facts, loaded, results, watch.stop_asked());
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
     const AccuracyReportInput answer{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
@@ -237,15 +237,15 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
         if (!figure.empty()) write_file(a.out / "accuracy.svg", figure);
         write_rung_scenes(a.out, loaded.scene, results);
         write_file(a.out / "report.html", page());
-        if (!streams.quiet) streams.talk << "report: " << (a.out / "report.html").string() << "\n";
+        name_report(a.out / "report.html", streams);
     }
     if (!a.report.empty()) {
         write_file(a.report, page());
-        if (!streams.quiet) streams.talk << "report: " << a.report.string() << "\n";
+        name_report(a.report, streams);
     }
     if (!a.pdf.empty()) {
         print_pdf(page(), a.pdf);
-        if (!streams.quiet) streams.talk << "report: " << a.pdf.string() << "\n";
+        name_report(a.pdf, streams);
     }
     const bool answered = judgement.choice || all_fail_statically(results);
     return answered && !watch.stop_asked() ? exit_ok : exit_no_answer;

@@ -45,7 +45,6 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
     Scene scene = text.scene();
     say(scene.notes, a.inputs.strict, streams);
     FragilityInput input = read_fragility_input(a.inputs.scene);
-    check_fragility(input, text);
     const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
     const bool finite_elements = study.finite_elements();
     IntervalCostOptions options;
@@ -75,7 +74,7 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
                    csv(interval_cost_table(view), {fmt::format("scene {}", study.scene.file.string())}));
         write_file(a.out / "summary.json", json);
         write_file(a.out / "report.html", page());
-        if (!streams.quiet) streams.talk << "report: " << (a.out / "report.html").string() << "\n";
+        name_report(a.out / "report.html", streams);
     }
     if (!a.report.empty()) write_file(a.report, page());
     if (!a.pdf.empty()) print_pdf(page(), a.pdf);

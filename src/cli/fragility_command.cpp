@@ -1,6 +1,7 @@
 #include "cli/fragility_command.hpp"
 
 #include "analysis/fragility/fragility_study.hpp"
+#include "cli/print_pdf.hpp"
 #include "cli/sweep_plan.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
@@ -139,12 +140,6 @@ void write_files(const std::filesystem::path& out, const FragilityView& view, co
     if (const std::string nrml = fragility_nrml(view); !nrml.empty()) write_file(out / "fragility.xml", nrml);
 }
 
-/// The last line of the talk, as of every command with a report.
-void name_report(const std::filesystem::path& out, const Streams& streams)
-{
-    if (!out.empty() && !streams.quiet) streams.talk << "report: " << (out / "report.html").string() << "\n";
-}
-
 int write_slurm(const FragilityArguments& a, const Streams& streams)
 {
     std::string line = "damslip fragility " + shell_quoted(a.inputs.scene.string());
@@ -156,20 +151,13 @@ int write_slurm(const FragilityArguments& a, const Streams& streams)
     if (a.multi_fidelity != "two-level") line += " --multi-fidelity " + a.multi_fidelity;
     if (a.allow_scaling) line += " --allow-scaling";
     line += " --out " + shell_quoted(a.out.string());
-    write_file(a.slurm_array, fmt::format(R"(#!/bin/sh
-#SBATCH --job-name=damslip-fragility
-#SBATCH --array=0-{0}
-#SBATCH --ntasks=1
-#SBATCH --cpus-per-task={1}
-#SBATCH --time=04:00:00
-#SBATCH --mem-per-cpu=2G
-#SBATCH --output=damslip-fragility-%A-%a.log
-# A part that was stopped goes on when it is submitted again. When all parts are there:
-#   {2} --merge
-set -eu
-exec {2} --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --resume --quiet --shard "$SLURM_ARRAY_TASK_ID/{3}"
-)",
-                                          a.parts - 1, std::max(1, a.jobs), line, a.parts));
+    const std::string parts =
+        slurm_head("damslip-fragility", static_cast<std::size_t>(a.parts), a.jobs) +
+        fmt::format("# A part that was stopped goes on when it is submitted again. When all parts "
+                    "are there:\n#   {} --merge\n",
+                    line) +
+        slurm_exec(line, static_cast<std::size_t>(a.parts));
+    write_file(a.slurm_array, parts);
     if (!streams.quiet) streams.talk << fmt::format("{} parts; afterwards:  {} --merge\n", a.parts, line);
     return exit_ok;
 }
@@ -219,8 +207,10 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     say(scene.notes, a.inputs.strict, streams);
     FragilityInput input = read_fragility_input(a.inputs.scene);
     if (a.allow_scaling) allow_any_scaling(input);
-    check_fragility(input, text);
-    if (!a.slurm_array.empty()) return write_slurm(a, streams);
+    if (!a.slurm_array.empty()) {
+        check_fragility(input, text);
+        return write_slurm(a, streams);
+    }
     const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
     if (!study.suite.made.empty() && !streams.quiet) streams.talk << study.suite.made << "\n";
     if (a.multi_fidelity == "mfmc" && !study.finite_elements())
@@ -239,7 +229,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     if (a.merge) {
         const FragilityRuns runs = merged_runs(a.out, plan, identity, study.yields());
         const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
-        name_report(a.out, streams);
+        if (!a.out.empty()) name_report(a.out / "report.html", streams);
         return code;
     }
     const Shard shard = a.shard.empty() ? Shard{} : parse_shard(a.shard, "--shard");
@@ -265,7 +255,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
     if (journal) journal->mark_done();
     tell_time(time.seconds(), a, streams);
-    name_report(a.out, streams);
+    if (!a.out.empty()) name_report(a.out / "report.html", streams);
     return code;
 }
 

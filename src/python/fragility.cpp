@@ -64,7 +64,6 @@ void compute(const OpenedScene& opened, const Asked& asked, Watch& watch, Fragil
 {
     const SceneText text = opened.changes.empty() ? *opened.text : opened.text->set(opened.changes);
     FragilityInput input = fragility_input_of(*opened.written, asked.tables, text.file());
-    check_fragility(input, text);
     result.study.emplace(open_fragility(text, opened.scene, std::move(input), asked.method));
     const FragilityStudy& study = *result.study;
     const std::size_t samples = asked.samples.value_or(study.usual_samples());

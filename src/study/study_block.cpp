@@ -52,8 +52,7 @@ std::vector<StudyUplift> study_uplifts(const Scene& scene)
         const Scene& here = ready.scene;
         StudyUplift u;
         u.model = model;
-        u.profile =
-            sliding::uplift_profile(here, scene_uplift_state(here), {}, ready.seepage->profile_of(here));
+        u.profile = ready.seepage->uplift_of(here);
         const RigidModel block = ready.rigid_model();
         u.force = block.block.uplift;
         u.critical_friction = block.critical_friction;

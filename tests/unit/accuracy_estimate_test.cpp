@@ -125,7 +125,7 @@ TEST_P(AccuracyEstimate, IsWithinAFactorOfTwoOfTheError)
     const RungRunner runner(known.scene, std::make_shared<const std::vector<RecordPair>>(burst(known.pga)), 0.0,
                             nobody);
     const std::vector<RungResult> results = climb(known, runner);
-    const Judgement judgement = judge(results, 0.02);
+    const Judgement judgement = judge_rungs(results, 0.02);
     const TrueSlip truth = true_slip(known, runner);
     int judged = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -167,7 +167,7 @@ TEST(AccuracyRun, TheNamedRungRunAgainIsWithinTheTolerance)
     double before = std::numeric_limits<double>::infinity();
     int named = 0;
     for (const double tolerance : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0}) {
-        const Judgement j = judge(results, tolerance);
+        const Judgement j = judge_rungs(results, tolerance);
         if (!j.choice) continue;
         ++named;
         const RungResult again = runner.run(*parse_rung(rung_id(results[*j.choice].rung)));

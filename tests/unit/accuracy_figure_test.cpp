@@ -39,7 +39,7 @@ std::vector<RungResult> results()
 TEST(AccuracyFigure, NamesTheFrontTheChoiceAndTheTolerance)
 {
     const auto all = results();
-    const Judgement j = judge(all, 0.02);
+    const Judgement j = judge_rungs(all, 0.02);
     const std::string svg = cost_figure(all, j, 0.02, "Dam <1>", FigureStyle::standalone);
     EXPECT_EQ(svg.find("<1>"), std::string::npos);
     EXPECT_NE(svg.find("Dam &lt;1&gt;"), std::string::npos);
@@ -49,7 +49,7 @@ TEST(AccuracyFigure, NamesTheFrontTheChoiceAndTheTolerance)
     EXPECT_NE(svg.find("prefers-color-scheme: dark"), std::string::npos);
     const std::string inside = cost_figure(all, j, 0.02, "Dam", FigureStyle::page);
     EXPECT_EQ(inside.find("prefers-color-scheme"), std::string::npos); // the page has the colours
-    EXPECT_TRUE(cost_figure({}, judge({}, 0.02), 0.02, "", FigureStyle::page).empty());
+    EXPECT_TRUE(cost_figure({}, judge_rungs({}, 0.02), 0.02, "", FigureStyle::page).empty());
 }
 
 TEST(AccuracyFigure, TheSentenceSaysTheRungItsSlipTimeAndDeviation)
@@ -57,22 +57,22 @@ TEST(AccuracyFigure, TheSentenceSaysTheRungItsSlipTimeAndDeviation)
     const auto all = results();
     // dt/4: 0.375 mm from the finest, which errs by 0.125 mm: 0.5 mm of 50.125 mm.
     EXPECT_EQ(
-        choice_sentence(all, judge(all, 0.02), 0.02),
+        choice_sentence(all, judge_rungs(all, 0.02), 0.02),
         "Cheapest rung within 2 %: fe-dry:dt/4, slip 50.5 mm in 0.4 s, 1 % from the finest (fe-dry:dt/8, 0.8 s).");
-    EXPECT_EQ(choice_sentence(all, judge(all, 0.001), 0.001),
+    EXPECT_EQ(choice_sentence(all, judge_rungs(all, 0.001), 0.001),
               "No rung is within 0.1 %: the finest one, fe-dry:dt/8, itself leaves 0.25 % open.");
-    EXPECT_EQ(choice_sentence({}, judge({}, 0.02), 0.02), "No rung has a slip to compare.");
+    EXPECT_EQ(choice_sentence({}, judge_rungs({}, 0.02), 0.02), "No rung has a slip to compare.");
 }
 
 TEST(AccuracyFigure, TheTableKeepsWhatWasSkippedAndWhy)
 {
     const auto all = results();
-    const Table t = rung_table(all, judge(all, 0.02));
+    const Table t = rung_table(all, judge_rungs(all, 0.02));
     ASSERT_EQ(t.rows.size(), all.size());
     for (const auto& row : t.rows) EXPECT_EQ(row.size(), t.columns.size());
     EXPECT_EQ(std::get<std::string>(t.rows.back().back()), "skipped: about 9 s, 3 s of the budget left");
     EXPECT_TRUE(std::holds_alternative<std::monostate>(t.rows.back()[1]));
-    const Table models = model_table(all, judge(all, 0.02));
+    const Table models = model_table(all, judge_rungs(all, 0.02));
     ASSERT_EQ(models.rows.size(), 2u); // the rigid block, and the dry dam with its limit
     EXPECT_NEAR(std::get<double>(models.rows[1][1]), 50.0, 1e-9);
     EXPECT_NEAR(std::get<double>(models.rows[1][4]), 2.0, 1e-9);

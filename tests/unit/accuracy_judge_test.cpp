@@ -176,7 +176,7 @@ TEST(AccuracyLadder, HalvesStepsUntilTheSlipIsSettled)
 TEST(AccuracyJudge, EstimatesErrorsOfStepMeshPenaltyAndModes)
 {
     const std::vector<RungResult> results = climbed();
-    const Judgement j = judge(results, 0.02);
+    const Judgement j = judge_rungs(results, 0.02);
     int checked = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
         const Rung& r = results[i].rung;
@@ -201,7 +201,7 @@ TEST(AccuracyJudge, EstimatesErrorsOfStepMeshPenaltyAndModes)
 TEST(AccuracyJudge, TellsModelsApartFromDiscretisation)
 {
     const std::vector<RungResult> results = climbed();
-    const Judgement j = judge(results, 0.02);
+    const Judgement j = judge_rungs(results, 0.02);
     // Added mass tends to 0.8 of the acoustic slip, whatever the rung; 2 % of that for the extrapolations.
     EXPECT_NEAR(*verdict(results, j, "fe-added-mass:dt").model_difference, -0.2 * exact, 0.02 * exact);
     EXPECT_NEAR(*verdict(results, j, "fe-added-mass:dt/8").model_difference, -0.2 * exact, 0.02 * exact);
@@ -214,7 +214,7 @@ TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts
 {
     std::vector<RungResult> results = climbed();
     for (RungResult& r : results) r.slip.push_back(2.0 * r.slip[0] + (r.rung.modes ? 0.01 : 0.0));
-    const Judgement j = judge(results, 0.02);
+    const Judgement j = judge_rungs(results, 0.02);
     EXPECT_EQ(j.record, 1u); // the larger slip
     EXPECT_GT(*j.top_error, 0.0);
     for (const RungVerdict& v : j.rungs) EXPECT_GE(*v.deviation, *j.top_error);
@@ -228,13 +228,13 @@ TEST(AccuracyJudge, DeviationContainsWhatTheTopLeavesOpenAndTheWorstRecordCounts
 TEST(AccuracyJudge, NamesNoneWhereAFinerRungHasNoSlip)
 {
     std::vector<RungResult> results = climbed();
-    ASSERT_TRUE(judge(results, 0.1).choice);
+    ASSERT_TRUE(judge_rungs(results, 0.1).choice);
     results.back().outcome = RungOutcome::failed;
-    const Judgement j = judge(results, 0.1);
+    const Judgement j = judge_rungs(results, 0.1);
     EXPECT_FALSE(j.choice);
     EXPECT_EQ(*j.contradiction, results.size() - 1);
     results.back().outcome = RungOutcome::skipped; // for want of seconds: the next finest is the top
-    EXPECT_TRUE(judge(results, 0.1).choice);
+    EXPECT_TRUE(judge_rungs(results, 0.1).choice);
 }
 
 // Over random rungs: a larger tolerance never names a slower one, and what is named is on the front or as fast.

@@ -15,7 +15,7 @@ Accuracy measure_accuracy(const Scene& scene, double tolerance, Effort effort, c
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
     calls.interrupted = watch.stop();
     Accuracy accuracy{climb(runner.facts(), options, calls), {}};
-    accuracy.judgement = judge(accuracy.rungs, tolerance);
+    accuracy.judgement = judge_rungs(accuracy.rungs, tolerance);
     return accuracy;
 }
 

@@ -131,7 +131,7 @@ void add_rigid_limits(const std::vector<RungResult>& results, std::vector<ModelL
 
 } // namespace
 
-Judgement judge(const std::vector<RungResult>& results, double tolerance)
+Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance)
 {
     Judgement j;
     j.rungs.resize(results.size());

@@ -46,7 +46,7 @@ struct Judgement {
 
 inline constexpr double least_slip = 1e-4; ///< [m]: relative deviations of smaller slips mean nothing
 
-Judgement judge(const std::vector<RungResult>& results, double tolerance);
+Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance);
 
 /// The rung with the fewest seconds among those whose deviation is within the tolerance; of equals the first. A larger
 /// tolerance admits all rungs that a smaller one does, so it never names a slower one.

@@ -2,6 +2,7 @@
 
 #include "scene/mesh_sizes.hpp"
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 
 namespace damslip {
 
@@ -13,8 +14,7 @@ void scale_mesh(double factor, Scene& scene)
     if (scene.mesh.rock_contact_size) *scene.mesh.rock_contact_size *= factor;
     if (scene.mesh.rock_size) *scene.mesh.rock_size *= factor;
     scene.mesh.growth = 1.0 + factor * (scene.mesh.growth - 1.0);
-    if (scene.reservoir && scene.reservoir->level > 0.0)
-        scene.reservoir->mesh_size = factor * water_mesh_size(*scene.reservoir);
+    if (has_water(scene)) scene.reservoir->mesh_size = factor * water_mesh_size(*scene.reservoir);
 }
 
 double elements_on_base(const Scene& scene)

@@ -13,6 +13,7 @@
 #include "fe2d/time/modal_run.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "scene/rock_mass.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -75,8 +76,7 @@ TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
         throw InputError(Diagnostic{scene.file.string(), 0, 0, "--base tied with motion.sequence.",
                                     "each record alone: a dam that is tied keeps nothing of an earthquake",
                                     "delete sequence in [motion], or run without --base tied"});
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic && scene.reservoir->level > 0)
-        water_ = fe2d::build_fluid(scene);
+    if (is_acoustic(scene)) water_ = fe2d::build_fluid(scene);
     if (rock_radiates(scene))
         radiating_ = fe2d::radiating_rock_of(scene, model().mesh, model().mesh.contact.rock_nodes,
                                              ready.wave_frequency(), cache_folder());

@@ -151,6 +151,7 @@ void check_fragility(const FragilityInput& input, const SceneText& text)
 
 FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method)
 {
+    check_fragility(input, text);
     ShakingSuite suite = suite_of_input(scene, input);
     const SweepMethod& of = method_of_fragility(method, suite.pairs, scene);
     check_limits(input, of, text.file());
@@ -220,8 +221,7 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
                                          input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
     answer.conditioned = conditioned;
     answer.notes = study.suite.notes;
-    if (conditioned)
-        answer.notes.insert(answer.notes.end(), conditioned->notes.begin(), conditioned->notes.end());
+    if (conditioned) answer.notes.insert(answer.notes.end(), conditioned->notes.begin(), conditioned->notes.end());
     if (runs.complete()) {
         capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);
         const bool cloud = input.intensity.design == FragilityDesign::cloud;

@@ -33,9 +33,9 @@ struct FragilityStudy {
 /// Laws within what their keys allow. @throws InputError with line, value and fix
 void check_fragility(const FragilityInput& input, const SceneText& text);
 
-/// Reads and measures the records. @param method  rigid, rigid-v, fe, fe-exact ...; empty: rigid-v where a record has a vertical component,
-/// else rigid @pre check_fragility() @throws InputError, also for a
-/// limit that the method does not give, and a hazard curve of another measure or apart from the levels; UsageError for a method that is none of a fragility
+/// check_fragility(), then reads and measures the records. @param method  rigid, rigid-v, fe, fe-exact ...; empty: rigid-v where a record has a vertical component,
+/// else rigid
+/// @throws InputError, also for a limit that the method does not give, and a hazard curve of another measure or apart from the levels; UsageError for a method that is none of a fragility
 FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input, const std::string& method);
 
 /// Records may be scaled beyond suite.max_scale; they are listed.

@@ -15,6 +15,12 @@ sliding::SeepageProfile SeepageSource::profile_of(const Scene& scene)
     };
 }
 
+PressureProfile SeepageSource::uplift_of(const Scene& scene)
+{
+    if (!scene.uplift) return {};
+    return sliding::uplift_profile(scene, scene_uplift_state(scene), {}, profile_of(scene));
+}
+
 PressureProfile SeepageSource::solve(const Scene& scene, const UpliftState& state)
 {
     const fe2d::SeepageResult result = fe2d::solve_seepage(scene, state);

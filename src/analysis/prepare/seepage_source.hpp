@@ -18,6 +18,9 @@ public:
     /// It throws InputError when the base does not fit the rock box, NotConverged when the solver loses its accuracy.
     sliding::SeepageProfile profile_of(const Scene& scene);
 
+    /// Uplift under the closed base, in the scene's own state of water, curtain and drains; empty where the scene has none.
+    PressureProfile uplift_of(const Scene& scene);
+
     std::size_t solutions() const { return profiles_.size(); }
 
 private:

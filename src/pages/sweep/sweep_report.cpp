@@ -17,7 +17,6 @@
 #include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -311,9 +310,7 @@ Section section_of(const Scene& given, const SweepView& view)
         section.parts.emplace_back(stereonet(scene, wedge));
         return section;
     }
-    SeepageSource seepage;
-    PressureProfile uplift;
-    if (scene.uplift) uplift = sliding::uplift_profile(scene, scene_uplift_state(scene), {}, seepage.profile_of(scene));
+    const PressureProfile uplift = SeepageSource().uplift_of(scene);
     std::vector<Polyline> mesh;
     if (finite_elements(view)) mesh = dam_mesh_lines(fe2d::build_model(scene, {}).mesh);
     return {"Section", {section_drawing(scene, uplift, mesh)}, Fold::open};

@@ -11,6 +11,7 @@
 #include "scene/section.hpp"
 #include "verification/cases/mixed_mesh.hpp"
 #include "verification/cases/modules.hpp"
+#include "verification/exact/reference_scene.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -25,13 +26,10 @@ using namespace fe2d;
 
 Scene dam_on_rock(double size)
 {
-    Scene scene;
+    Scene scene = exact::elastic_reference_scene();
     scene.file = "dam.toml";
-    scene.section.polygon = {{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
-    scene.dam = {2500.0, 25e9, 0.17};
-    scene.foundation =
-        Foundation{.material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0, .depth = 100.0};
-    scene.reservoir = Reservoir{.level = 62.5, .model = ReservoirModel::hydrostatic};
+    scene.curtain.reset();
+    scene.reservoir->model = ReservoirModel::hydrostatic;
     scene.mesh.size = scene.mesh.contact_size = size;
     return scene;
 }

@@ -87,18 +87,7 @@ std::vector<Check> squat_wall()
 /// @param scale  1: 62.5 m high, 2: 125 m
 Scene thesis_dam(double scale = 1.0)
 {
-    Polyline polygon{{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
-    for (Point& p : polygon) p = {scale * p.x, scale * p.y};
-    Scene scene = section(polygon, {2500.0, 25e9, 0.17});
-    scene.foundation = Foundation{
-        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0 * scale, .depth = 100.0 * scale};
-    scene.curtain = Curtain{.distance = 7.0 * scale,
-                            .depth = 30.0 * scale,
-                            .thickness = scale,
-                            .young_modulus = 27e9,
-                            .poisson_ratio = 0.2};
-    scene.reservoir = Reservoir{};
-    scene.reservoir->level = 62.5 * scale;
+    Scene scene = exact::elastic_reference_scene(scale);
     scene.added_mass.formula = AddedMassFormula::westergaard_simplified;
     return scene;
 }

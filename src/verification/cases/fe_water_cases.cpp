@@ -7,6 +7,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/structure_system.hpp"
+#include "verification/exact/reference_scene.hpp"
 #include "verification/exact/reservoir.hpp"
 
 #include <algorithm>
@@ -237,16 +238,7 @@ std::vector<Check> step_response()
 /// The dam of Goldgruber (2015) with acoustic water and a closed far end at 2.4 depths.
 Scene thesis_dam(double scale)
 {
-    Polyline polygon{{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
-    for (Point& p : polygon) p = {scale * p.x, scale * p.y};
-    Scene scene;
-    scene.section.polygon = polygon;
-    scene.dam = {2500.0, 25e9, 0.17};
-    scene.foundation = Foundation{
-        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0 * scale, .depth = 100.0 * scale};
-    scene.curtain = Curtain{.distance = 7.0 * scale, .depth = 30.0 * scale, .thickness = scale, .young_modulus = 27e9};
-    scene.reservoir = Reservoir{};
-    scene.reservoir->level = 62.5 * scale;
+    Scene scene = exact::elastic_reference_scene(scale);
     scene.reservoir->length = 150.0 * scale;
     scene.reservoir->model = ReservoirModel::acoustic;
     scene.reservoir->far_end = FarEnd::closed;

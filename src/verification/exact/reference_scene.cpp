@@ -29,12 +29,18 @@ Uplift uplift_model(ReferenceUplift kind, double scale)
     return uplift;
 }
 
+Polyline reference_polygon(double scale)
+{
+    Polyline polygon{{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}};
+    for (Point& p : polygon) p = {scale * p.x, scale * p.y};
+    return polygon;
+}
+
 } // namespace
 
 Scene reference_scene(ReferenceUplift uplift, double friction, double scale)
 {
-    Scene scene = bare_scene({{0, 0}, {45, 0}, {12, 51.5}, {12, 62.5}, {0, 62.5}}, 2500.0);
-    for (Point& p : scene.section.polygon) p = {scale * p.x, scale * p.y};
+    Scene scene = bare_scene(reference_polygon(scale), 2500.0);
     scene.title = "reference dam";
     scene.contact.friction = friction;
     Reservoir reservoir;
@@ -48,6 +54,18 @@ Scene reference_scene(ReferenceUplift uplift, double friction, double scale)
     curtain.thickness = scale;
     scene.curtain = curtain;
     scene.uplift = uplift_model(uplift, scale);
+    return scene;
+}
+
+Scene elastic_reference_scene(double scale)
+{
+    Scene scene;
+    scene.section.polygon = reference_polygon(scale);
+    scene.dam = {2500.0, 25e9, 0.17};
+    scene.foundation = Foundation{
+        .material = {0.0, 30e9, 0.2}, .mass = RockMass::massless, .width = 300.0 * scale, .depth = 100.0 * scale};
+    scene.curtain = Curtain{.distance = 7.0 * scale, .depth = 30.0 * scale, .thickness = scale, .young_modulus = 27e9};
+    scene.reservoir = Reservoir{.level = 62.5 * scale};
     return scene;
 }
 

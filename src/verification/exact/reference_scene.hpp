@@ -17,6 +17,10 @@ enum class ReferenceUplift {
 /// Westergaard's simplified added mass, g = 9.81 m/s^2. All lengths times `scale`.
 Scene reference_scene(ReferenceUplift uplift, double friction, double scale = 1.0);
 
+/// The same dam as finite elements see it: 25 GPa, ν = 0.17, on 300 m x 100 m of massless rock of 30 GPa, curtain of 27 GPa, water to
+/// the crest. No uplift.
+Scene elastic_reference_scene(double scale = 1.0);
+
 /// A scene with nothing but a section (counter-clockwise, heel first) of the given density [kg/m^3], g = 9.81 m/s^2.
 Scene bare_scene(Polyline polygon, double density = 2400.0);
 
