@@ -81,7 +81,7 @@ void CoupledMotion::rest(double& h)
         start(direction);
         if (h > 0.0 && moved(h).rate <= 0.0 && moved(0.5 * h).rate <= 0.0) { // no way made that could be seen
             direction_ = 0;
-            --phases_;
+            --slid_.phases;
             rest_until(h);
             h = 0.0;
         }
@@ -158,8 +158,8 @@ void CoupledMotion::move_until(double h)
     rate_ = std::max(0.0, m.rate);
     const double path = std::max(0.0, m.path);
     path_ += path;
-    (direction_ > 0 ? downstream_ : upstream_) += path;
-    max_slip_ = std::max(max_slip_, std::abs(slip()));
+    (direction_ > 0 ? slid_.downstream : slid_.upstream) += path;
+    slid_.largest = std::max(slid_.largest, std::abs(slip()));
     elapse(h);
     const Way& w = way(direction_);
     const double excess_now = direction_ * average_acceleration(mode_, a_h_) - w.yield.law.at(a_v_);
@@ -167,14 +167,14 @@ void CoupledMotion::move_until(double h)
     const double average =
         w.yield.law.at(a_v_) + (1.0 - w.coupling) * excess_now / (1.0 - flexible_.mass_ratio * w.coupling);
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(average));
-    peak_rate_ = std::max({peak_rate_, before, rate_});
+    slid_.peak_rate = std::max({slid_.peak_rate, before, rate_});
 }
 
 void CoupledMotion::start(int direction)
 {
     direction_ = direction;
     rate_ = 0.0;
-    if (++phases_ == 1) first_time_ = time_;
+    slid_.begin(time_, path_);
     enter_stages();
 }
 
@@ -182,7 +182,7 @@ void CoupledMotion::stop()
 {
     direction_ = 0;
     rate_ = 0.0;
-    last_time_ = time_;
+    slid_.last_time = time_;
 }
 
 void CoupledMotion::enter_stages()
@@ -202,15 +202,7 @@ bool CoupledMotion::at_rest_for_good() const
 void CoupledMotion::write(SlideResult& result) const
 {
     result.slip = slip();
-    result.max_slip = max_slip_;
-    result.downstream_slip = downstream_;
-    result.upstream_slip = upstream_;
-    result.peak_slip_rate = peak_rate_;
-    result.phases = phases_;
-    result.end_time = time_;
-    if (phases_ == 0) return;
-    result.first_slip_time = first_time_;
-    result.last_slip_time = moving() ? time_ : last_time_;
+    slid_.write(result, time_, moving());
 }
 
 } // namespace damslip::sliding

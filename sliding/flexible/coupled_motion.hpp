@@ -2,6 +2,7 @@
 
 #include "sliding/block/line.hpp"
 #include "sliding/block/slide.hpp"
+#include "sliding/block/slip_totals.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/flexible/flexible_block.hpp"
 #include "sliding/flexible/oscillator.hpp"
@@ -21,7 +22,7 @@ public:
     bool moving() const { return direction_ != 0; }
     /// True when neither slip nor the vibration left can move a block on quiet ground.
     bool at_rest_for_good() const;
-    double slip() const { return downstream_ - upstream_; }
+    double slip() const { return slid_.downstream - slid_.upstream; }
     double slip_rate() const { return direction_ * rate_; }
     double yield(double a_v) const { return forms().down.yield.law.at(a_v); }
     const OscillatorState& mode() const { return mode_; }
@@ -78,9 +79,8 @@ private:
     double rate_ = 0.0; ///< along the direction [m/s]
     double path_ = 0.0;
 
-    double downstream_ = 0.0, upstream_ = 0.0, max_slip_ = 0.0, peak_rate_ = 0.0, peak_acceleration_ = 0.0;
-    double first_time_ = 0.0, last_time_ = 0.0;
-    int phases_ = 0;
+    SlipTotals slid_;
+    double peak_acceleration_ = 0.0;
 };
 
 } // namespace damslip::sliding

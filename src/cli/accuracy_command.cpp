@@ -52,31 +52,14 @@ void check(const AccuracyArguments& a)
                      "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
 }
 
-std::string quoted(const std::string& word)
-{
-    const bool plain =
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:,") ==
-        std::string::npos;
-    if (plain && !word.empty()) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 /// The command that runs one rung with the same scene and records.
 std::string command_of(const AccuracyArguments& a, const Rung& rung)
 {
-    std::string command = "damslip accuracy " + quoted(a.inputs.scene.string());
-    for (const auto& record : a.inputs.records) command += " --record " + quoted(record.string());
-    for (const auto& vertical : a.inputs.verticals) command += " --vertical " + quoted(vertical.string());
-    if (!a.inputs.unit.empty()) command += " --units " + quoted(a.inputs.unit);
-    if (a.inputs.dt) command += " --dt " + shortest(*a.inputs.dt);
-    if (!a.inputs.column.empty()) command += " --column " + quoted(a.inputs.column);
-    if (!a.inputs.vertical_column.empty()) command += " --vertical-column " + quoted(a.inputs.vertical_column);
+    std::string command = "damslip accuracy " + shell_words(a.inputs);
     if (a.inputs.scale) command += " --scale " + shortest(*a.inputs.scale);
     if (a.inputs.friction) command += " --friction " + shortest(*a.inputs.friction);
     if (a.all_records) command += " --all-records";
-    return command + " --rung " + quoted(rung_id(rung));
+    return command + " --rung " + shell_quoted(rung_id(rung));
 }
 
 struct Loaded {
@@ -155,9 +138,9 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     if (!a.out.empty()) {
         write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
         if (!streams.quiet && rung.family == RungFamily::finite_elements)
-            streams.talk << "histories and fields:  damslip fe " << quoted((a.out / "scene.toml").string())
+            streams.talk << "histories and fields:  damslip fe " << shell_quoted((a.out / "scene.toml").string())
                          << (rung.modes ? fmt::format(" --reduced --modes {}", *rung.modes) : "") << " --out "
-                         << quoted(a.out.string()) << "\n";
+                         << shell_quoted(a.out.string()) << "\n";
     }
     return status_row(result.status).exit_code;
 }

@@ -9,13 +9,6 @@ namespace damslip::cli {
 
 namespace {
 
-std::string single_quoted(const std::string& text)
-{
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 /// "info" of "record info".
 std::string last_word(const std::string& name)
 {

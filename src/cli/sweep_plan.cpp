@@ -8,28 +8,12 @@
 
 namespace damslip::cli {
 
-std::string shell_quoted(const std::string& word)
-{
-    const std::string_view safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:,@%=";
-    if (!word.empty() && word.find_first_not_of(safe) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
-    return quoted + "'";
-}
-
 std::string sweep_command_line(const SweepArguments& a)
 {
-    std::string line = "damslip sweep " + shell_quoted(a.inputs.scene.string());
+    std::string line = "damslip sweep " + shell_words(a.inputs);
     const auto add = [&line](const char* flag, const std::string& value) {
         if (!value.empty()) line += fmt::format(" {} {}", flag, shell_quoted(value));
     };
-    add("--records", a.inputs.record_list);
-    for (const auto& record : a.inputs.records) add("--record", record.string());
-    for (const auto& vertical : a.inputs.verticals) add("--vertical", vertical.string());
-    add("--units", a.inputs.unit);
-    if (a.inputs.dt) add("--dt", shortest(*a.inputs.dt));
-    add("--column", a.inputs.column);
-    add("--vertical-column", a.inputs.vertical_column);
     for (const GridFlag& f : grid_flags) add(f.flag, a.*f.list);
     add("--method", a.method);
     if (a.modes) add("--modes", std::to_string(*a.modes));

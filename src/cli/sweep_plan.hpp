@@ -5,9 +5,6 @@
 
 namespace damslip::cli {
 
-/// A word as a POSIX shell reads it back: as it is where that is safe, else in single quotes.
-std::string shell_quoted(const std::string& word);
-
 /// The command line that runs this sweep, shell-quoted, without resume and part: "damslip sweep dam.toml --friction ...".
 std::string sweep_command_line(const SweepArguments& arguments);
 

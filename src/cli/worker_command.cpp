@@ -1,6 +1,7 @@
 #include "cli/worker_command.hpp"
 
 #include "analysis/sweep/point_runs.hpp"
+#include "cli/flags.hpp"
 #include "cli/input/parameter_file.hpp"
 #include "cli/terminal/terminal_watch.hpp"
 #include "core/file.hpp"
@@ -237,9 +238,31 @@ int worker(const WorkerArguments& arguments, const Streams& streams, std::istrea
     return exit_ok;
 }
 
-int worker(const WorkerArguments& arguments, const Streams& streams)
+namespace {
+
+void worker_flags(CLI::App& sub, WorkerArguments& a)
 {
-    return worker(arguments, streams, std::cin);
+    sub.add_option("SCENE", a.scene, "scene file (TOML)")->required();
+    sub.add_option("--method", a.method,
+                   "where a line names none: a method of sweep, such as rigid or fe; default rigid-v, without vertical "
+                   "motion rigid");
+    sub.add_option("--record", a.record, "where a line names none: a record of the scene");
+    sub.add_option("--dakota", a.dakota, "Dakota's parameters file and the results file to write: one point")
+        ->expected(2)
+        ->group("Other programs");
+    sub.add_option("--quofem", a.quofem, "quoFEM's params.in and the results.out to write: one point")
+        ->expected(2)
+        ->group("Other programs");
+}
+
+} // namespace
+
+Command worker_command()
+{
+    return {"worker", "slip of points that another program asks for: JSON lines, Dakota, quoFEM",
+            "damslip worker examples/reference_dam.toml",
+            with_flags<WorkerArguments>(
+                worker_flags, [](const WorkerArguments& a, const Streams& s) { return worker(a, s, std::cin); })};
 }
 
 } // namespace damslip::cli

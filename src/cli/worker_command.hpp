@@ -17,10 +17,7 @@ struct WorkerArguments {
     std::vector<std::filesystem::path> quofem; ///< the same
 };
 
-/// Answers points of the scene: JSON lines from standard input, or one file of Dakota or quoFEM.
-int worker(const WorkerArguments& arguments, const Streams& streams);
-
-/// The same with lines from `in`.
+/// Answers points of the scene: JSON lines from `in`, or one file of Dakota or quoFEM.
 int worker(const WorkerArguments& arguments, const Streams& streams, std::istream& in);
 
 } // namespace damslip::cli

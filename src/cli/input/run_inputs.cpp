@@ -108,6 +108,36 @@ void note_arguments(const RunInputs& inputs, std::vector<Diagnostic>& notes)
 
 } // namespace
 
+std::string single_quoted(const std::string& word)
+{
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string shell_quoted(const std::string& word)
+{
+    const std::string_view safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:,@%=";
+    const bool plain = !word.empty() && word.find_first_not_of(safe) == std::string::npos;
+    return plain ? word : single_quoted(word);
+}
+
+std::string shell_words(const RunInputs& in)
+{
+    std::string line = shell_quoted(in.scene.string());
+    const auto add = [&line](const char* flag, const std::string& value) {
+        if (!value.empty()) line += fmt::format(" {} {}", flag, shell_quoted(value));
+    };
+    add("--records", in.record_list);
+    for (const auto& record : in.records) add("--record", record.string());
+    for (const auto& vertical : in.verticals) add("--vertical", vertical.string());
+    add("--units", in.unit);
+    if (in.dt) add("--dt", shortest(*in.dt));
+    add("--column", in.column);
+    add("--vertical-column", in.vertical_column);
+    return line;
+}
+
 Scene read_run_scene(const RunInputs& inputs, const Streams& streams)
 {
     Scene scene = scene_as_written(inputs);

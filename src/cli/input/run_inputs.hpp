@@ -27,6 +27,13 @@ struct RunInputs {
     std::string scheme; ///< "exact" or "slammer"; empty: the scene's
 };
 
+std::string single_quoted(const std::string& word); ///< as a POSIX shell reads it back
+/// The same, as it is where that is safe.
+std::string shell_quoted(const std::string& word);
+
+/// SCENE and the flags that name its records, shell-quoted: "dam.toml --record ns.at2 --dt 0.01".
+std::string shell_words(const RunInputs& inputs);
+
 /// The scene with the command line's changes, checked. Its notes, and those of the command line's numbers, go to the talk; with
 /// --strict they are thrown. @throws InputError, UsageError
 Scene read_run_scene(const RunInputs& inputs, const Streams& streams);

@@ -1,7 +1,6 @@
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/harmonic_solver.hpp"
 #include "sliding/loads/added_mass.hpp"
-#include "verification/cases/fe_water_cases.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/added_mass.hpp"
 #include "verification/exact/reservoir.hpp"
@@ -238,7 +237,6 @@ void add_fe_fluid_cases(Registry& registry)
          "Zangar (1952), C_m = 0.73 (1 - phi/90 deg), and Goldgruber & Feldbacher (2013), (3-10)...(3-14)",
          "the formulas are fits; 10 % is what separates them from the elements, whose own error is 0.3 %",
          inclined_faces});
-    add_fe_water_cases(registry);
 }
 
 } // namespace damslip::verification

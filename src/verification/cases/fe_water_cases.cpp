@@ -1,4 +1,3 @@
-#include "verification/cases/fe_water_cases.hpp"
 #include "fe2d/fluid/coupled_modes.hpp"
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/face_coupling.hpp"
@@ -7,6 +6,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/structure_system.hpp"
+#include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"
 #include "verification/exact/reservoir.hpp"
 

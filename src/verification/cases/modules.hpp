@@ -23,6 +23,7 @@ void add_fe_quadratic_cases(Registry& registry);
 void add_fe_import_cases(Registry& registry);
 void add_fe_modes_cases(Registry& registry);
 void add_fe_fluid_cases(Registry& registry);
+void add_fe_water_cases(Registry& registry);
 void add_fe_time_cases(Registry& registry);
 void add_fe_integrator_cases(Registry& registry);
 void add_fe_contact_cases(Registry& registry);

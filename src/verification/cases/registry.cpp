@@ -46,6 +46,7 @@ Registry all_cases()
     add_fe_import_cases(registry);
     add_fe_modes_cases(registry);
     add_fe_fluid_cases(registry);
+    add_fe_water_cases(registry);
     add_fe_time_cases(registry);
     add_fe_integrator_cases(registry);
     add_fe_contact_cases(registry);
