@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/assembly/added_mass_law.hpp"
 #include "fe2d/assembly/assemble.hpp"
 #include "scene/pressure_profile.hpp"
 
@@ -16,10 +17,6 @@ inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 /// Pressure at a point of the boundary [Pa]; positive pushes against the body.
 using PressureField = std::function<double(Point)>;
-
-/// Mass of water that moves with the face in its normal direction, per area of wet face [kg/m^2]; `face_angle` phi is
-/// the inclination of the face from the vertical, positive where the body widens downwards [rad].
-using AddedMassLaw = std::function<double(Point, double face_angle)>;
 
 /// Nodal forces - integral of N^T p n_out dS [N/m] of a pressure on a chain. Exact for pressures linear along each wet
 /// edge.

@@ -1,6 +1,5 @@
 #include "fe2d/contact/bond_law.hpp"
-
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "fe2d/contact/elastic_stick.hpp"
-
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 namespace damslip::fe2d {
 

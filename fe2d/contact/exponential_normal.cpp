@@ -1,7 +1,5 @@
 #include "fe2d/contact/exponential_normal.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cassert>

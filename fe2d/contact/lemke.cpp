@@ -1,6 +1,5 @@
 #include "fe2d/contact/lemke.hpp"
-
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cassert>

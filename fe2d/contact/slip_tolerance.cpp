@@ -1,8 +1,7 @@
 #include "fe2d/contact/slip_tolerance.hpp"
 
 #include "fe2d/contact/elastic_stick.hpp"
-
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cassert>

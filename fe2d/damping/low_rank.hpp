@@ -13,10 +13,7 @@ struct LowRank {
     bool empty() const { return columns.cols() == 0; }
 
     /// result += factor U S Uᵀ x
-    void add_product(const Eigen::VectorXd& x, double factor, Eigen::VectorXd& result) const
-    {
-        if (!empty()) result.noalias() += columns * (factor * (core * (columns.transpose() * x)));
-    }
+    void add_product(const Eigen::VectorXd& x, double factor, Eigen::VectorXd& result) const;
 };
 
 } // namespace damslip::fe2d

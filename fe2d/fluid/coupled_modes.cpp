@@ -1,6 +1,6 @@
 #include "fe2d/fluid/coupled_modes.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/SymGEigsSolver.h>
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "fe2d/fluid/coupled_system.hpp"
 #include "fe2d/fluid/face_coupling.hpp"
 #include "fe2d/harmonic/harmonic_solver.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/time/structure_system.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <numbers>

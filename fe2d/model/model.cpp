@@ -126,6 +126,16 @@ Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options)
     return model;
 }
 
+SparseMatrix Model::moving_mass() const
+{
+    return mass + added_mass;
+}
+
+SparseMatrix Model::dam_mass() const
+{
+    return rock_mass.nonZeros() > 0 ? SparseMatrix(mass - rock_mass) : mass;
+}
+
 void ModelCounts::add(EffectCount effect)
 {
     constexpr std::int64_t entry_bytes = sizeof(double) + sizeof(int), vectors = 4;

@@ -64,8 +64,8 @@ struct Model {
         Eigen::Vector2d::Zero(); ///< of everything the ground's motion loads, in x and in y, added mass included [kg/m]
     ModelCounts counts;
 
-    SparseMatrix moving_mass() const { return mass + added_mass; }
-    SparseMatrix dam_mass() const { return rock_mass.nonZeros() > 0 ? SparseMatrix(mass - rock_mass) : mass; }
+    SparseMatrix moving_mass() const; ///< mass + added_mass
+    SparseMatrix dam_mass() const;    ///< mass - rock_mass
     bool rock_has_mass() const { return rock_mass.nonZeros() > 0; }
 };
 

@@ -1,8 +1,8 @@
 #include "fe2d/modes/natural_modes.hpp"
 
 #include "fe2d/modes/flexibility_operator.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "fe2d/reduction/dam_modes.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 #include "fe2d/reduction/reduced_operator.hpp"
 
 #include "fe2d/run/dense_product.hpp"
-
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 
 namespace damslip::fe2d {
 

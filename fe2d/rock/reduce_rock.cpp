@@ -3,10 +3,8 @@
 #include "core/stopwatch.hpp"
 #include "fe2d/model/edge_dashpots.hpp"
 #include "fe2d/rock/frequency_solver.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/solver/linear_solver.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,7 @@
 #include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <fmt/format.h>
-
-#include <Eigen/LU>
 
 #include <cassert>
 #include <cmath>

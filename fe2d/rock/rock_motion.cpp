@@ -1,6 +1,5 @@
 #include "fe2d/rock/rock_motion.hpp"
-
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <cassert>
 

@@ -2,9 +2,7 @@
 
 #include "core/defect.hpp"
 #include "fe2d/run/dense_product.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <cassert>
 

@@ -1,6 +1,5 @@
 #include "fe2d/run/explicit_contact.hpp"
-
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>

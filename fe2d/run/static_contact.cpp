@@ -1,7 +1,5 @@
 #include "fe2d/run/static_contact.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 namespace damslip::fe2d {
 

@@ -1,7 +1,5 @@
 #include "fe2d/run/tied_frequencies.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <cmath>
 #include <cstdint>

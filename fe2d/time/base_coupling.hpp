@@ -1,10 +1,8 @@
 #pragma once
 
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/time/linear_integrator.hpp"
 #include "fe2d/time/moving_base.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <memory>
 #include <span>

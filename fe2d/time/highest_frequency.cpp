@@ -1,7 +1,6 @@
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "fe2d/time/linear_system.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "fe2d/time/step_operator.hpp"
-
-#include <Eigen/LU>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <cassert>
 

@@ -21,7 +21,7 @@ struct Block {
     Place place(std::size_t k) const { return place_of(format, first, k); }
 };
 
-struct Channel {
+struct CosmosChannel {
     std::size_t first = 0; ///< its line 1
     Block integers, reals;
     double unknown_integer = -999.0, unknown_real = -999.0;
@@ -61,7 +61,7 @@ Block read_block(const RecordText& text, std::size_t line, std::string_view what
 }
 
 /// "Values used when parameter or data value is unknown/unspecified:   -999, -999.0"
-void read_unknowns(const RecordText& text, std::size_t line, Channel& channel)
+void read_unknowns(const RecordText& text, std::size_t line, CosmosChannel& channel)
 {
     const std::string_view s = text.lines[line - 1];
     const std::size_t colon = s.find(':');
@@ -75,9 +75,9 @@ void read_unknowns(const RecordText& text, std::size_t line, Channel& channel)
     if (const auto real = parse_number(s.substr(comma + 1))) channel.unknown_real = *real;
 }
 
-Channel read_channel_header(const RecordText& text, std::size_t first)
+CosmosChannel read_channel_header(const RecordText& text, std::size_t first)
 {
-    Channel channel;
+    CosmosChannel channel;
     channel.first = first;
     const std::size_t integers = line_with(text, first + 1, 40, "integer-header values");
     read_unknowns(text, integers - 1, channel);
@@ -115,7 +115,7 @@ std::string unit_of_code(double code)
 }
 
 /// The unit by its code in the integer header and in "units=cm/sec2(04)" of the data line.
-AccelerationUnit unit_of(const RecordText& text, const Channel& channel, const ReadOptions& options)
+AccelerationUnit unit_of(const RecordText& text, const CosmosChannel& channel, const ReadOptions& options)
 {
     const std::string_view line = text.lines[channel.data_line - 1];
     double code = channel.integers.at(2);
@@ -144,7 +144,7 @@ AccelerationUnit unit_of(const RecordText& text, const Channel& channel, const R
 }
 
 /// Azimuth to true north, else to the structure, else the words of text line 9.
-std::string component_of(const RecordText& text, const Channel& channel)
+std::string component_of(const RecordText& text, const CosmosChannel& channel)
 {
     for (const std::size_t k : {std::size_t{53}, std::size_t{54}}) {
         const double angle = channel.integers.at(k);
@@ -170,7 +170,7 @@ std::string component_of(const RecordText& text, const Channel& channel)
     return "";
 }
 
-void warn_of_site(const Channel& channel, Record& record)
+void warn_of_site(const CosmosChannel& channel, Record& record)
 {
     static constexpr struct {
         int code;
@@ -189,7 +189,7 @@ void warn_of_site(const Channel& channel, Record& record)
 }
 
 /// Length is npts dt by the format's definition and (npts - 1) dt in many files; anything else is a warning.
-void warn_of_length(const Channel& channel, double dt, Record& record)
+void warn_of_length(const CosmosChannel& channel, double dt, Record& record)
 {
     const double length = channel.reals.at(62);
     if (length == channel.unknown_real) return;
@@ -199,7 +199,7 @@ void warn_of_length(const Channel& channel, double dt, Record& record)
 }
 
 /// Real header value 64: the largest of the samples, in their unit; of either sign. Zero and "unknown" say nothing.
-void check_peak(const RecordText& text, const Channel& channel, const AccelerationUnit& unit, Record& record)
+void check_peak(const RecordText& text, const CosmosChannel& channel, const AccelerationUnit& unit, Record& record)
 {
     const double peak = channel.reals.at(63);
     if (peak == channel.unknown_real || peak == 0.0) return;
@@ -207,7 +207,7 @@ void check_peak(const RecordText& text, const Channel& channel, const Accelerati
                       {peak * unit.factor, 0.001 * std::abs(peak) * unit.factor, channel.reals.place(63).line});
 }
 
-Record read_channel(const RecordText& text, const Channel& channel, const ReadOptions& options)
+Record read_channel(const RecordText& text, const CosmosChannel& channel, const ReadOptions& options)
 {
     const AccelerationUnit unit = unit_of(text, channel, options);
     const Place dt_place = channel.reals.place(61);
@@ -271,7 +271,7 @@ std::vector<Record> read_cosmos(const RecordText& text, const ReadOptions& optio
     std::vector<std::string> skipped;
     for (std::size_t line = 1; line <= text.lines.size(); ++line) {
         if (!starts_channel(text.lines[line - 1])) continue;
-        const Channel channel = read_channel_header(text, line);
+        const CosmosChannel channel = read_channel_header(text, line);
         const double quantity = channel.integers.at(1);
         const bool acceleration = quantity == 1.0 || (quantity == channel.unknown_integer &&
                                                       contains(lower(text.lines[line - 1]), "acceleration"));

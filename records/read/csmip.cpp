@@ -25,7 +25,7 @@ constexpr Layout layout_of(Volume volume)
     return volume == Volume::uncorrected ? Layout{13, 7, 7} : Layout{25, 7, 13};
 }
 
-struct Channel {
+struct CsmipChannel {
     Volume volume;
     std::size_t first, last; ///< its lines
 };
@@ -36,9 +36,9 @@ bool starts_with_marker(std::string_view line, std::string_view marker)
 }
 
 /// Channels start with "UNCORRECTED ACCELEROGRAM", or with "CORRECTED ACCELEROGRAM" and a second line of the former.
-std::vector<Channel> find_channels(const RecordText& text)
+std::vector<CsmipChannel> find_channels(const RecordText& text)
 {
-    std::vector<Channel> channels;
+    std::vector<CsmipChannel> channels;
     for (std::size_t line = 1; line <= text.lines.size(); ++line) {
         const std::string_view s = text.lines[line - 1];
         const bool corrected = starts_with_marker(s, "corrected accelerogram");
@@ -74,7 +74,7 @@ std::optional<std::string> unit_in(std::string_view line)
 }
 
 /// "90 DEG" of the line "CHAN  1:  90 DEG" among the text lines.
-std::string component_of(const RecordText& text, const Channel& channel)
+std::string component_of(const RecordText& text, const CsmipChannel& channel)
 {
     const std::size_t end = std::min(channel.last, channel.first + layout_of(channel.volume).text_lines - 1);
     for (std::size_t line = channel.first; line <= end; ++line) {
@@ -89,7 +89,7 @@ std::string component_of(const RecordText& text, const Channel& channel)
     return "";
 }
 
-std::string title_of(const RecordText& text, const Channel& channel)
+std::string title_of(const RecordText& text, const CsmipChannel& channel)
 {
     const std::size_t event = channel.first + (channel.volume == Volume::corrected ? 2 : 1), station = event + 4;
     std::string title;
@@ -99,8 +99,8 @@ std::string title_of(const RecordText& text, const Channel& channel)
     return title;
 }
 
-RecordSource source_of(const RecordText& text, const Channel& channel, const AccelerationUnit& unit, std::size_t first,
-                       std::size_t last)
+RecordSource source_of(const RecordText& text, const CsmipChannel& channel, const AccelerationUnit& unit,
+                       std::size_t first, std::size_t last)
 {
     RecordSource source;
     source.format = channel.volume == Volume::corrected ? "CSMIP volume 2" : "CSMIP volume 1";
@@ -117,7 +117,7 @@ struct Numbers {
     std::vector<double> integers, reals;
 };
 
-Numbers read_numbers(const RecordText& text, const Channel& channel)
+Numbers read_numbers(const RecordText& text, const CsmipChannel& channel)
 {
     const Layout layout = layout_of(channel.volume);
     if (channel.first + layout.size() > channel.last)
@@ -142,7 +142,7 @@ void check_number(const RecordText& text, const Stated<std::size_t>& count, std:
 }
 
 /// Samples equally spaced, under a line that names number, step, unit and perhaps a format.
-Record read_even(const RecordText& text, const Channel& channel, std::size_t line, Stated<std::size_t> count,
+Record read_even(const RecordText& text, const CsmipChannel& channel, std::size_t line, Stated<std::size_t> count,
                  Stated<double> stated_dt, const std::optional<Stated<std::string>>& stated_unit,
                  const ReadOptions& options)
 {
@@ -168,7 +168,8 @@ Record read_even(const RecordText& text, const Channel& channel, std::size_t lin
 }
 
 /// " 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)"
-Record read_named_samples(const RecordText& text, const Channel& channel, std::size_t line, const ReadOptions& options)
+Record read_named_samples(const RecordText& text, const CsmipChannel& channel, std::size_t line,
+                          const ReadOptions& options)
 {
     const std::string_view s = text.lines[line - 1];
     const auto count = parse_number(s);
@@ -184,7 +185,7 @@ Record read_named_samples(const RecordText& text, const Channel& channel, std::s
 }
 
 /// The unit that one of the text lines names ("UNITS OF UNCOR ACCEL IS G/10.").
-std::optional<Stated<std::string>> unit_in_text(const RecordText& text, const Channel& channel)
+std::optional<Stated<std::string>> unit_in_text(const RecordText& text, const CsmipChannel& channel)
 {
     for (std::size_t line = channel.first; line < channel.first + layout_of(channel.volume).text_lines; ++line)
         if (contains(lower(text.lines[line - 1]), "units"))
@@ -193,8 +194,8 @@ std::optional<Stated<std::string>> unit_in_text(const RecordText& text, const Ch
 }
 
 /// Pairs of time and acceleration, 5 a line in fields of 7.
-Record read_pairs(const RecordText& text, const Channel& channel, std::size_t first, const Stated<std::size_t>& count,
-                  const ReadOptions& options)
+Record read_pairs(const RecordText& text, const CsmipChannel& channel, std::size_t first,
+                  const Stated<std::size_t>& count, const ReadOptions& options)
 {
     const AccelerationUnit unit = settle_unit(text, unit_in_text(text, channel), options);
     const FieldFormat format = format_of_length(text.lines[first - 1], 10).value_or(FieldFormat{10, 7});
@@ -239,7 +240,7 @@ Record read_pairs(const RecordText& text, const Channel& channel, std::size_t fi
 
 /// No line that names the samples: number and length from the header, times beside the samples or (below another line
 /// of words) none.
-Record read_unnamed_samples(const RecordText& text, const Channel& channel, const ReadOptions& options)
+Record read_unnamed_samples(const RecordText& text, const CsmipChannel& channel, const ReadOptions& options)
 {
     const Layout layout = layout_of(channel.volume);
     const Numbers numbers = read_numbers(text, channel);
@@ -258,7 +259,7 @@ Record read_unnamed_samples(const RecordText& text, const Channel& channel, cons
     return read_even(text, channel, first, count, {1.0 / rate, first}, unit_in_text(text, channel), options);
 }
 
-Record read_channel(const RecordText& text, const Channel& channel, const ReadOptions& options)
+Record read_channel(const RecordText& text, const CsmipChannel& channel, const ReadOptions& options)
 {
     for (std::size_t line = channel.first; line <= std::min(channel.last, channel.first + 80); ++line)
         if (names_samples(text.lines[line - 1])) return read_named_samples(text, channel, line, options);
@@ -271,7 +272,7 @@ Record read_channel(const RecordText& text, const Channel& channel, const ReadOp
 }
 
 /// "PEAK ACCELERATION =   -421.547 CM/SEC/SEC     AT   4.880 SEC" of a corrected channel.
-void check_peak(const RecordText& text, const Channel& channel, Record& record)
+void check_peak(const RecordText& text, const CsmipChannel& channel, Record& record)
 {
     if (channel.volume != Volume::corrected) return;
     const std::size_t end = std::min(channel.last, channel.first + layout_of(channel.volume).text_lines - 1);
@@ -313,13 +314,13 @@ std::vector<Record> read_csmip(const RecordText& text, const ReadOptions& option
     if (contains(lower(text.lines.front()), "response"))
         refuse(text, {1, 0}, "these are response spectra (volume 3), no accelerogram.", "volume 1 or 2",
                "take the volume 2 file of the record");
-    const std::vector<Channel> channels = find_channels(text);
+    const std::vector<CsmipChannel> channels = find_channels(text);
     if (channels.empty())
         refuse(text, {1, 0}, "no channel of a CSMIP file is found.",
                "a line that starts with \"CORRECTED ACCELEROGRAM\" or \"UNCORRECTED ACCELEROGRAM\"",
                "get the file anew from its source");
     std::vector<Record> records;
-    for (const Channel& channel : channels) {
+    for (const CsmipChannel& channel : channels) {
         records.push_back(read_channel(text, channel, options));
         check_peak(text, channel, records.back());
         warn_if_down(records.back());

@@ -12,7 +12,7 @@ namespace damslip::records {
 namespace {
 
 /// Lines with a colon at the start of the file.
-std::size_t header_size(const RecordText& text)
+std::size_t esm_header_size(const RecordText& text)
 {
     std::size_t k = 0;
     while (k < text.lines.size() && k < 200 && contains(text.lines[k], ":")) ++k;
@@ -93,7 +93,7 @@ bool looks_like_esm(const RecordText& text)
 /// values.
 std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
 {
-    const std::size_t header = header_size(text);
+    const std::size_t header = esm_header_size(text);
     demand_acceleration(text, header);
     std::optional<Stated<std::string>> stated_unit;
     if (const auto unit = find(text, header, "units"); unit && !unit->value.empty())

@@ -26,7 +26,7 @@ Stated<std::string_view> value_of(const RecordText& text, std::size_t header_lin
 }
 
 /// Lines up to the one of the memo, below which the samples start.
-std::size_t header_size(const RecordText& text)
+std::size_t k_net_header_size(const RecordText& text)
 {
     for (std::size_t k = 0; k < std::min(most_header_lines, text.lines.size()); ++k)
         if (lower(text.lines[k]).starts_with("memo")) return k + 1;
@@ -126,7 +126,7 @@ bool looks_like_k_net(const RecordText& text)
 /// duration.
 std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& options)
 {
-    const std::size_t header = header_size(text);
+    const std::size_t header = k_net_header_size(text);
     const auto value = [&](std::string_view label) { return value_of(text, header, label); };
     const AccelerationUnit unit = settle_unit(text, Stated<std::string>{"gal", value("scale factor").line}, options);
     const double gal = scale_factor(text, value("scale factor"));

@@ -21,7 +21,7 @@ bool names_npts_and_dt(std::string_view line)
     return !is_comment(line) && contains(s, "npts") && contains(s, "dt");
 }
 
-struct Header {
+struct PeerHeader {
     Stated<std::size_t> samples;
     Stated<double> dt;
     std::optional<Stated<std::string>> unit;
@@ -40,7 +40,7 @@ std::optional<double> assigned(std::string_view line, std::string_view key, std:
     return value;
 }
 
-void read_npts_and_dt(const RecordText& text, std::size_t line, Header& header)
+void read_npts_and_dt(const RecordText& text, std::size_t line, PeerHeader& header)
 {
     const std::string_view s = text.lines[line - 1];
     std::string_view rest;
@@ -69,7 +69,7 @@ void read_npts_and_dt(const RecordText& text, std::size_t line, Header& header)
 }
 
 /// The line "ACCELERATION TIME HISTORY IN UNITS OF G", last one above the samples.
-void read_quantity(const RecordText& text, std::size_t last, Header& header)
+void read_quantity(const RecordText& text, std::size_t last, PeerHeader& header)
 {
     for (std::size_t line = last; line >= 1; --line) {
         const std::string s = lower(text.lines[line - 1]);
@@ -132,7 +132,7 @@ std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& opt
 {
     std::size_t last = std::min(header_lines, text.lines.size());
     while (last > 1 && !names_npts_and_dt(text.lines[last - 1])) --last;
-    Header header;
+    PeerHeader header;
     read_npts_and_dt(text, last, header);
     read_quantity(text, last, header);
     if (last >= 3) header.title = trimmed(text.lines[last - 3]);

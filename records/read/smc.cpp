@@ -16,7 +16,7 @@ constexpr std::size_t text_lines = 11, integer_count = 48, real_count = 50;
 constexpr FieldFormat integer_format{8, 10}, real_format{5, 15}, sample_format{8, 10};
 constexpr std::size_t integer_line = text_lines + 1, real_line = integer_line + 6, comment_line = real_line + 10;
 
-struct Header {
+struct SmcHeader {
     std::vector<double> integers, reals;
 
     /// Nothing where the file has its code for "missing".
@@ -26,9 +26,9 @@ struct Header {
     }
 };
 
-Header read_header(const RecordText& text)
+SmcHeader read_header(const RecordText& text)
 {
-    Header header;
+    SmcHeader header;
     header.integers = read_fields(text, integer_line, integer_count, integer_format);
     check_count(text, {integer_count, std::min(integer_line, text.lines.size())}, header.integers.size(),
                 "number of integers in the header");
@@ -53,7 +53,7 @@ void demand_acceleration(const RecordText& text)
 }
 
 /// "component=    360" of text line 6, else the orientation of the integer header.
-std::string component_of(const RecordText& text, const Header& header)
+std::string component_of(const RecordText& text, const SmcHeader& header)
 {
     const std::string_view line = text.lines[5];
     const std::size_t at = lower(line).find("component=");
@@ -79,7 +79,7 @@ std::string title_of(const RecordText& text)
     return title;
 }
 
-void warn_of_site(const Header& header, Record& record)
+void warn_of_site(const SmcHeader& header, Record& record)
 {
     if (header.integer(17) == 1.0)
         record.warnings.push_back("the file marks this record with a problem; see its comments");
@@ -99,7 +99,7 @@ void warn_of_site(const Header& header, Record& record)
 }
 
 /// Real header values 30 and 32: the largest and the smallest sample, in cm/s2.
-void check_peak(const RecordText& text, const Header& header, const AccelerationUnit& unit, Record& record)
+void check_peak(const RecordText& text, const SmcHeader& header, const AccelerationUnit& unit, Record& record)
 {
     const double missing = header.reals[0], largest = header.reals[29], smallest = header.reals[31];
     if (largest == missing || smallest == missing || (largest == 0.0 && smallest == 0.0)) return;
@@ -133,7 +133,7 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
         refuse(text, {text.lines.size(), 0}, "the file ends within its header.",
                fmt::format("{} lines of header, then comments and samples", comment_line - 1),
                "the file looks cut: get it anew from its source");
-    const Header header = read_header(text);
+    const SmcHeader header = read_header(text);
     const AccelerationUnit unit = settle_unit(text, Stated<std::string>{"cm/s2", 1}, options);
 
     const double rate = header.reals[1];

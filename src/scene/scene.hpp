@@ -379,6 +379,14 @@ struct Project {
 };
 
 struct Scene {
+    // Compiled once, in scene.cpp: some eighty members are copied and destroyed.
+    Scene();
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
     std::filesystem::path file; ///< as the user named it
     std::string title;
     Project project;

@@ -1,5 +1,6 @@
 // What a law of the joint costs: processor seconds of a run with it over those of the same run without, steps and record alike.
 #include "analysis/prepare/ready.hpp"
+#include "fe2d/run/earthquake_run.hpp"
 #include "scene/read.hpp"
 
 #include <algorithm>

@@ -55,7 +55,7 @@ RegressionInputs inputs_of(double yield, double period, double sa, double magnit
     return x;
 }
 
-RegressionResult run(const char* id, const RegressionInputs& inputs)
+RegressionResult run_regression(const char* id, const RegressionInputs& inputs)
 {
     return evaluate(*find_regression(id), inputs);
 }
@@ -78,9 +78,9 @@ TEST(Audit, A10_every_regression_has_ranges)
     EXPECT_FALSE(e.median_cm.has_value());
     // Jibson (2007): a_c 0.05 to 0.40 g, M 5.3 to 7.6; (9) and (10) had neither.
     for (const char* id : {"jibson-2007-ratio", "jibson-2007-arias", "jibson-2007-arias-ratio"}) {
-        EXPECT_TRUE(valid(run(id, inputs_of(0.05, 0.0, 0.8, 7.6)))) << id;
-        EXPECT_EQ(run(id, inputs_of(0.049, 0.0, 0.8, 6.5)).remark, "a_c 0.049 g, data 0.05 to 0.4 g") << id;
-        EXPECT_EQ(run(id, inputs_of(0.1, 0.0, 0.8, 7.7)).remark, "M 7.7, data 5.3 to 7.6") << id;
+        EXPECT_TRUE(valid(run_regression(id, inputs_of(0.05, 0.0, 0.8, 7.6)))) << id;
+        EXPECT_EQ(run_regression(id, inputs_of(0.049, 0.0, 0.8, 6.5)).remark, "a_c 0.049 g, data 0.05 to 0.4 g") << id;
+        EXPECT_EQ(run_regression(id, inputs_of(0.1, 0.0, 0.8, 7.7)).remark, "M 7.7, data 5.3 to 7.6") << id;
     }
 }
 
@@ -159,7 +159,7 @@ TEST(Audit, A10_sweep_rows_say_outside)
 // 9.77 cm, P(D = 0) 0.01; exceeded with 84, 50 and 16 %: 4.9, 9.7, 18.7 cm.
 TEST(Audit, A11_hurdle_as_the_authors_spreadsheet)
 {
-    const RegressionResult r = run("bray-travasarou-2007", inputs_of(0.14, 0.33, 0.483, 7.5));
+    const RegressionResult r = run_regression("bray-travasarou-2007", inputs_of(0.14, 0.33, 0.483, 7.5));
     EXPECT_NEAR(*r.nonzero_median_cm, 9.77, 0.005);
     EXPECT_NEAR(*r.zero_probability, 0.01, 0.005);
     EXPECT_NEAR(*r.minus_sd_cm, 4.9, 0.05);
@@ -182,7 +182,7 @@ TEST(Audit, A11_probability_of_no_slip)
         {"bray-macedo-travasarou-2018", 0.1, 1.2, 0.6, 8.0, 7.12913463546e-06, 110.9051225, 110.9044, 230.13628},
     };
     for (const auto& row : rows) {
-        const RegressionResult r = run(row.id, inputs_of(row.yield, row.period, row.sa, row.magnitude));
+        const RegressionResult r = run_regression(row.id, inputs_of(row.yield, row.period, row.sa, row.magnitude));
         ASSERT_TRUE(r.zero_probability) << row.id;
         EXPECT_NEAR(*r.zero_probability, row.zero, 1e-10) << row.id;
         EXPECT_NEAR(*r.nonzero_median_cm / row.nonzero, 1.0, 1e-8) << row.id;
@@ -196,10 +196,10 @@ TEST(Audit, A11_probability_of_no_slip)
 // (k_y 0.39, T_s 0.15 s, S_a 0.75 g, M 8.8) is printed as 0.60.
 TEST(Audit, A11_subduction_case_histories)
 {
-    const RegressionResult coast = run("bray-macedo-travasarou-2018", inputs_of(0.10, 0.6, 0.25, 8.0));
+    const RegressionResult coast = run_regression("bray-macedo-travasarou-2018", inputs_of(0.10, 0.6, 0.25, 8.0));
     EXPECT_NEAR(*coast.nonzero_median_cm * std::exp(-0.73), 3.0, 0.5);
     EXPECT_NEAR(*coast.nonzero_median_cm * std::exp(0.73), 12.0, 0.5);
-    const RegressionResult dam = run("bray-macedo-travasarou-2018", inputs_of(0.39, 0.15, 0.75, 8.8));
+    const RegressionResult dam = run_regression("bray-macedo-travasarou-2018", inputs_of(0.39, 0.15, 0.75, 8.8));
     EXPECT_NEAR(*dam.zero_probability, 0.60, 0.01);
     EXPECT_EQ(*dam.median_cm, 0.0);
 }

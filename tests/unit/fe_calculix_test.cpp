@@ -17,7 +17,7 @@ using namespace damslip::fe2d;
 
 Scene quadratic_dam()
 {
-    Scene scene = test::reference_dam_on_rock();
+    Scene scene = fe2d::test::reference_dam_on_rock();
     scene.mesh.element = ElementKind::q8;
     scene.mesh.size = scene.mesh.contact_size = 7.5;
     scene.curtain.reset();

@@ -1,6 +1,7 @@
 #include "analysis/ablation/ablation_runs.hpp"
 
 #include "core/processor_clock.hpp"
+#include "fe2d/run/earthquake_run.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "analysis/fe/contact_cost.hpp"
-
+#include "fe2d/run/earthquake_run.hpp"
 
 #include <algorithm>
 #include <cmath>

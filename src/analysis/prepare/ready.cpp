@@ -3,6 +3,7 @@
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/rock_water.hpp"
 #include "core/cache_folder.hpp"
+#include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/frequency_content.hpp"

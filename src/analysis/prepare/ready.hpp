@@ -5,9 +5,13 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/watch.hpp"
-#include "fe2d/run/earthquake_run.hpp"
 
 #include <memory>
+
+namespace damslip::fe2d {
+struct ModelOptions; // fe2d/model/model.hpp
+struct RunOptions;   // fe2d/run/earthquake_run.hpp
+} // namespace damslip::fe2d
 
 namespace damslip {
 

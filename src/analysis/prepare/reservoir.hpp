@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/stop.hpp"
-#include "fe2d/model/model.hpp"
+#include "fe2d/assembly/added_mass_law.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>

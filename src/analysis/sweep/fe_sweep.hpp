@@ -5,6 +5,7 @@
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
+#include "fe2d/run/slide_watch.hpp"
 
 #include <functional>
 #include <optional>

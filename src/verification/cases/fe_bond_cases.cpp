@@ -4,9 +4,8 @@
 #include "fe2d/run/joints_of_scene.hpp"
 #include "fe2d/run/static_path.hpp"
 #include "fe2d/run/static_relaxation.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <numbers>

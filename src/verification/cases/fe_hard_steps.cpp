@@ -1,8 +1,7 @@
 #include "verification/cases/fe_hard_steps.hpp"
 
 #include "fe2d/contact/lemke.hpp"
-
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -7,13 +7,12 @@
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/model/static_loads.hpp"
 #include "fe2d/modes/natural_modes.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/statics/stress.hpp"
 #include "scene/section.hpp"
 #include "verification/cases/mixed_mesh.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/reference_scene.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <set>

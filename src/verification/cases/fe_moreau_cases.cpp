@@ -2,12 +2,11 @@
 
 #include "fe2d/contact/lemke.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/small_dam.hpp"
 
 #include <fmt/format.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 

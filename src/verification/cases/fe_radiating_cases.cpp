@@ -3,12 +3,12 @@
 #include "fe2d/material/elastic.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/small_dam.hpp"
 #include "verification/exact/half_plane.hpp"
 #include "verification/exact/strip_loads.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <cmath>

@@ -8,11 +8,11 @@
 #include "fe2d/model/static_loads.hpp"
 #include "fe2d/rock/rock_base.hpp"
 #include "fe2d/rock/rock_of_scene.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>

@@ -7,12 +7,11 @@
 #include "fe2d/model/edge_dashpots.hpp"
 #include "fe2d/rock/rock_base.hpp"
 #include "fe2d/rock/rock_of_scene.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/time/base_coupling.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/half_plane.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,11 @@
 #include "fe2d/damping/modified_rayleigh.hpp"
 #include "fe2d/damping/rayleigh.hpp"
 #include "fe2d/model/static_loads.hpp"
+#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_time_models.hpp"
 #include "verification/exact/damped_oscillator.hpp"
 #include "verification/exact/time_schemes.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
+#include "fe2d/solver/dense_algebra.hpp"
 #include <Eigen/Core>
 
 #include <vector>
