@@ -225,13 +225,6 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
     return std::sqrt(to_more / gone(slow) * from_fewer / gained(slow));
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
-{
-    double largest = std::abs(a.back() - b.back());
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-    return largest;
-}
-
 ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
                               const std::optional<int>& halvings, TruncationEstimate estimate) const
 {
@@ -282,10 +275,10 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     const int first = fixed.value_or(0);
     shake_with(first);
     for (int k = first + 1; !fixed && k <= options_.largest_halvings; ++k) {
-        const double coarser = result.slip;
+        const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
         shake_with(k);
-        result.step_error = std::abs(result.slip - coarser);
+        result.step_error = largest_difference(coarser, result.history.slip);
         if (result.step_error <= wanted()) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }

@@ -3,6 +3,7 @@
 #include "fe2d/reduction/reduced_contact.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
+#include "fe2d/run/step_error.hpp"
 
 #include <limits>
 #include <mutex>
@@ -124,8 +125,5 @@ private:
     mutable Estimators estimators_; ///< made by the first run that estimates
     double seconds_ = 0.0;
 };
-
-/// Largest difference of two slip histories on the same steps, and of their last values [m].
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 } // namespace damslip::fe2d
