@@ -3,7 +3,6 @@
 #include "fe2d/reduction/reduced_contact.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
-#include "fe2d/run/step_error.hpp"
 
 #include <limits>
 #include <mutex>
@@ -58,7 +57,7 @@ struct ReducedResult {
         0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
              ///< NaN: left out, or interrupted
     double step_error = std::numeric_limits<
-        double>::quiet_NaN();       ///< estimate of what the time step leaves open [m]; NaN: not estimated
+        double>::quiet_NaN();       ///< estimate of what the time step leaves open, at any time [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
     double highest_frequency = 0.0; ///< of them [Hz]
     int halvings = 0;

@@ -25,6 +25,7 @@ struct EarthquakeRun::Lane {
 
     /// Do the static stages end in equilibrium?
     bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }
+    OrderInStep order_in_step() const;      ///< of what its joints do
     void note_slips(const RunResult& pass); ///< before `pass` becomes `result`
 };
 

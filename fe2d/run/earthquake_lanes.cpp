@@ -1,4 +1,5 @@
 #include "fe2d/contact/anchor_law.hpp"
+#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/joints_of_scene.hpp"
@@ -471,6 +472,11 @@ void EarthquakeRun::Lane::note_slips(const RunResult& pass)
                                 first ? 0.0 : change(result.history.lifts[k].slip, pass.history.lifts[k].slip)});
 }
 
+OrderInStep EarthquakeRun::Lane::order_in_step() const
+{
+    return memory.laws.find<BondLaw>() || memory.laws.find<CrackWater>() ? sudden_order : contact_order;
+}
+
 /// A pass with smaller steps; lanes whose error is still too large get the next one.
 void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
 {
@@ -487,14 +493,16 @@ void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
         const bool was_self_excited = lane.result.status == Status::self_excited;
         lane.note_slips(finer[i]);
         lane.result = std::move(finer[i]);
-        lane.result.slip_error = step_error(lane.slips.front());
+        const OrderInStep orders = lane.order_in_step();
+        lane.result.slip_error = step_error(lane.slips.front(), orders);
         for (std::size_t k = 0; k < lane.result.lifts.size(); ++k)
-            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1]);
+            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1], orders);
         double excess = 0.0; // error over what is wanted, the largest of all planes
-        for (const std::vector<SlipAtStep>& plane : lane.slips)
-            excess =
-                std::max(excess, step_error(plane) / (scene_.time.slip_tolerance *
-                                                      std::max(std::abs(plane.back().slip), options_.smallest_slip)));
+        for (std::size_t k = 0; k < lane.slips.size(); ++k) {
+            const double slip = k == 0 ? lane.result.max_slip : lane.result.lifts[k - 1].largest_slip;
+            excess = std::max(excess, step_error(lane.slips[k], orders) /
+                                          (scene_.time.slip_tolerance * std::max(slip, options_.smallest_slip)));
+        }
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
         if (was_self_excited && lane.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine

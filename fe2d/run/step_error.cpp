@@ -7,8 +7,6 @@ namespace damslip::fe2d {
 
 namespace {
 
-constexpr double believable_order = 2.5; ///< differences that fall faster than that do so by accident
-
 /// (s_i - s_j) / (s_j - s_k) of an error of order p.
 double ratio_of_differences(double p, int first, int second)
 {
@@ -17,13 +15,13 @@ double ratio_of_differences(double p, int first, int second)
 
 } // namespace
 
-double observed_order(std::span<const SlipAtStep> slips)
+double observed_order(std::span<const SlipAtStep> slips, OrderInStep orders)
 {
     if (slips.size() < 3) return 1.0;
     const auto last = slips.last(3);
     const int first = last[1].halvings - last[0].halvings, second = last[2].halvings - last[1].halvings;
     const double before = last[1].change, now = last[2].change;
-    double low = 1.0, high = largest_order;
+    double low = 1.0, high = orders.largest;
     for (int k = 0; k < 40; ++k) {
         const double p = 0.5 * (low + high);
         (before > now * ratio_of_differences(p, first, second) ? low : high) = p;
@@ -31,16 +29,16 @@ double observed_order(std::span<const SlipAtStep> slips)
     return low;
 }
 
-double step_error(std::span<const SlipAtStep> slips)
+double step_error(std::span<const SlipAtStep> slips, OrderInStep orders)
 {
     const auto last = slips.last(2);
     const int halvings = last[1].halvings - last[0].halvings;
     double difference = last[1].change;
     if (slips.size() >= 3) { // a sudden agreement is an accident
         const int before = last[0].halvings - slips[slips.size() - 3].halvings;
-        difference = std::max(difference, last[0].change / ratio_of_differences(believable_order, before, halvings));
+        difference = std::max(difference, last[0].change / ratio_of_differences(orders.believable, before, halvings));
     }
-    return difference / (std::exp2(observed_order(slips) * halvings) - 1.0);
+    return difference / (std::exp2(observed_order(slips, orders) * halvings) - 1.0);
 }
 
 int next_halvings(std::span<const SlipAtStep> slips, double excess)

@@ -22,7 +22,7 @@ std::vector<SlipAtStep> of_order(double p, std::initializer_list<int> halvings)
 
 TEST(FeStepError, FindsOrderAndErrorOfAPowerOfTheStep)
 {
-    for (const double p : {1.0, 1.3, largest_order})
+    for (const double p : {1.0, 1.3, contact_order.largest})
         for (const auto& halvings : {std::initializer_list<int>{0, 1, 2}, {0, 1, 3}, {1, 3, 4}}) {
             const std::vector<SlipAtStep> slips = of_order(p, halvings);
             EXPECT_NEAR(observed_order(slips), p, 1e-9);
@@ -32,10 +32,10 @@ TEST(FeStepError, FindsOrderAndErrorOfAPowerOfTheStep)
 
 TEST(FeStepError, DoesNotRelyOnMoreThanTheUsualOrderNorOnLessThanOne)
 {
-    EXPECT_NEAR(observed_order(of_order(3.0, {0, 1, 2})), largest_order, 1e-9);
+    EXPECT_NEAR(observed_order(of_order(3.0, {0, 1, 2})), contact_order.largest, 1e-9);
     EXPECT_NEAR(observed_order(of_order(0.5, {0, 1, 2})), 1.0, 1e-9);
     const std::vector<SlipAtStep> two =
-        of_order(largest_order, {0, 1}); // first order: then the finer errs by the difference
+        of_order(contact_order.largest, {0, 1}); // first order: then the finer errs by the difference
     EXPECT_DOUBLE_EQ(step_error(two), std::abs(two[0].slip - two[1].slip));
     const std::vector<SlipAtStep> still{{0, 0.7, 0.0}, {1, 0.7, 0.0}, {2, 0.7, 0.0}};
     EXPECT_EQ(step_error(still), 0.0);
@@ -45,9 +45,19 @@ TEST(FeStepError, DoesNotRelyOnMoreThanTheUsualOrderNorOnLessThanOne)
 TEST(FeStepError, DoesNotBelieveASuddenAgreement)
 {
     const std::vector<SlipAtStep> sudden{{0, 0.5, 0.0}, {1, 0.7, 0.2}, {2, 0.7, 0.0}};
-    EXPECT_NEAR(step_error(sudden), 0.2 * std::exp2(-2.5) / (std::exp2(largest_order) - 1.0), 1e-12);
+    EXPECT_NEAR(step_error(sudden), 0.2 * std::exp2(-2.5) / (std::exp2(contact_order.largest) - 1.0), 1e-12);
     const std::vector<SlipAtStep> cubic = of_order(3.0, {0, 1, 2});
     EXPECT_GT(step_error(cubic), cubic.back().slip - 1.0);
+}
+
+// Where a bond breaks the changes scatter: a third that is a tenth of the second counts as half of it.
+TEST(FeStepError, OfSuddenJointsFallsWithFirstOrderAtMost)
+{
+    const std::vector<SlipAtStep> smooth = of_order(1.5, {0, 1, 2});
+    EXPECT_EQ(observed_order(smooth, sudden_order), 1.0);
+    const std::vector<SlipAtStep> scatter{{0, 0.5, 0.0}, {1, 0.7, 0.2}, {2, 0.68, 0.02}};
+    EXPECT_DOUBLE_EQ(step_error(scatter, sudden_order), 0.1);
+    EXPECT_LT(step_error(scatter), 0.03);
 }
 
 // Two slides whose errors cancel at the end: the histories are 0.1 apart in between.
@@ -71,7 +81,8 @@ TEST(FeStepError, ComparesEventsFromTheirOwnBegin)
 
 TEST(FeStepError, FarFromTheGoalItSkipsOnePass)
 {
-    const std::vector<SlipAtStep> two = of_order(largest_order, {0, 1}), three = of_order(largest_order, {0, 1, 2});
+    const std::vector<SlipAtStep> two = of_order(contact_order.largest, {0, 1}),
+                                  three = of_order(contact_order.largest, {0, 1, 2});
     EXPECT_EQ(next_halvings(two, 1.5), 2);
     EXPECT_EQ(next_halvings(two, 13.0), 3);
     EXPECT_EQ(next_halvings(three, 2.0), 3);
