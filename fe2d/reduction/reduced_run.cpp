@@ -4,6 +4,7 @@
 #include "core/stopwatch.hpp"
 #include "fe2d/run/self_excited.hpp"
 #include "fe2d/run/slide_probe.hpp"
+#include "fe2d/run/step_error.hpp"
 
 #include <fmt/format.h>
 
@@ -53,9 +54,9 @@ std::string message_of(const ReducedResult& r, double length)
         return fmt::format("Stopped at {:.2f} s: the kinetic energy is no longer a number.", r.end_time);
     case Status::tolerance_missed:
         return fmt::format(
-            "Slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance allows. Give a "
+            "Largest slip {:.4g} mm ± {:.2g} mm with steps of {:.4g} s: more than time.slip_tolerance allows. Give a "
             "smaller time.dt_s, or a larger slip_tolerance.",
-            1e3 * r.slip, 1e3 * r.step_error, r.dt);
+            1e3 * r.max_slip, 1e3 * r.step_error, r.dt);
     default:
         return fmt::format("Slip {:.4g} mm{} with {} elastic modes.", 1e3 * r.slip,
                            std::isnan(r.truncation_error) ? "" : fmt::format(" ± {:.2g} mm", 1e3 * r.truncation_error),
@@ -225,13 +226,6 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const C
     return std::sqrt(to_more / gone(slow) * from_fewer / gained(slow));
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
-{
-    double largest = std::abs(a.back() - b.back());
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-    return largest;
-}
-
 ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Contact>& contact,
                               const std::optional<int>& halvings, TruncationEstimate estimate) const
 {
@@ -275,17 +269,17 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
         shake(loop, structure.plane(), *system_, strength, memory, &result.stages.back(), result);
         result.halvings = pass;
     };
-    const auto wanted = [&] {
-        return scene_.time.slip_tolerance * std::max(std::abs(result.slip), options_.smallest_slip);
-    };
+    const auto wanted = [&] { return scene_.time.slip_tolerance * std::max(result.max_slip, options_.smallest_slip); };
     const std::optional<int> fixed = halvings ? halvings : scene_.time.substeps;
     const int first = fixed.value_or(0);
     shake_with(first);
+    std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
     for (int k = first + 1; !fixed && k <= options_.largest_halvings; ++k) {
-        const double coarser = result.slip;
+        const std::vector<double> coarser = result.history.slip;
         const bool was_self_excited = result.status == Status::self_excited;
         shake_with(k);
-        result.step_error = std::abs(result.slip - coarser);
+        slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
+        result.step_error = step_error(slips);
         if (result.step_error <= wanted()) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }

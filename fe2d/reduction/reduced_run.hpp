@@ -57,7 +57,7 @@ struct ReducedResult {
         0.0; ///< estimate of the largest change of the slip, at any time, by the modes left out [m]; 0: none are;
              ///< NaN: left out, or interrupted
     double step_error = std::numeric_limits<
-        double>::quiet_NaN();       ///< estimate of what the time step leaves open [m]; NaN: not estimated
+        double>::quiet_NaN();       ///< estimate of what the time step leaves open, at any time [m]; NaN: not estimated
     int modes = 0;                  ///< elastic modes kept; the three rigid ones always are
     double highest_frequency = 0.0; ///< of them [Hz]
     int halvings = 0;
@@ -124,8 +124,5 @@ private:
     mutable Estimators estimators_; ///< made by the first run that estimates
     double seconds_ = 0.0;
 };
-
-/// Largest difference of two slip histories on the same steps, and of their last values [m].
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 } // namespace damslip::fe2d

@@ -25,13 +25,8 @@ struct EarthquakeRun::Lane {
 
     /// Do the static stages end in equilibrium?
     bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }
-    void note_slips()
-    {
-        slips.resize(1 + result.lifts.size());
-        slips.front().push_back({result.halvings, result.slip});
-        for (std::size_t k = 0; k < result.lifts.size(); ++k)
-            slips[k + 1].push_back({result.halvings, result.lifts[k].slip});
-    }
+    OrderInStep order_in_step() const;      ///< of what its joints do
+    void note_slips(const RunResult& pass); ///< before `pass` becomes `result`
 };
 
 } // namespace damslip::fe2d

@@ -1,4 +1,5 @@
 #include "fe2d/contact/anchor_law.hpp"
+#include "fe2d/contact/bond_law.hpp"
 #include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/joints_of_scene.hpp"
@@ -441,6 +442,41 @@ SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const
     return {{record_end, normal_force, scene_.sliding.steady_rate_change}, [this] { return window(); }};
 }
 
+namespace {
+
+/// First row of each event in a history.
+std::vector<std::size_t> event_rows(const RunResult& run)
+{
+    std::vector<std::size_t> rows{0};
+    for (std::size_t k = 1; k < run.events.size(); ++k) {
+        const std::vector<double>& time = run.history.time;
+        const auto at = std::lower_bound(time.begin(), time.end(), run.events[k].start);
+        rows.push_back(std::min(static_cast<std::size_t>(at - time.begin()), time.size() - 1));
+    }
+    return rows;
+}
+
+} // namespace
+
+void EarthquakeRun::Lane::note_slips(const RunResult& pass)
+{
+    const bool first = slips.empty();
+    slips.resize(1 + pass.lifts.size());
+    const std::vector<std::size_t> rows_before = event_rows(result), rows = event_rows(pass);
+    const auto change = [&](const std::vector<double>& before, const std::vector<double>& now) {
+        return first ? 0.0 : largest_difference(before, rows_before, now, rows);
+    };
+    slips.front().push_back({pass.halvings, pass.slip, change(result.history.slip, pass.history.slip)});
+    for (std::size_t k = 0; k < pass.lifts.size(); ++k)
+        slips[k + 1].push_back({pass.halvings, pass.lifts[k].slip,
+                                first ? 0.0 : change(result.history.lifts[k].slip, pass.history.lifts[k].slip)});
+}
+
+OrderInStep EarthquakeRun::Lane::order_in_step() const
+{
+    return memory.laws.find<BondLaw>() || memory.laws.find<CrackWater>() ? sudden_order : contact_order;
+}
+
 /// A pass with smaller steps; lanes whose error is still too large get the next one.
 void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
 {
@@ -455,16 +491,18 @@ void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
             continue;
         }
         const bool was_self_excited = lane.result.status == Status::self_excited;
+        lane.note_slips(finer[i]);
         lane.result = std::move(finer[i]);
-        lane.note_slips();
-        lane.result.slip_error = step_error(lane.slips.front());
+        const OrderInStep orders = lane.order_in_step();
+        lane.result.slip_error = step_error(lane.slips.front(), orders);
         for (std::size_t k = 0; k < lane.result.lifts.size(); ++k)
-            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1]);
+            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1], orders);
         double excess = 0.0; // error over what is wanted, the largest of all planes
-        for (const std::vector<SlipAtStep>& plane : lane.slips)
-            excess =
-                std::max(excess, step_error(plane) / (scene_.time.slip_tolerance *
-                                                      std::max(std::abs(plane.back().slip), options_.smallest_slip)));
+        for (std::size_t k = 0; k < lane.slips.size(); ++k) {
+            const double slip = k == 0 ? lane.result.max_slip : lane.result.lifts[k - 1].largest_slip;
+            excess = std::max(excess, step_error(lane.slips[k], orders) /
+                                          (scene_.time.slip_tolerance * std::max(slip, options_.smallest_slip)));
+        }
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
         if (was_self_excited && lane.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine
@@ -512,9 +550,9 @@ std::vector<RunResult> EarthquakeRun::run_all(std::span<const Shaking> shakings,
     }
     std::vector<RunResult> coarse = shake(first, going);
     for (std::size_t i = 0; i < going.size(); ++i) {
+        going[i]->note_slips(coarse[i]);
         going[i]->result = std::move(coarse[i]);
         going[i]->result.slip_error = std::numeric_limits<double>::quiet_NaN();
-        going[i]->note_slips();
         going[i]->next = first + 1;
     }
     for (int k = first + 1; chosen && k <= options_.largest_halvings; ++k) {

@@ -307,20 +307,19 @@ std::string EarthquakeRun::runs_away(const RunResult& result) const
 /// What of the slip the step leaves open, of the plane where that is most against what time.slip_tolerance allows.
 std::string EarthquakeRun::missed_tolerance(const RunResult& result) const
 {
-    const auto excess = [&](double slip, double error) {
-        return error / std::max(std::abs(slip), options_.smallest_slip);
-    };
+    const auto excess = [&](double slip, double error) { return error / std::max(slip, options_.smallest_slip); };
     std::string where;
-    double slip = result.slip, error = result.slip_error;
+    double slip = result.max_slip, error = result.slip_error;
     for (const LiftResult& lift : result.lifts)
-        if (excess(lift.slip, lift.slip_error) > excess(slip, error)) {
+        if (excess(lift.largest_slip, lift.slip_error) > excess(slip, error)) {
             where = lift.plane + ": ";
-            slip = lift.slip;
+            slip = lift.largest_slip;
             error = lift.slip_error;
         }
-    return fmt::format("{}slip {:.4g} mm ± {:.3g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} "
-                       "allows. Give a smaller time.dt_s, or a larger slip_tolerance.",
-                       where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance);
+    return fmt::format(
+        "{}largest slip {:.4g} mm ± {:.3g} mm with steps of {:.4g} s: more than time.slip_tolerance = {:.3g} "
+        "allows. Give a smaller time.dt_s, or a larger slip_tolerance.",
+        where, 1e3 * slip, 1e3 * error, result.dt, scene_.time.slip_tolerance);
 }
 
 namespace {

@@ -7,8 +7,6 @@ namespace damslip::fe2d {
 
 namespace {
 
-constexpr double believable_order = 2.5; ///< differences that fall faster than that do so by accident
-
 /// (s_i - s_j) / (s_j - s_k) of an error of order p.
 double ratio_of_differences(double p, int first, int second)
 {
@@ -17,13 +15,13 @@ double ratio_of_differences(double p, int first, int second)
 
 } // namespace
 
-double observed_order(std::span<const SlipAtStep> slips)
+double observed_order(std::span<const SlipAtStep> slips, OrderInStep orders)
 {
     if (slips.size() < 3) return 1.0;
     const auto last = slips.last(3);
     const int first = last[1].halvings - last[0].halvings, second = last[2].halvings - last[1].halvings;
-    const double before = std::abs(last[1].slip - last[0].slip), now = std::abs(last[2].slip - last[1].slip);
-    double low = 1.0, high = largest_order;
+    const double before = last[1].change, now = last[2].change;
+    double low = 1.0, high = orders.largest;
     for (int k = 0; k < 40; ++k) {
         const double p = 0.5 * (low + high);
         (before > now * ratio_of_differences(p, first, second) ? low : high) = p;
@@ -31,24 +29,42 @@ double observed_order(std::span<const SlipAtStep> slips)
     return low;
 }
 
-double step_error(std::span<const SlipAtStep> slips)
+double step_error(std::span<const SlipAtStep> slips, OrderInStep orders)
 {
     const auto last = slips.last(2);
     const int halvings = last[1].halvings - last[0].halvings;
-    double difference = std::abs(last[1].slip - last[0].slip);
+    double difference = last[1].change;
     if (slips.size() >= 3) { // a sudden agreement is an accident
-        const SlipAtStep& first = slips[slips.size() - 3];
-        const double before = std::abs(last[0].slip - first.slip);
-        difference = std::max(
-            difference, before / ratio_of_differences(believable_order, last[0].halvings - first.halvings, halvings));
+        const int before = last[0].halvings - slips[slips.size() - 3].halvings;
+        difference = std::max(difference, last[0].change / ratio_of_differences(orders.believable, before, halvings));
     }
-    return difference / (std::exp2(observed_order(slips) * halvings) - 1.0);
+    return difference / (std::exp2(observed_order(slips, orders) * halvings) - 1.0);
 }
 
 int next_halvings(std::span<const SlipAtStep> slips, double excess)
 {
     const double by_second_order = excess / 3.0; // from two slips it rests on first order
     return slips.back().halvings + (slips.size() == 2 && by_second_order > 4.0 ? 2 : 1);
+}
+
+double largest_difference(std::span<const double> a, std::span<const double> b)
+{
+    double largest = std::abs(a.back() - b.back());
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+}
+
+double largest_difference(std::span<const double> a, std::span<const std::size_t> a_starts, std::span<const double> b,
+                          std::span<const std::size_t> b_starts)
+{
+    const auto event = [](std::span<const double> all, std::span<const std::size_t> starts, std::size_t i) {
+        const std::size_t end = i + 1 < starts.size() ? starts[i + 1] : all.size();
+        return all.subspan(starts[i], end - starts[i]);
+    };
+    double largest = std::abs(a.back() - b.back());
+    for (std::size_t i = 0; i < std::min(a_starts.size(), b_starts.size()); ++i)
+        largest = std::max(largest, largest_difference(event(a, a_starts, i), event(b, b_starts, i)));
+    return largest;
 }
 
 } // namespace damslip::fe2d

@@ -144,9 +144,10 @@ std::vector<KeyGroup> fe_groups()
                   choice(&TimeOptions::stepping,
                          std::vector<std::pair<std::string, Stepping>>{{"uniform", Stepping::uniform},
                                                                        {"adaptive", Stepping::adaptive}}))),
-         without_substeps(number("slip_tolerance", none, Range::half_open(0, 1), "0.01",
-                                 "error of the FE slip over its size, to which the sub-steps are chosen", "0.01",
-                                 at(&TimeOptions::slip_tolerance)))}));
+         without_substeps(
+             number("slip_tolerance", none, Range::half_open(0, 1), "0.01",
+                    "error of the FE slip over its largest size on the way, to which the sub-steps are chosen", "0.01",
+                    at(&TimeOptions::slip_tolerance)))}));
     groups.push_back(
         group("analysis", "Settings of a published study as defaults; keys of the file win.", &Scene::analysis,
               {word("preset", "none",

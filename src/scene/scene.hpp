@@ -352,7 +352,7 @@ struct TimeOptions {
     std::optional<double> dt;        ///< [s]; default: the record's
     Stepping stepping = Stepping::uniform;
     std::optional<int> substeps;  ///< k of FE steps dt / 2^k, 0 ... 10; none: chosen by slip_tolerance
-    double slip_tolerance = 0.01; ///< error of the slip over its size wanted of the time step [-]
+    double slip_tolerance = 0.01; ///< error of the slip over the largest slip on the way, wanted of the time step [-]
 };
 
 enum class AnalysisPreset { none, goldgruber_2015 };

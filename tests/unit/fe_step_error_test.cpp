@@ -13,13 +13,16 @@ using namespace damslip::fe2d;
 std::vector<SlipAtStep> of_order(double p, std::initializer_list<int> halvings)
 {
     std::vector<SlipAtStep> slips;
-    for (const int k : halvings) slips.push_back({k, 1.0 + 0.3 * std::exp2(-p * k)});
+    for (const int k : halvings) {
+        const double slip = 1.0 + 0.3 * std::exp2(-p * k);
+        slips.push_back({k, slip, slips.empty() ? 0.0 : std::abs(slip - slips.back().slip)});
+    }
     return slips;
 }
 
 TEST(FeStepError, FindsOrderAndErrorOfAPowerOfTheStep)
 {
-    for (const double p : {1.0, 1.3, 1.75})
+    for (const double p : {1.0, 1.3, contact_order.largest})
         for (const auto& halvings : {std::initializer_list<int>{0, 1, 2}, {0, 1, 3}, {1, 3, 4}}) {
             const std::vector<SlipAtStep> slips = of_order(p, halvings);
             EXPECT_NEAR(observed_order(slips), p, 1e-9);
@@ -29,26 +32,57 @@ TEST(FeStepError, FindsOrderAndErrorOfAPowerOfTheStep)
 
 TEST(FeStepError, DoesNotRelyOnMoreThanTheUsualOrderNorOnLessThanOne)
 {
-    EXPECT_NEAR(observed_order(of_order(3.0, {0, 1, 2})), largest_order, 1e-9);
+    EXPECT_NEAR(observed_order(of_order(3.0, {0, 1, 2})), contact_order.largest, 1e-9);
     EXPECT_NEAR(observed_order(of_order(0.5, {0, 1, 2})), 1.0, 1e-9);
-    const std::vector<SlipAtStep> two = of_order(1.75, {0, 1}); // first order: then the finer errs by the difference
+    const std::vector<SlipAtStep> two =
+        of_order(contact_order.largest, {0, 1}); // first order: then the finer errs by the difference
     EXPECT_DOUBLE_EQ(step_error(two), std::abs(two[0].slip - two[1].slip));
-    const std::vector<SlipAtStep> still{{0, 0.7}, {1, 0.7}, {2, 0.7}};
+    const std::vector<SlipAtStep> still{{0, 0.7, 0.0}, {1, 0.7, 0.0}, {2, 0.7, 0.0}};
     EXPECT_EQ(step_error(still), 0.0);
 }
 
 // Two slips that agree after one far off: of the difference before, an order of 2.5 leaves a 2^2.5th.
 TEST(FeStepError, DoesNotBelieveASuddenAgreement)
 {
-    const std::vector<SlipAtStep> sudden{{0, 0.5}, {1, 0.7}, {2, 0.7}};
-    EXPECT_NEAR(step_error(sudden), 0.2 * std::exp2(-2.5) / (std::exp2(largest_order) - 1.0), 1e-12);
+    const std::vector<SlipAtStep> sudden{{0, 0.5, 0.0}, {1, 0.7, 0.2}, {2, 0.7, 0.0}};
+    EXPECT_NEAR(step_error(sudden), 0.2 * std::exp2(-2.5) / (std::exp2(contact_order.largest) - 1.0), 1e-12);
     const std::vector<SlipAtStep> cubic = of_order(3.0, {0, 1, 2});
     EXPECT_GT(step_error(cubic), cubic.back().slip - 1.0);
 }
 
+// Where a bond breaks the changes scatter: a third that is a tenth of the second counts as half of it.
+TEST(FeStepError, OfSuddenJointsFallsWithFirstOrderAtMost)
+{
+    const std::vector<SlipAtStep> smooth = of_order(1.5, {0, 1, 2});
+    EXPECT_EQ(observed_order(smooth, sudden_order), 1.0);
+    const std::vector<SlipAtStep> scatter{{0, 0.5, 0.0}, {1, 0.7, 0.2}, {2, 0.68, 0.02}};
+    EXPECT_DOUBLE_EQ(step_error(scatter, sudden_order), 0.1);
+    EXPECT_LT(step_error(scatter), 0.03);
+}
+
+// Two slides whose errors cancel at the end: the histories are 0.1 apart in between.
+TEST(FeStepError, IsOfTheWholeHistory)
+{
+    const std::vector<double> coarse{0.0, 0.4, 1.0}, fine{0.0, 0.5, 1.0}, longer{0.0, 0.5, 1.0, 1.3};
+    EXPECT_DOUBLE_EQ(largest_difference(coarse, fine), 0.1);
+    EXPECT_DOUBLE_EQ(largest_difference(coarse, longer), 0.3); // of what they come to
+    const std::vector<SlipAtStep> slips{{0, 1.0, 0.0}, {1, 1.0, largest_difference(coarse, fine)}};
+    EXPECT_DOUBLE_EQ(step_error(slips), 0.1);
+}
+
+// The second event begins a row later in the second run; its slips are the same.
+TEST(FeStepError, ComparesEventsFromTheirOwnBegin)
+{
+    const std::vector<double> a{0.0, 0.5, 0.5, 0.9}, b{0.0, 0.5, 0.5, 0.5, 0.9};
+    const std::vector<std::size_t> a_starts{0, 2}, b_starts{0, 3};
+    EXPECT_DOUBLE_EQ(largest_difference(a, a_starts, b, b_starts), 0.0);
+    EXPECT_DOUBLE_EQ(largest_difference(a, b), 0.4);
+}
+
 TEST(FeStepError, FarFromTheGoalItSkipsOnePass)
 {
-    const std::vector<SlipAtStep> two = of_order(1.75, {0, 1}), three = of_order(1.75, {0, 1, 2});
+    const std::vector<SlipAtStep> two = of_order(contact_order.largest, {0, 1}),
+                                  three = of_order(contact_order.largest, {0, 1, 2});
     EXPECT_EQ(next_halvings(two, 1.5), 2);
     EXPECT_EQ(next_halvings(two, 13.0), 3);
     EXPECT_EQ(next_halvings(three, 2.0), 3);
