@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -136,7 +137,7 @@ private:
 
     void add_row(const FinishedRow& row, std::string& out)
     {
-        fmt::format_to(std::back_inserter(out), "[{},{},[", row.id, row.good);
+        fmt::format_to(std::back_inserter(out), FMT_COMPILE("[{},{},["), row.id, row.good);
         for (std::size_t i = 0; i < row_numbers.size(); ++i) {
             if (i == status_place) add_status(row.results.status, out);
             if (const std::optional<double>& number = row.results.*row_numbers[i])
