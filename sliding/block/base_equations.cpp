@@ -22,9 +22,10 @@ void require(bool holds, std::vector<Diagnostic>& found, const char* what, doubl
     found.push_back(diagnostic);
 }
 
-void check_sliding_mass(const RigidBlock& block, SlipDirection direction, std::vector<Diagnostic>& found)
+void check_sliding_mass(const BaseEquations& equations, double friction, SlipDirection direction,
+                        std::vector<Diagnostic>& found)
 {
-    const double mass = sliding_mass(base_equations(block), block.friction, direction);
+    const double mass = sliding_mass(equations, friction, direction);
     require(
         mass > 0.0, found,
         direction == SlipDirection::downstream ? "mass felt by downstream sliding, m + M_w k cos(theta)"
@@ -102,8 +103,9 @@ void check_block(const RigidBlock& b)
     for (const double force : {b.vertical_force, b.horizontal_force, b.uplift})
         require(std::isfinite(force), found, "a static force", force, "a finite force in N/m", "check the loads");
     if (found.empty()) {
-        check_sliding_mass(b, SlipDirection::downstream, found);
-        check_sliding_mass(b, SlipDirection::upstream, found);
+        const BaseEquations equations = base_equations(b);
+        check_sliding_mass(equations, b.friction, SlipDirection::downstream, found);
+        check_sliding_mass(equations, b.friction, SlipDirection::upstream, found);
     }
     if (!found.empty()) throw InputError(std::move(found));
 }

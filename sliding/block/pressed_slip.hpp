@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sliding/block/roots.hpp"
 #include "sliding/block/slip_motion.hpp"
 
 #include <algorithm>
@@ -19,14 +20,18 @@ public:
           down_(turned(block.forms().excess_downstream, polarity)),
           up_(turned(block.forms().excess_upstream, polarity)), mass_down_(block.forms().mass_downstream),
           mass_up_(block.forms().mass_upstream), friction_(block.forms().friction), bond_(block.forms().bond),
-          two_way_(block.options_.two_way), motion_(motion), h_(motion.motion().accel_h.data()),
-          v_(vertical ? motion.motion().accel_v.data() : nullptr), dt_(motion.motion().dt), time_(block.time_),
-          moving_(block.moving_), from_rest_(block.from_rest_), direction_(block.direction_), rate_(block.rate_),
-          path_(block.path_), slid_(block.slid_), changes_(block.changes_)
+          motion_(motion), h_(motion.motion().accel_h.data()), v_(vertical ? motion.motion().accel_v.data() : nullptr),
+          dt_(motion.motion().dt), time_(block.time_), moving_(block.moving_), from_rest_(block.from_rest_),
+          direction_(block.direction_), rate_(block.rate_), path_(block.path_), slid_(block.slid_),
+          changes_(block.changes_)
     {
         plainly_below_ = -1e-13 * (largest(block.forms().equations.drive) +
                                    friction_ * largest(block.forms().equations.normal) + std::abs(bond_));
+        two_way_ = block.options_.two_way && !(upper(up_, motion.whole()) < plainly_below_);
     }
+
+    /// True where it may slide upstream, too. A block that the motion nowhere drives that way does not, whatever it is let.
+    bool two_way() const { return two_way_; }
 
     /// True where N' at rest and N' of the sliding block stay above zero all along the motion.
     bool stays_pressed(const GroundLinear& free_normal, double polarity) const
@@ -74,6 +79,8 @@ public:
     }
 
 private:
+    friend class PressedLanes;
+
     static constexpr int most_events = 1000; ///< of an interval; more is no motion
 
     struct Ground {
@@ -242,7 +249,7 @@ private:
     GroundLinear drive_, normal_, down_, up_;
     double mass_down_, mass_up_, friction_, bond_;
     double plainly_below_; ///< an excess below this is no start, whatever round-off says [N/m]
-    bool two_way_;
+    bool two_way_;         ///< the motion may drive it upstream, and it is let
     const SkippingMotion& motion_;
     const double* h_;
     const double* v_;

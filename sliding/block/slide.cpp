@@ -16,17 +16,6 @@
 namespace damslip::sliding {
 namespace {
 
-/// Zero ground acceleration in steps of dt until the block rests.
-void run_out(SlipMotion& block, double start, double dt, double longest, SlideHistory* history)
-{
-    for (double elapsed = 0.0; elapsed < longest && !block.unresolved(); elapsed += dt) {
-        const double step = std::min(dt, longest - elapsed);
-        block.cross(start + elapsed, step, {}, {});
-        if (history) block.add_sample(start + elapsed + step, 0.0, 0.0, *history);
-        if (block.at_rest()) return;
-    }
-}
-
 /// Zero samples between two events until the block rests, and for the pause from there on. @returns false where it does not
 /// come to rest within `longest` [s]
 template <typename Cross>
@@ -207,7 +196,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (!rests_then || !static_rests.take(block, result)) break;
     }
     const double end = now();
-    if (stands && !defect(Defect::run_out_off)) run_out(block, end, motion.dt, options.sliding.run_out_max, history);
+    run_out(block, stages, end, motion.dt, options.sliding.run_out_max, history);
     conclude(block, stages, options, end, result);
     if (static_rests.state() != StaticState::at_rest && !block.unresolved())
         result.status = status_of(static_rests.state());
@@ -238,6 +227,18 @@ void check_anchors(const SlideOptions& options)
 }
 
 } // namespace
+
+void run_out(SlipMotion& block, const SlipStages& stages, double start, double dt, double longest,
+             SlideHistory* history)
+{
+    if (static_state(stages.front().block) != StaticState::at_rest || defect(Defect::run_out_off)) return;
+    for (double elapsed = 0.0; elapsed < longest && !block.unresolved(); elapsed += dt) {
+        const double step = std::min(dt, longest - elapsed);
+        block.cross(start + elapsed, step, {}, {});
+        if (history) block.add_sample(start + elapsed + step, 0.0, 0.0, *history);
+        if (block.at_rest()) return;
+    }
+}
 
 void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOptions& options, double record_end,
               SlideResult& result)

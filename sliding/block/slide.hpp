@@ -9,6 +9,7 @@
 #include "sliding/block/slip_stage.hpp"
 
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,12 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
 /// The same bits sooner: while the block rests, whole stretches that cannot start it are skipped (unless a history is
 /// asked for).
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options = {});
+
+/// The same bits for several blocks, without histories. Four neighbours go through a horizontal motion together where they
+/// slide downstream only, at one friction each, and are never lifted: worth it for blocks that move at the same times.
+/// @param blocks  none null
+std::vector<SlideResult> slide_together(const SkippingMotion& motion, std::span<const SlipStages* const> blocks,
+                                        const SlideOptions& options);
 
 /// One block that does not change with slip.
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options = {});

@@ -7,6 +7,7 @@
 #include "sliding/block/slide.hpp"
 #include "sliding/block/slip_totals.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,10 @@ public:
     std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before,
                      const SkippingMotion* blocks = nullptr);
 
+    /// Through a whole horizontal motion with blocks that rest at its begin, side by side: what pass() would do with each of
+    /// them, bit by bit. @returns false where their case is another one; nothing is done then
+    static bool pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks);
+
     /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.
     void stand_on(const SlipStages& stages);
 
@@ -45,6 +50,9 @@ public:
     long changes() const { return changes_; }
     void add_sample(double time, double a_h, double a_v, SlideHistory& history) const;
     void write(SlideResult& result) const;
+
+    /// True when stages, options and state let pass_together() take it, as far as it alone is concerned.
+    bool may_go_together() const;
 
     /// True when a block at rest on its base surely stays there while a_h and a_v stay within the given ranges.
     bool stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
@@ -157,5 +165,10 @@ private:
 /// What became of the block: results, status and the notes for people. `record_end` [s]: of the ground motion.
 void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOptions& options, double record_end,
               SlideResult& result);
+
+/// Zero ground acceleration from `start` on, in steps of dt, until the block rests; at most `longest` [s]. None of a block that
+/// slides without an earthquake. @param history  where the samples go; null: nowhere
+void run_out(SlipMotion& block, const SlipStages& stages, double start, double dt, double longest,
+             SlideHistory* history);
 
 } // namespace damslip::sliding

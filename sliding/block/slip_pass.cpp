@@ -1,3 +1,4 @@
+#include "sliding/block/pressed_lanes.hpp"
 #include "sliding/block/pressed_slip.hpp"
 #include "sliding/block/roots.hpp"
 #include "sliding/block/slip_motion.hpp"
@@ -70,6 +71,27 @@ std::size_t SlipMotion::pass_pressed(const SkippingMotion& motion, double polari
     const std::size_t next = slip.run(k, last, before);
     slip.write(*this);
     return next;
+}
+
+bool SlipMotion::may_go_together() const
+{
+    return touching_ && !moving_ && !airborne_ && plain_[stage_] && next_stage_path() == never;
+}
+
+bool SlipMotion::pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks)
+{
+    const auto of = [&](std::size_t i) { return PressedSlip<false>(*blocks[i], motion, polarity); };
+    FourPressed slips{of(0), of(1), of(2), of(3)};
+    for (std::size_t i = 0; i < slips.size(); ++i)
+        if (!blocks[i]->may_go_together() || slips[i].two_way() ||
+            !slips[i].stays_pressed(blocks[i]->forms().free_normal, polarity))
+            return false;
+    if (!run_in_lanes(motion, slips)) return false;
+    const AccelRange& r = motion.whole();
+    const double low = polarity > 0.0 ? r.h_min : -r.h_max, high = polarity > 0.0 ? r.h_max : -r.h_min;
+    for (std::size_t i = 0; i < slips.size(); ++i)
+        if (!blocks[i]->stays_at_rest(low, high, 0.0, 0.0)) slips[i].write(*blocks[i]); // else it has no time, either
+    return true;
 }
 
 /// What is linear between two samples and below zero at both is so all along.

@@ -2,12 +2,9 @@
 
 #include "core/vector_level.hpp"
 #include "sliding/block/coasting.hpp"
+#include "sliding/block/four.hpp"
 
 #include <algorithm>
-
-#if DAMSLIP_HAS_AVX2
-#include <immintrin.h>
-#endif
 
 namespace damslip::sliding {
 
@@ -24,41 +21,6 @@ using FourYields = std::array<FixedYield, yield_lanes>;
 using FourSlips = std::array<SlipSummary, yield_lanes>;
 
 #if DAMSLIP_HAS_AVX2
-
-#define DAMSLIP_LANES_INLINE DAMSLIP_AVX2 inline __attribute__((always_inline))
-
-/// One number of each lane; a mask has all bits of a lane set or none.
-using Four = __m256d;
-
-DAMSLIP_LANES_INLINE Four all(double x)
-{
-    return _mm256_set1_pd(x);
-}
-DAMSLIP_LANES_INLINE Four chosen(Four mask, Four yes, Four no)
-{
-    return _mm256_blendv_pd(no, yes, mask);
-}
-DAMSLIP_LANES_INLINE Four above(Four a, Four b)
-{
-    return _mm256_cmp_pd(a, b, _CMP_GT_OQ);
-}
-DAMSLIP_LANES_INLINE Four not_above(Four a, Four b)
-{
-    return _mm256_cmp_pd(a, b, _CMP_LE_OQ);
-}
-DAMSLIP_LANES_INLINE Four both(Four a, Four b)
-{
-    return _mm256_and_pd(a, b);
-}
-/// In the first, not in the second.
-DAMSLIP_LANES_INLINE Four without(Four a, Four b)
-{
-    return _mm256_andnot_pd(b, a);
-}
-DAMSLIP_LANES_INLINE int lanes_of(Four mask)
-{
-    return _mm256_movemask_pd(mask);
-}
 
 /// What the four blocks do now. Of lanes that rest, rate, slip and peak mean nothing: a start sets them.
 struct Movements {
@@ -122,12 +84,12 @@ public:
     }
 
 private:
-    static DAMSLIP_LANES_INLINE Four zero() { return _mm256_setzero_pd(); }
+    static DAMSLIP_FOUR_INLINE Four zero() { return _mm256_setzero_pd(); }
 
-    DAMSLIP_LANES_INLINE Four excess(std::size_t k) const { return all(polarity_ * h_[k]) - constants_; }
+    DAMSLIP_FOUR_INLINE Four excess(std::size_t k) const { return all(polarity_ * h_[k]) - constants_; }
 
     /// An interval in which a lane starts, stops, or its excess changes sign.
-    DAMSLIP_LANES_INLINE void cross(Movements& now, Sums& sums, int& odd, Four rate, Four y0, Four y1) const
+    DAMSLIP_FOUR_INLINE void cross(Movements& now, Sums& sums, int& odd, Four rate, Four y0, Four y1) const
     {
         const Four h = all(dt_), turns = both(now.moving, not_above(y0 * y1, zero()));
         const Four crest = now.rate + all(0.5) * h * y0 * y0 / (y0 - y1);
@@ -150,7 +112,7 @@ private:
     }
 
     /// Ends movements within the interval. @returns when, for the lanes that stop, from the interval's begin
-    DAMSLIP_LANES_INLINE Four stop(const Movements& now, Sums& sums, Four stops, Four y0, Four y1) const
+    DAMSLIP_FOUR_INLINE Four stop(const Movements& now, Sums& sums, Four stops, Four y0, Four y1) const
     {
         const Four h = all(dt_), jerk = (y1 - y0) / h, minus = all(-0.0);
         // time_of_stop(): the rate at the interval's begin is above zero
@@ -170,7 +132,7 @@ private:
     }
 
     /// Starts lanes at the crossing, not before `from`. @returns lanes that do not get off within the interval
-    DAMSLIP_LANES_INLINE int start(Movements& now, Four starts, Four from, Four y0, Four y1) const
+    DAMSLIP_FOUR_INLINE int start(Movements& now, Four starts, Four from, Four y0, Four y1) const
     {
         const Four minus_y0 = _mm256_xor_pd(y0, all(-0.0));
         const Four crossing = all(dt_) * (minus_y0 / (y1 - y0));
@@ -242,8 +204,6 @@ private:
     const FourYields& yields_;
     Four constants_, factors_;
 };
-
-#undef DAMSLIP_LANES_INLINE
 
 DAMSLIP_AVX2 FourSlips slide_four(const SkippingMotion& motion, const FourYields& yields,
                                   const FixedYieldOptions& options)

@@ -299,6 +299,7 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     Grid grid = begin_grid(job.scene, job.axes, job.tasks, inputs.records);
     Table listed{"", sweep_columns(grid), {}, {}};
     SweepViewMaker all(listed.columns, every);
+    if (reported) all.expect(wanted.size() / every);
     UnansweredRows unanswered;
     const std::size_t rows_of_friction = job.tasks.rows() / job.tasks.friction;
     rows.begin(listed.columns);

@@ -134,9 +134,10 @@ void check_contact_row(Checker& check, const json& row, Status status, const Sce
     check.demand(row["unresolved"] == 0, "fe: {} unresolved steps with status {}", row["unresolved"].dump(),
                  word(status));
     if (status == Status::at_rest && !scene.time.substeps && is_number(row, "slip_error_mm")) {
-        const double wanted = scene.time.slip_tolerance * std::max(std::abs(row["slip_mm"].get<double>()), 1e-3);
-        check.demand(row["slip_error_mm"].get<double>() <= wanted * (1 + 1e-9), "fe: at rest with ± {} mm of {} mm",
-                     row["slip_error_mm"].get<double>(), row["slip_mm"].get<double>());
+        const double wanted = scene.time.slip_tolerance * std::max(1e3 * row["max_slip_m"].get<double>(), 1e-3);
+        check.demand(row["slip_error_mm"].get<double>() <= wanted * (1 + 1e-9),
+                     "fe: at rest with ± {} mm of at most {} m", row["slip_error_mm"].get<double>(),
+                     row["max_slip_m"].get<double>());
     }
     check.demand(row["residual"].get<double>() <= 1e-6, "fe: contact residual {} of N'", row["residual"].get<double>());
     check.demand(std::abs(row["slip_mm"].get<double>()) <= 1e3 * row["max_slip_m"].get<double>() * (1 + 1e-9) + 1e-12,

@@ -122,6 +122,63 @@ TEST_F(SweepJournal, ALineWithAnotherChecksumIsLeftAside)
     EXPECT_EQ(journal.damaged(), 1u);
 }
 
+// Every bit of a line counts, the last bytes that fill no word included: rows of ids of one to four digits have lines of
+// different lengths.
+TEST_F(SweepJournal, OneFlippedBitIsFound)
+{
+    SweepIdentity many = identity;
+    many.rows = 10'000;
+    for (const std::size_t id : {7u, 77u, 777u, 7777u}) {
+        {
+            Journal journal(file(), many, {}, JournalStart::fresh);
+            const std::vector<FinishedRow> rows{row(id, 0.1 + 0.2), row(0, 0.5)};
+            journal.append(rows);
+        }
+        const std::string whole = content("r.csv.journal");
+        const std::size_t end = whole.rfind('\n', whole.size() - 2), begin = whole.rfind('\n', end - 1) + 1;
+        for (std::size_t bit = 8 * begin; bit < 8 * end; ++bit) {
+            std::string text = whole;
+            text[bit / 8] = static_cast<char>(text[bit / 8] ^ 1 << bit % 8);
+            write("r.csv.journal", text);
+            const Journal journal(file(), many, {}, JournalStart::resume);
+            ASSERT_EQ(journal.finished(), 1u) << id << ", bit " << bit - 8 * begin;
+            ASSERT_GE(journal.damaged(), 1u);
+        }
+        std::filesystem::remove(file());
+    }
+}
+
+// Of two words that stand in each other's place: their sum is the same, and so is what a checksum without order would say.
+TEST_F(SweepJournal, TwoWordsThatChangedPlacesAreFound)
+{
+    write_rows({row(1, 0.5), row(2, 0.25)});
+    const std::string whole = content("r.csv.journal");
+    const std::size_t end = whole.rfind('\n', whole.size() - 2);
+    const std::size_t text = whole.rfind('\n', end - 1) + 1 + 17; // 16 digits and a blank come first
+    for (std::size_t first = text; first + 16 <= end; first += 8)
+        for (std::size_t second = first + 8; second + 8 <= end; second += 8) {
+            std::string swapped = whole;
+            swapped.replace(first, 8, whole, second, 8).replace(second, 8, whole, first, 8);
+            if (swapped == whole) continue;
+            write("r.csv.journal", swapped);
+            const Journal journal(file(), identity, {}, JournalStart::resume);
+            ASSERT_EQ(journal.finished(), 1u) << first - text << " and " << second - text;
+        }
+}
+
+// Journals before 6 have another checksum: not one of their rows would be taken.
+TEST_F(SweepJournal, RefusesOneOfTheFormatBefore)
+{
+    write_rows({row(1, 0.5)});
+    std::string text = content("r.csv.journal");
+    ASSERT_EQ(text.find("damslip sweep journal 6\n"), 0u);
+    text.replace(text.find('6'), 1, "5");
+    write("r.csv.journal", text);
+    for (const JournalStart start : {JournalStart::fresh, JournalStart::resume})
+        EXPECT_NE(refusal(identity, {}, start).find("this is not a journal of a sweep."), std::string::npos);
+    EXPECT_EQ(content("r.csv.journal"), text);
+}
+
 TEST_F(SweepJournal, RefusesOtherInputsAndSaysWhich)
 {
     write_rows({row(1, 0.5)});

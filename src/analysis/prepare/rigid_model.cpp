@@ -158,6 +158,27 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
     return result;
 }
 
+std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<const RigidModel* const> models,
+                                               const sliding::SkippingMotion& motion, int polarity)
+{
+    std::vector<sliding::SlideResult> results;
+    const RigidModel& first = *models.front();
+    if (first.wedge || !first.anchors.empty() || motion.motion().is_sequence()) {
+        for (const RigidModel* model : models)
+            results.push_back(slide_model(scene, *model, motion, polarity, sliding::HistoryOutput::none));
+        return results;
+    }
+    std::vector<const sliding::SlipStages*> stages;
+    for (const RigidModel* model : models) stages.push_back(&model->stages);
+    results =
+        sliding::slide_together(motion, stages, slide_options(scene, first, polarity, sliding::HistoryOutput::none));
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        check_length(*models[i], results[i]);
+        check_tipping(*models[i], polarity > 0 ? motion.whole().h_max : -motion.whole().h_min, results[i]);
+    }
+    return results;
+}
+
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history)
 {

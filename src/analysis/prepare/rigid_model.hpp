@@ -15,6 +15,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <vector>
 
 namespace damslip {
 
@@ -76,6 +78,11 @@ sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, co
                                  int polarity, sliding::HistoryOutput history = sliding::HistoryOutput::none);
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const GroundMotion& motion, int polarity,
                                  sliding::HistoryOutput history = sliding::HistoryOutput::none);
+
+/// The same of models of one scene that differ in friction, side by side where that is sooner; no histories.
+/// @param models  at least one, none null
+std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<const RigidModel* const> models,
+                                               const sliding::SkippingMotion& motion, int polarity);
 
 /// What the regressions ask for, measured from the scaled horizontal component; magnitude as the scene gives it.
 /// @param period_s  T_s of the sliding mass [s]; 0: rigid, spectral accelerations are then the PGA

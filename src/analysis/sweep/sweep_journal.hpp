@@ -83,8 +83,8 @@ enum class JournalStart {
 
 /// Finished rows of a sweep in a file, so that a stop at any moment loses none of them.
 ///
-/// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (64-bit
-/// FNV-1a) and the row as JSON, numbers with all digits; "done" when the table is written. A
+/// A head with the sweep's identity, written whole; then one line per row, appended as rows finish: a checksum (64
+/// bits) and the row as JSON, numbers with all digits; "done" when the table is written. A
 /// line that was torn by the stop is cut off on resuming; one whose checksum is wrong is left aside, and its row is
 /// computed again. A line "begun" with the ids of rows that start together says on resuming which were stopped on the way.
 class Journal {

@@ -51,13 +51,8 @@ void add_events_and_anchors(const std::vector<EventSlip>& events, const std::vec
         results.anchors.push_back({anchor.name, anchor.history.largest_force, anchor_end(anchor.history)});
 }
 
-RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
-                         const sliding::SkippingMotion& motion, SlipHistory& history)
+RowResults results_of(const sliding::SlideResult& r)
 {
-    const bool keep = grid.tasks.rows() <= most_rows_with_history;
-    const sliding::SlideResult r =
-        slide(scene, grid, at, motion, keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
-    if (keep && reported(r.status, r.slip)) history = slip_history(r.history.time, r.history.slip);
     RowResults results;
     results.slip = reported(r.status, r.slip);
     results.max_slip = reported(r.status, r.max_slip);
@@ -65,6 +60,33 @@ RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& 
     results.status = word(r.status);
     add_events_and_anchors(r.events, r.anchors, results);
     return results;
+}
+
+RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
+                         const sliding::SkippingMotion& motion, SlipHistory& history)
+{
+    const bool keep = grid.tasks.rows() <= most_rows_with_history;
+    const sliding::SlideResult r =
+        slide(scene, grid, at, motion, keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
+    if (keep && reported(r.status, r.slip)) history = slip_history(r.history.time, r.history.slip);
+    return results_of(r);
+}
+
+FinishedRow finished(const Grid& grid, const GridIndex& at, std::size_t id, RowResults results, SlipHistory history)
+{
+    results.critical_friction = grid.model(at).critical_friction;
+    FinishedRow row{id, true, std::move(results), std::move(history)};
+    const std::optional<Status> status = status_of(row);
+    row.good = !status || is_answer(*status); // others are remarks: the method does not apply
+    return row;
+}
+
+/// A plain block under the horizontal motion, without a history: rows of several frictions can go together.
+bool may_go_together(const Grid& grid, const GridIndex& at)
+{
+    const SweepKind kind = grid.axes.method[at.method].kind;
+    return (kind == SweepKind::rigid || (kind == SweepKind::rigid_vertical && grid.motion(at).has_vertical())) &&
+           grid.tasks.rows() > most_rows_with_history;
 }
 
 } // namespace
@@ -91,11 +113,30 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
         results = block_results(scene, grid, at, grid.motion(at), history);
     else
         results.status = "no vertical component";
-    results.critical_friction = grid.model(at).critical_friction;
-    FinishedRow row{id, true, std::move(results), std::move(history)};
-    const std::optional<Status> status = status_of(row);
-    row.good = !status || is_answer(*status); // others are remarks: the method does not apply
-    return row;
+    return finished(grid, at, id, std::move(results), std::move(history));
+}
+
+void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids,
+                    std::vector<FinishedRow>& rows)
+{
+    GridIndex at = grid.tasks.index(ids.front());
+    if (!may_go_together(grid, at)) {
+        for (const std::size_t id : ids) rows.push_back(rigid_row(scene, grid, id));
+        return;
+    }
+    const std::size_t rows_of_friction = grid.tasks.rows() / grid.tasks.friction;
+    std::vector<GridIndex> places;
+    std::vector<const RigidModel*> models;
+    for (const std::size_t id : ids) {
+        at.friction = id / rows_of_friction;
+        places.push_back(at);
+        models.push_back(&grid.model(at));
+    }
+    const bool vertical = grid.axes.method[at.method].kind == SweepKind::rigid_vertical;
+    const std::vector<sliding::SlideResult> slides =
+        slide_models(scene, models, vertical ? grid.motion(at) : grid.horizontal(at), grid.axes.polarity[at.polarity]);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        rows.push_back(finished(grid, places[i], ids[i], results_of(slides[i]), {}));
 }
 
 FinishedRow fe_row(std::size_t id, const FeSlip& slip)

@@ -9,6 +9,10 @@ namespace damslip {
 /// Computes a row of the rigid block or of a regression. @param scene  for its [sliding] options
 FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id);
 
+/// Adds rows that differ in friction alone: the same as one by one, sooner. @param ids  ascending, at least one
+void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids,
+                    std::vector<FinishedRow>& rows);
+
 /// The row of an FE run.
 FinishedRow fe_row(std::size_t id, const FeSlip& slip);
 

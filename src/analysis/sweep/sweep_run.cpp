@@ -5,19 +5,24 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 namespace damslip {
 
 namespace {
 
-constexpr std::size_t block_rows = 256; ///< rigid rows that go into the journal at once
+constexpr std::size_t block_rows = 256;   ///< rigid rows that go into the journal at once
+constexpr std::size_t most_together = 16; ///< rows that differ in friction alone
 
 /// Rows by their place among the wanted ids, written from several threads, each place once.
 class RowStore {
 public:
-    RowStore(const std::vector<std::size_t>& wanted, Journal* journal, Watch& watch)
-        : wanted_(wanted), journal_(journal), watch_(watch), rows_(wanted.size())
+    /// @param memory  rows that nobody needs any more: new ones take their place
+    RowStore(const std::vector<std::size_t>& wanted, Journal* journal, Watch& watch,
+             std::vector<FinishedRow> memory = {})
+        : wanted_(wanted), journal_(journal), watch_(watch), rows_(std::move(memory)), finished_(wanted.size(), 0)
     {
+        rows_.resize(wanted.size());
     }
 
     void finish(std::vector<FinishedRow> rows)
@@ -43,16 +48,20 @@ public:
     {
         std::vector<std::size_t> ids;
         for (std::size_t i = 0; i < wanted_.size(); ++i)
-            if (!rows_[i]) ids.push_back(wanted_[i]);
+            if (!finished_[i]) ids.push_back(wanted_[i]);
         return ids;
     }
+    /// By id; once.
     std::vector<FinishedRow> finished()
     {
-        std::vector<FinishedRow> rows;
-        rows.reserve(rows_.size());
-        for (auto& row : rows_)
-            if (row) rows.push_back(std::move(*row));
-        return rows;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            if (!finished_[i]) continue;
+            if (i != count) rows_[count] = std::move(rows_[i]);
+            ++count;
+        }
+        rows_.resize(count);
+        return std::move(rows_);
     }
 
 private:
@@ -64,14 +73,17 @@ private:
             if (at == wanted_.size() || wanted_[at] != row.id)
                 at = static_cast<std::size_t>(std::lower_bound(wanted_.begin(), wanted_.end(), row.id) -
                                               wanted_.begin());
-            if (at < wanted_.size() && wanted_[at] == row.id) rows_[at++] = std::move(row);
+            if (at == wanted_.size() || wanted_[at] != row.id) continue;
+            finished_[at] = 1;
+            rows_[at++] = std::move(row);
         }
     }
 
     const std::vector<std::size_t>& wanted_;
     Journal* journal_;
     Watch& watch_;
-    std::vector<std::optional<FinishedRow>> rows_;
+    std::vector<FinishedRow> rows_; ///< one for each wanted id; its contents mean nothing before it is finished
+    std::vector<char> finished_;
 };
 
 FeSweepCounts run_fe_rows(const Sweep& inputs, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
@@ -103,17 +115,47 @@ void without_finite_elements(std::vector<std::size_t>& ids, const Grid& grid)
     });
 }
 
+/// Rows in the order variant, motion, method, friction: those that differ in friction alone stand together. (The friction
+/// is the first axis, so the rest of an id tells them.) Where there are none the order stays.
+/// @param ids  ascending
+std::vector<std::size_t> by_motion(const TaskList& tasks, const std::vector<std::size_t>& ids)
+{
+    const std::size_t rows_of_friction = tasks.rows() / tasks.friction;
+    if (ids.empty() || ids.back() - ids.front() < rows_of_friction) return ids;
+    std::vector<std::pair<std::size_t, std::size_t>> places; // in the rows of a friction; id
+    places.reserve(ids.size());
+    for (const std::size_t id : ids) places.emplace_back(id % rows_of_friction, id);
+    std::sort(places.begin(), places.end());
+    std::vector<std::size_t> ordered;
+    ordered.reserve(ids.size());
+    for (const auto& [place, id] : places) ordered.push_back(id);
+    return ordered;
+}
+
+/// The rows of some ids in the order of by_motion().
+std::vector<FinishedRow> rigid_rows_of(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids)
+{
+    const std::size_t rows_of_friction = grid.tasks.rows() / grid.tasks.friction;
+    std::vector<FinishedRow> rows;
+    rows.reserve(ids.size());
+    for (std::size_t first = 0, next = 0; first < ids.size(); first = next) {
+        while (next < ids.size() && next - first < most_together &&
+               ids[next] % rows_of_friction == ids[first] % rows_of_friction)
+            ++next;
+        add_rigid_rows(scene, grid, ids.subspan(first, next - first), rows);
+    }
+    return rows;
+}
+
 /// @param done  rows before these, for the watch
 void run_rigid_rows(const Scene& scene, const Grid& grid, const std::vector<std::size_t>& missing, int jobs,
                     Watch& watch, std::atomic<std::size_t>& done, RowStore& store)
 {
+    const std::vector<std::size_t> ordered = by_motion(grid.tasks, missing);
     parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
         if (watch.stop_asked()) return;
         const std::size_t first = block * block_rows, last = std::min(missing.size(), first + block_rows);
-        std::vector<FinishedRow> rows;
-        rows.reserve(last - first);
-        for (std::size_t i = first; i < last; ++i) rows.push_back(rigid_row(scene, grid, missing[i]));
-        store.finish(std::move(rows));
+        store.finish(rigid_rows_of(scene, grid, std::span(ordered).subspan(first, last - first)));
         watch.at(static_cast<double>(done += last - first));
     });
 }
@@ -159,14 +201,14 @@ SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std
     totals.wanted = wanted.size();
     std::atomic<std::size_t> done{0};
     watch.begin("sweep", static_cast<double>(wanted.size()));
+    SweepOutcome part;
     for (std::size_t first = 0; first < wanted.size() && !watch.stop_asked(); first += rows_at_once) {
         const std::size_t last = std::min(first + rows_at_once, wanted.size()) - 1;
         const std::vector<std::size_t> ids(wanted.begin() + first, wanted.begin() + last + 1);
         hold_models(grid, inputs.scene, inputs.records, grid.tasks.index(ids.front()).friction,
                     grid.tasks.index(ids.back()).friction, jobs);
-        RowStore store(ids, journal, watch);
+        RowStore store(ids, journal, watch, std::move(part.rows));
         store.take_finished();
-        SweepOutcome part;
         const std::vector<std::size_t> missing = store.missing();
         part.wanted = ids.size();
         part.found = ids.size() - missing.size();

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace damslip {
@@ -119,6 +120,11 @@ Shard parse_shard(const std::string& text, const std::string& flag)
 
 std::vector<std::size_t> shard_rows(const TaskList& tasks, const Shard& shard)
 {
+    if (shard.count == 1) {
+        std::vector<std::size_t> all(tasks.rows());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        return all;
+    }
     const std::size_t of_method = tasks.rows() / tasks.method;
     // n may be above the number of rows; 1e6 parts of 2e7 rows stay below 2^64
     const std::size_t first = shard.index * of_method / shard.count, last = (shard.index + 1) * of_method / shard.count;

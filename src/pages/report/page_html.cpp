@@ -185,7 +185,10 @@ std::string head_html(const Page& page)
 
 std::string page_html(const Page& page)
 {
-    std::string out = head_html(page);
+    constexpr std::size_t as_long_as_most = 1 << 20;
+    std::string out;
+    out.reserve(as_long_as_most);
+    out += head_html(page);
     out += "<body>\n<header>\n<div class=\"tools\"><button type=\"button\" id=\"unfold\">Open all</button>\n"
            "<button type=\"button\" id=\"theme\">Dark or light</button></div>\n<h1>" +
            html_text(page.title) + "</h1>\n";
@@ -207,7 +210,8 @@ std::string page_html(const Page& page)
     out += state_map_script();
     out += mesh_view_script();
     out += page_script();
-    return out + "</script>\n</body>\n</html>\n";
+    out += "</script>\n</body>\n</html>\n";
+    return out;
 }
 
 } // namespace damslip::pages

@@ -191,6 +191,11 @@ SweepRow SweepViewMaker::row_of(const std::vector<Cell>& row)
     return r;
 }
 
+void SweepViewMaker::expect(std::size_t rows)
+{
+    view_.rows.reserve(rows);
+}
+
 void SweepViewMaker::add(const std::vector<Cell>& row)
 {
     const SweepRow r = row_of(row);

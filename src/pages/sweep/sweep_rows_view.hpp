@@ -95,6 +95,7 @@ public:
     /// @param every  n where only the rows of every n-th friction are added; the others are left out
     explicit SweepViewMaker(const std::vector<Column>& columns, std::size_t every = 1);
     ~SweepViewMaker();
+    void expect(std::size_t rows); ///< that many will be added: their memory is taken once
     void add(const std::vector<Cell>& row);
     void leave_out(const std::vector<Cell>& row);
     SweepView view(); ///< of all that was added; once
