@@ -1,4 +1,4 @@
-#include "fe2d/reduction/reduced_run.hpp"
+#include "fe2d/reduction/coarse_plane.hpp"
 
 #include <algorithm>
 
@@ -20,6 +20,11 @@ CoarsePlane::CoarsePlane(const Plane& plane, int groups) : coarse_(plane)
     both_.topLeftCorner(count, m) = both_.bottomRightCorner(count, m) = mean_;
 }
 
+std::size_t CoarsePlane::group_of(Index pair) const
+{
+    return static_cast<std::size_t>(pair * mean_.rows() / mean_.cols());
+}
+
 ReducedSystem CoarsePlane::coarsened(const ReducedSystem& system) const
 {
     ReducedSystem result = system;
@@ -31,13 +36,14 @@ ReducedSystem CoarsePlane::coarsened(const ReducedSystem& system) const
     return result;
 }
 
-ContactMemory CoarsePlane::coarsened(const ContactMemory& memory) const
+ContactMemory CoarsePlane::shut(const ContactMemory& memory) const
 {
     const Index m = mean_.cols(), count = mean_.rows();
     ContactMemory result(count);
     for (Index i = 0; i < m; ++i) {
-        result.force[i * count / m] += memory.force[i];
-        result.force[count + i * count / m] += memory.force[m + i];
+        const auto group = static_cast<Index>(group_of(i));
+        result.force[group] += memory.force[i];
+        result.force[count + group] += memory.force[m + i];
     }
     result.slip = mean_ * memory.slip;
     return result;

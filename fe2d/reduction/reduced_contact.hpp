@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/reduction/reduced_operator.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 
@@ -20,10 +21,10 @@ struct ReducedState {
 /// The steps of DynamicContact on a reduced dam: same scheme, same contact solver, same damping.
 class ReducedContact {
 public:
-    /// @param system  kept by reference
+    /// @param model  kept by reference
     /// @param rest  contact in static equilibrium; the motion starts there, at rest
-    ReducedContact(const Plane& plane, const ReducedSystem& system, const Scheme& scheme, const ContactMemory& rest,
-                   const Contact& joint = {}, const ContactOptions& options = {});
+    ReducedContact(const ReducedModel& model, const ContactMemory& rest, const Contact& joint = {},
+                   const ContactOptions& options = {});
 
     /// One step to the given ground acceleration, as DynamicContact::advance.
     ContactReport advance(double dt, const GroundAcceleration& ground, const ContactLaw& law);
@@ -33,26 +34,42 @@ public:
     double mean_slip() const; ///< area mean since the static state [m]
     double crest() const;     ///< horizontal motion of the crest since then, relative to the ground [m]
     double kinetic() const { return 0.5 * state_.q_v.squaredNorm(); } ///< of the modes [J/m]
+    double friction() const { return friction_; } ///< dissipated since the start, by the mean force of each step [J/m]
 
 private:
-    ReducedOperator& operator_of(double dt);
-    double change_by(ReducedOperator& op, const ContactSolution& jumps);
-    void land(ReducedOperator& op, const ContactStates& before, const ContactLaw& law);
+    /// A step size: what all runs share, and the contact solver of this run.
+    struct Step {
+        const ReducedOperator* shared;
+        std::unique_ptr<JointSolver> contact;
+    };
+    Step& step_of(double dt);
+    double change_by(const Step& step);
+    void land(Step& step, const ContactLaw& law);
+    void set_gaps(const Eigen::VectorXd& modes, const Eigen::VectorXd& massless);
     void right_hand_side(const StepConstants& constants, const GroundAcceleration& ground);
 
+    const ReducedModel& model_;
     const Plane& plane_;
     const ReducedSystem& system_;
-    Scheme scheme_;
     Contact joint_;
     ContactOptions options_;
-    std::map<double, std::unique_ptr<ReducedOperator>> operators_;
+    std::map<double, Step> steps_; ///< by size
     Eigen::VectorXd rest_force_, rest_slip_;
     double normal_force_ = 0.0; ///< static N', the scale of residuals [N/m]
     ReducedState state_;
     double rate_ = 0.0, accel_ = 0.0; ///< of the area-weighted tangential gap [m/s, m/s²]
-    Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_; ///< work space
-    ContactSolution solution_;
+    double friction_ = 0.0;
     DynamicCounts counts_;
+
+    // Work space.
+    Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, rates_, damped_, tangential_,
+        elastic_;
+    Eigen::VectorXd gaps_, gaps_of_massless_;
+    Eigen::VectorXd no_load_, no_force_;         ///< zeros
+    Eigen::VectorXd force_before_, slip_before_; ///< of the step
+    ContactStates states_before_;
+    ContactSolution solution_, jumps_;
+    ReducedOperator::Work work_;
 };
 
 } // namespace damslip::fe2d

@@ -40,13 +40,12 @@ void ReducedSystem::add_rock(const ReducedRock& rock)
     flexibility += rock.residual;
 }
 
-void ReducedSystem::subtract_radiation(const VectorXd& velocity, VectorXd& force) const
+void ReducedSystem::add_radiation(const VectorXd& velocity, VectorXd& force) const
 {
-    if (radiation.size() > 0) force.tail(radiation.rows()).noalias() -= radiation * velocity.tail(radiation.rows());
+    if (radiation.size() > 0) force.tail(radiation.rows()).noalias() += radiation * velocity.tail(radiation.rows());
 }
 
-ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
-                                 const Contact& joint, const ContactOptions& options)
+ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants)
     : system_(system), constants_(constants)
 {
     const double w = 1.0 + constants.scheme.alpha, a_m = system.damping.constants.mass,
@@ -80,40 +79,59 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     }
     stiffness /= w;
-    contact_ = std::make_unique<JointSolver>(std::move(stiffness), plane.area, joint, options);
+    stiffness_ = std::make_shared<const MatrixXd>(std::move(stiffness));
 }
 
-void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known,
+void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known, Work& work,
                                   VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    const VectorXd free = inverse_ * VectorXd(load - system_.modes.on_plane.transpose() * massless);
+    work.modal.noalias() = system_.modes.on_plane.transpose() * massless;
+    work.modal = load - work.modal;
+    work.moved.noalias() = inverse_ * work.modal;
     stuck = massless;
-    add_product(stiff_modes_, free, stuck);
+    add_product(stiff_modes_, work.moved, stuck);
     if (system_.slips_damped()) {
-        const double mean = system_.mean_motion.dot(inverse_ * load);
+        work.moved.noalias() = inverse_ * load;
+        const double mean = system_.mean_motion.dot(work.moved);
         stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
     }
     stuck = (known - stuck) / w;
 }
 
 void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, const VectorXd& known,
-                             const VectorXd& force, double slip, VectorXd& modal_step, VectorXd& massless_step) const
+                             const VectorXd& force, double slip, Work& work, VectorXd& modal_step,
+                             VectorXd& massless_step) const
 {
-    VectorXd tilde = (1.0 + constants_.scheme.alpha) * force - known;
+    VectorXd& tilde = work.plane;
+    tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (system_.slips_damped()) { // as in DynamicOperator::finish
         const VectorXd& weights = system_.weights;
         const Index m = weights.size();
-        const double mean = system_.mean_motion.dot(inverse_ * load);
+        work.moved.noalias() = inverse_ * load;
+        const double mean = system_.mean_motion.dot(work.moved);
         tilde.tail(m) -= (k_ * (slip - mean - k_ * zeta_ * slip)) * weights;
         const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
         tilde.tail(m) += (k_ * z_tilde) * weights;
     }
-    modal_step = load;
-    modal_step.noalias() += system_.modes.on_plane.transpose() * tilde;
-    if (system_.slips_damped()) modal_step += (k_ * slip) * system_.mean_motion;
-    modal_step = (inverse_ * modal_step).eval();
+    work.modal = load;
+    work.modal.noalias() += system_.modes.on_plane.transpose() * tilde;
+    if (system_.slips_damped()) work.modal += (k_ * slip) * system_.mean_motion;
+    modal_step.noalias() = inverse_ * work.modal;
     massless_step = massless_factor_ * (tilde + massless);
+}
+
+ReducedModel::ReducedModel(Plane plane, ReducedSystem system, const Scheme& scheme)
+    : plane_(std::move(plane)), system_(std::move(system)), scheme_(scheme)
+{
+}
+
+const ReducedOperator& ReducedModel::at(double dt) const
+{
+    const std::scoped_lock lock(mutex_);
+    auto& slot = operators_[dt];
+    if (!slot) slot = std::make_unique<const ReducedOperator>(plane_, system_, step_constants(scheme_, dt));
+    return *slot;
 }
 
 } // namespace damslip::fe2d

@@ -1,9 +1,12 @@
 #pragma once
 
-#include "fe2d/contact/joint_solver.hpp"
 #include "fe2d/reduction/dam_modes.hpp"
 #include "fe2d/run/dynamic_operator.hpp"
 #include "fe2d/time/scheme.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
 
 namespace damslip::fe2d {
 
@@ -24,8 +27,8 @@ struct ReducedSystem {
     ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping,
                   const ReducedRock* radiating = nullptr);
     void add_rock(const ReducedRock& rock);
-    /// force -= damping of the rock's modes by their velocities.
-    void subtract_radiation(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
+    /// force += damping of the rock's modes by `velocity`.
+    void add_radiation(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
     bool slips_damped() const { return slip_damping != 0.0; }
 };
 
@@ -39,22 +42,28 @@ struct ReducedSystem {
 ///     W⁻¹ (Φ q* + F π) = π + W⁻¹Φ (q* - d⁻¹ Φᵀπ)
 ///
 /// needs products with Φ and W⁻¹Φ only: 2m x n, nothing 2m x 2m but the contact problem itself. F_s is never inverted.
+///
+/// Nothing in it changes: runs and threads share it.
 class ReducedOperator {
 public:
-    ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants,
-                    const Contact& joint, const ContactOptions& options);
+    /// What a run lends to the functions below; kept from step to step, it is not allocated again.
+    struct Work {
+        Eigen::VectorXd modal, moved, plane;
+    };
+
+    ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants);
 
     const StepConstants& constants() const { return constants_; }
-    JointSolver& contact() { return *contact_; }
+    const std::shared_ptr<const Eigen::MatrixXd>& stiffness() const { return stiffness_; } ///< V of the contact problem
 
     /// λ⁰ for a gap that stays as it is.
     /// @param load  b [..], modal @param massless  π [N/m] @param known  α λ₀ + λ_rest - (slip damping) [N/m]
     void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
-                     Eigen::VectorXd& stuck) const;
+                     Work& work, Eigen::VectorXd& stuck) const;
 
     /// Δq and Δp for λ₁ = `force`; `slip` = ωᵀΔg_t [m]. Call after stuck_force().
     void finish(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
-                const Eigen::VectorXd& force, double slip, Eigen::VectorXd& modal_step,
+                const Eigen::VectorXd& force, double slip, Work& work, Eigen::VectorXd& modal_step,
                 Eigen::VectorXd& massless_step) const;
 
 private:
@@ -64,7 +73,27 @@ private:
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd z_; ///< Φ d⁻¹ μ
-    std::unique_ptr<JointSolver> contact_;
+    std::shared_ptr<const Eigen::MatrixXd> stiffness_;
+};
+
+/// A plane and the system on it, with the operators of its steps: one by step size, made when first asked for, then shared
+/// by all runs, whatever their friction and motion. Threads may ask at the same time.
+class ReducedModel {
+public:
+    ReducedModel(Plane plane, ReducedSystem system, const Scheme& scheme);
+    ReducedModel(const ReducedModel&) = delete;
+    ReducedModel& operator=(const ReducedModel&) = delete;
+
+    const Plane& plane() const { return plane_; }
+    const ReducedSystem& system() const { return system_; }
+    const ReducedOperator& at(double dt) const; ///< @param dt  > 0 [s]
+
+private:
+    Plane plane_;
+    ReducedSystem system_;
+    Scheme scheme_;
+    mutable std::mutex mutex_;
+    mutable std::map<double, std::unique_ptr<const ReducedOperator>> operators_;
 };
 
 } // namespace damslip::fe2d

@@ -1,32 +1,16 @@
 #pragma once
 
+#include "fe2d/reduction/coarse_plane.hpp"
 #include "fe2d/reduction/reduced_contact.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 
 namespace damslip::fe2d {
-
-/// The contact plane with neighbouring pairs joined to one: gaps are area means of the group's, a force on the group is
-/// spread over its pairs by area (uniform pressure). Too coarse for a slip, good enough for how much a slip changes
-/// with the number of modes, and cheap: contact costs the square of the pairs.
-class CoarsePlane {
-public:
-    /// @param groups  wanted, >= 1; each pair stands alone when there are no more
-    CoarsePlane(const Plane& plane, int groups);
-
-    const Plane& plane() const { return coarse_; }
-    ReducedSystem coarsened(const ReducedSystem& system) const;
-    ContactMemory coarsened(const ContactMemory& memory) const; ///< all pairs shut and sticking, forces summed
-
-private:
-    Eigen::MatrixXd mean_; ///< area means of the groups, groups x m
-    Eigen::MatrixXd both_; ///< of normal and tangential components, 2 groups x 2m
-    Plane coarse_;
-};
 
 /// Values at the record's steps and in the run-out, the start included; slips and crest since the static state.
 struct ReducedHistory {
@@ -95,31 +79,47 @@ public:
                       const std::optional<int>& halvings = {},
                       TruncationEstimate estimate = TruncationEstimate::made) const;
 
-    const ReducedSystem& system() const { return *system_; }
-
 private:
-    struct Motion; ///< what the time loop reads
-    /// Systems on the coarse plane; none where all modes are kept.
+    /// What the time loop reads of a motion.
+    struct Motion {
+        GroundInput ground;
+        double dt = 0.0; ///< of the rows of the history [s]
+        int parts = 1;   ///< steps in each
+        ContactOptions contact;
+        std::optional<int> halvings; ///< of dt, where they are not chosen by the slip
+    };
+    /// Where the dam stands before it moves.
+    struct Start {
+        Contact contact;     ///< strength
+        ContactMemory rest;  ///< of the pairs
+        StageResult balance; ///< the last static stage
+    };
+    /// Systems on a coarse plane; none where all modes are kept.
     struct Estimators {
-        std::unique_ptr<ReducedSystem> kept, fewer, reference;
+        std::unique_ptr<const ReducedModel> kept, fewer, reference;
     };
     ReducedSystem system_of(DamModes modes) const;
+    std::string why_none() const;
     const Estimators& estimators() const;
-    /// From rest to the end of the run-out; history, slip, counts and contact at the end go into `result`.
-    /// @param rest_stage  the run is watched for sliding by itself; null: it is not
-    void shake(const Motion& motion, const Plane& plane, const ReducedSystem& system, Strength& strength,
-               const ContactMemory& rest, const StageResult* rest_stage, ReducedResult& result) const;
+    /// From rest to the end of the run-out; history, slip and counts go into `result`.
+    /// @param balance  the run is watched for sliding by itself; null: it is not
+    /// @returns the state at the end
+    ReducedState shake(const Motion& motion, const ReducedModel& model, Strength& strength, const ContactMemory& rest,
+                       const StageResult* balance, ReducedResult& result) const;
+    /// Passes with halved steps until the slip holds still, or the one pass that is asked for.
+    /// @returns the state at the end of the last one
+    ReducedState refine(Motion& motion, Strength& strength, const Start& start, ReducedResult& result) const;
+    double wanted(double largest_slip) const; ///< error that the scene allows [m]
     /// @returns nothing when one of its runs was interrupted
-    std::optional<double> truncation_error(const Motion& motion, const Contact& contact,
-                                           const ContactMemory& rest) const;
+    std::optional<double> truncation_error(const Motion& motion, const Start& start) const;
 
     const EarthquakeRun& full_;
     Scene scene_;
     RunOptions options_;
     LoadStages stages_;
     int wanted_; ///< elastic modes asked for
-    std::unique_ptr<ReducedSystem> system_;
-    CoarsePlane coarse_;
+    std::unique_ptr<const ReducedModel> model_;
+    CoarsePlane coarse_; ///< of the truncation estimate
     mutable std::once_flag estimators_made_;
     mutable Estimators estimators_; ///< made by the first run that estimates
     double seconds_ = 0.0;

@@ -36,5 +36,10 @@ TEST(StepAllocations, NoneOnRadiatingRock)
     expect_none(CountedRun::radiating);
 }
 
+TEST(StepAllocations, NoneInTheReducedRun)
+{
+    expect_none(CountedRun::reduced);
+}
+
 } // namespace
 } // namespace damslip::test
