@@ -1,6 +1,6 @@
 #include "fe2d/run/interface_factor.hpp"
 
-#include <Eigen/SparseCholesky>
+#include "fe2d/run/node_ldlt.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -43,45 +43,39 @@ InterfaceFactor::InterfaceFactor(const SparseMatrix& matrix, int inner_nodes, in
                 above = rest - below;
     const double shift = matrix.diagonal().tail(above).mean(),
                  shift_below = below > 0 ? matrix.diagonal().segment(inner, below).mean() : 0.0;
-    SparseMatrix shifted = matrix;
-    for (Index k = inner; k < n; ++k) shifted.coeffRef(k, k) += k < inner + below ? shift_below : shift;
-    Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt(shifted);
-    if (ldlt.info() != Eigen::Success) return;
-    const Eigen::VectorXd d = ldlt.vectorD();
+    Eigen::VectorXd added = Eigen::VectorXd::Zero(n);
+    added.segment(inner, below).setConstant(shift_below);
+    added.tail(above).setConstant(shift);
+    const NodeLdlt ldlt = node_ldlt(matrix, added);
+    if (!ldlt.exists) return;
+    const Eigen::VectorXd& d = ldlt.diagonal;
     if (!d.allFinite() || d.cwiseAbs().minCoeff() == 0.0 || !(d.tail(above).minCoeff() > 0.0)) return;
     if (below > 0 && !(d.segment(inner, below).maxCoeff() < 0.0)) return;
     if (negative >= 0 && (d.head(inner).array() < 0.0).count() != negative) return;
     regular_ = true;
-    const auto& lower = ldlt.matrixL().nestedExpression(); // CSC without the unit diagonal, rows ascending
 
-    begin_.assign(1, 0);
+    const int blocks = ldlt.begin[static_cast<std::size_t>(inner_)];
+    begin_.assign(ldlt.begin.begin(), ldlt.begin.begin() + inner_ + 1);
+    row_.assign(ldlt.row.begin(), ldlt.row.begin() + blocks);
+    block_.reserve(static_cast<std::size_t>(blocks));
     pivot_.reserve(static_cast<std::size_t>(inner_));
     for (int j = 0; j < inner_; ++j) {
-        double l = 0.0; // L(2j+1, 2j)
-        SparseMatrix::InnerIterator a(lower, 2 * j), b(lower, 2 * j + 1);
-        while (a && a.row() <= 2 * j) ++a;
-        if (a && a.row() == 2 * j + 1) {
-            l = a.value();
-            ++a;
-        }
-        while (b && b.row() <= 2 * j + 1) ++b;
-        while (a || b) {
-            const Index node = std::min(a ? a.row() : n, b ? b.row() : n) / 2;
-            double v[4] = {0, 0, 0, 0};
-            for (; a && a.row() / 2 == node; ++a) v[a.row() % 2] = a.value();
-            for (; b && b.row() / 2 == node; ++b) v[2 + b.row() % 2] = b.value();
-            row_.push_back(static_cast<int>(node));
+        const double l = ldlt.inside[j];
+        for (int k = begin_[j]; k < begin_[j + 1]; ++k) {
+            const double* const v = ldlt.block[k].v;
             block_.push_back({{v[0] - l * v[2], v[1] - l * v[3], v[2], v[3]}}); // times the inverse of [1 0; l 1]
         }
-        for (std::size_t k = begin_.back(); k + 1 < block_.size(); k += 2) join(block_[k], block_[k + 1]);
-        begin_.push_back(static_cast<int>(row_.size()));
+        for (int k = begin_[j]; k + 1 < begin_[j + 1]; k += 2) join(block_[k], block_[k + 1]);
         const double first = 1.0 / d[2 * j], second = 1.0 / d[2 * j + 1];
         pivot_.push_back({first + l * l * second, -l * second, second});
     }
     Eigen::MatrixXd corner = Eigen::MatrixXd::Identity(rest, rest);
-    for (Index j = 0; j < rest; ++j)
-        for (SparseMatrix::InnerIterator it(lower, static_cast<int>(inner + j)); it; ++it)
-            if (it.row() > inner + j) corner(it.row() - inner, j) = it.value();
+    for (int j = inner_; j < n / 2; ++j) {
+        const Index at = 2 * (j - inner_);
+        corner(at + 1, at) = ldlt.inside[j];
+        for (int k = ldlt.begin[j]; k < ldlt.begin[j + 1]; ++k)
+            corner.block<2, 2>(2 * (ldlt.row[k] - inner_), at) = Eigen::Map<const Eigen::Matrix2d>(ldlt.block[k].v);
+    }
     corner = (corner * d.tail(rest).cwiseAbs().cwiseSqrt().asDiagonal()).eval();
     schur_.setZero(rest, rest);
     schur_.selfadjointView<Eigen::Lower>().rankUpdate(corner.rightCols(above));

@@ -3,15 +3,19 @@
 #include "fe2d/run/block_products.hpp"
 #include "fe2d/run/dense_product.hpp"
 #include "fe2d/run/few_rows.hpp"
+#include "fe2d/run/node_ldlt.hpp"
 #include "fe2d/run/tied_frequencies.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 namespace {
 
@@ -64,6 +68,60 @@ TEST(FeRunParts, factor_with_the_interface_last_solves_the_body)
     y.tail(rest) = u_c;
     factor.backward(y);
     EXPECT_LT((y - x).norm(), 1e-10 * x.norm());
+}
+
+/// Some unknowns stand alone, as where a node is held.
+SparseMatrix with_held(const SparseMatrix& matrix, const std::vector<Index>& held)
+{
+    SparseMatrix result = matrix;
+    const auto is_held = [&](Index k) { return std::find(held.begin(), held.end(), k) != held.end(); };
+    result.prune([&](Index i, Index j, double) { return i == j || (!is_held(i) && !is_held(j)); });
+    return result;
+}
+
+/// Each number of L and D, without any tolerance.
+void expect_bits_of_eigen(const SparseMatrix& matrix, const VectorXd& added, VectorLevel level)
+{
+    const NodeLdlt f = node_ldlt(matrix, added, level);
+    ASSERT_TRUE(f.exists);
+    SparseMatrix shifted = matrix;
+    for (Index k = 0; k < added.size(); ++k) shifted.coeffRef(k, k) += added[k];
+    const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> eigen(shifted);
+    EXPECT_TRUE(f.diagonal == VectorXd(eigen.vectorD()));
+    MatrixXd lower = MatrixXd::Identity(matrix.rows(), matrix.cols());
+    for (int j = 0; j < matrix.cols() / 2; ++j) {
+        lower(2 * j + 1, 2 * j) = f.inside[j];
+        for (int k = f.begin[j]; k < f.begin[j + 1]; ++k)
+            lower.block<2, 2>(2 * f.row[k], 2 * j) = Eigen::Map<const Eigen::Matrix2d>(f.block[k].v);
+    }
+    EXPECT_TRUE(lower == MatrixXd(SparseMatrix(eigen.matrixL())));
+}
+
+TEST(FeRunParts, factor_by_nodes_has_the_bits_of_the_factor_by_unknowns)
+{
+    const Model model = parts_model();
+    const ContactStructure structure(model);
+    const SparseMatrix dam = 4e4 * structure.mass() + structure.stiffness(), held = with_held(dam, {3, 10, 11, 40});
+    SparseMatrix odd = dam; // one entry of a block is missing
+    const Index row = dam.innerIndexPtr()[dam.outerIndexPtr()[8] - 1];
+    ASSERT_GT(row, 7);
+    odd.prune([&](Index i, Index j, double) { return !((i == row && j == 7) || (i == 7 && j == row)); });
+    EXPECT_TRUE(in_node_blocks(dam));
+    EXPECT_TRUE(in_node_blocks(held));
+    EXPECT_FALSE(in_node_blocks(odd));
+    VectorXd added = VectorXd::Zero(dam.rows());
+    added.tail(12).setConstant(0.7 * dam.diagonal().mean());
+    for (const SparseMatrix& matrix : {dam, held, odd})
+        for (const VectorLevel level : {VectorLevel::sse2, vector_level()}) expect_bits_of_eigen(matrix, added, level);
+}
+
+TEST(FeRunParts, factor_by_nodes_refuses_a_zero_pivot)
+{
+    SparseMatrix zero(4, 4);
+    zero = MatrixXd::Ones(4, 4).sparseView();
+    ASSERT_TRUE(in_node_blocks(zero));
+    EXPECT_FALSE(node_ldlt(zero, VectorXd::Zero(4)).exists);
+    EXPECT_TRUE(node_ldlt(zero, VectorXd::Ones(4)).exists);
 }
 
 // The floating dam: its inner part is regular, the Schur complement has exactly the three rigid motions as null space.
