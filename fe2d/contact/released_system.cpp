@@ -24,8 +24,8 @@ constexpr double row_aim = 1e-13;        ///< of the released rows, relative to 
 constexpr double row_tolerance = 1e-10;  ///< the same: refuse above
 
 /// y -= c₀ x₀ + c₁ x₁ + c₂ x₂ + c₃ x₃, each row in this order.
-DAMSLIP_TWO_LEVELS void subtract_four(const std::array<const double*, 4>& c, const double* const x, double* const y,
-                                      const Index from, const Index to)
+[[gnu::always_inline]] inline void subtract_four(const std::array<const double*, 4>& c, const double* const x,
+                                                 double* const y, const Index from, const Index to)
 {
     const double *const c0 = c[0], *const c1 = c[1], *const c2 = c[2], *const c3 = c[3];
     const double x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
@@ -33,7 +33,8 @@ DAMSLIP_TWO_LEVELS void subtract_four(const std::array<const double*, 4>& c, con
         for (Index i = from; i < to; ++i) y[i] = y[i] - x0 * c0[i] - x1 * c1[i] - x2 * c2[i] - x3 * c3[i];
 }
 
-void subtract_one(const double* const c, const double x, double* const y, const Index from, const Index to)
+[[gnu::always_inline]] inline void subtract_one(const double* const c, const double x, double* const y,
+                                                const Index from, const Index to)
 {
     for (Index i = from; i < to; ++i) y[i] -= x * c[i];
 }
@@ -53,19 +54,22 @@ Block leading(Eigen::MatrixXd& matrix, Index size)
 }
 
 /// x = L⁻¹ x with the first `columns` of the unit lower L, taken off all rows below.
-void solve_lower(const Block& a, const Index columns, double* const x)
+DAMSLIP_TWO_LEVELS void solve_lower(const Block& a, const Index columns, double* const x)
 {
     Index k = 0;
     for (; k + 4 <= columns; k += 4) {
         const std::array<const double*, 4> c{a.column(k), a.column(k + 1), a.column(k + 2), a.column(k + 3)};
-        for (Index j = 0; j < 3; ++j) subtract_one(c[static_cast<std::size_t>(j)], x[k + j], x, k + j + 1, k + 4);
-        subtract_four(c, x + k, x, k + 4, a.size);
+        double* const y = x + k;
+        y[1] -= y[0] * c[0][k + 1];
+        y[2] = y[2] - y[0] * c[0][k + 2] - y[1] * c[1][k + 2];
+        y[3] = y[3] - y[0] * c[0][k + 3] - y[1] * c[1][k + 3] - y[2] * c[2][k + 3];
+        subtract_four(c, y, x, k + 4, a.size);
     }
     for (; k < columns; ++k) subtract_one(a.column(k), x[k], x, k + 1, a.size);
 }
 
 /// x = U⁻¹ x
-void solve_upper(const Block& a, double* const x)
+DAMSLIP_TWO_LEVELS void solve_upper(const Block& a, double* const x)
 {
     Index k = a.size;
     for (; k % 4 != 0; --k) {
@@ -75,11 +79,12 @@ void solve_upper(const Block& a, double* const x)
     for (; k > 0; k -= 4) {
         const Index low = k - 4;
         const std::array<const double*, 4> c{a.column(low), a.column(low + 1), a.column(low + 2), a.column(low + 3)};
-        for (Index j = 3; j >= 0; --j) {
-            x[low + j] /= c[static_cast<std::size_t>(j)][low + j];
-            subtract_one(c[static_cast<std::size_t>(j)], x[low + j], x, low, low + j);
-        }
-        subtract_four(c, x + low, x, 0, low);
+        double* const y = x + low;
+        y[3] /= c[3][low + 3];
+        y[2] = (y[2] - y[3] * c[3][low + 2]) / c[2][low + 2];
+        y[1] = (y[1] - y[3] * c[3][low + 1] - y[2] * c[2][low + 1]) / c[1][low + 1];
+        y[0] = (y[0] - y[3] * c[3][low] - y[2] * c[2][low] - y[1] * c[1][low]) / c[0][low];
+        subtract_four(c, y, x, 0, low);
     }
 }
 
@@ -119,7 +124,8 @@ void solve_in_place(const Block& a, const std::vector<Index>& pivots, double* co
 
 /// force -= V x of some columns of V: four at a time, each row by its columns in their order.
 /// @param x  by unknown
-void take_off(const Eigen::MatrixXd& stiffness, const std::vector<Index>& columns, const VectorXd& x, VectorXd& force)
+DAMSLIP_TWO_LEVELS void take_off(const Eigen::MatrixXd& stiffness, const std::vector<Index>& columns, const VectorXd& x,
+                                 VectorXd& force)
 {
     const auto column = [&](std::size_t k) { return stiffness.data() + columns[k] * stiffness.rows(); };
     const auto factor = [&](std::size_t k) { return x[columns[k]]; };
