@@ -2,6 +2,7 @@
 
 #include "fe2d/contact/gauss_seidel.hpp"
 #include "fe2d/contact/lemke.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -212,7 +213,7 @@ bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump
 {
     impulsive_ = law;
     impulsive_.cohesion.setZero(); // a force, no impulse
-    held_impulse_.noalias() = *stiffness_ * held_jump;
+    set_product(*stiffness_, held_jump, held_impulse_);
     if (!system_.set(solution.states, impulsive_) || !system_.solve(impulsive_, held_impulse_, solution)) return false;
     solution.displacement += held_jump;
     return true;

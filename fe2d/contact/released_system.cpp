@@ -223,14 +223,18 @@ bool ReleasedSystem::follow_by_borders()
     const auto size = static_cast<Index>(base_.size());
     const Index most = std::min<Index>(most_borders, 6 + size / 6);
     Index wanted = 0;
+    const auto differs = [&](std::size_t k) {
+        const Row &now = rows_[k], &base = base_rows_[k];
+        return base.released ? !(now == base) || stale_[k] : now.released;
+    };
     for (std::size_t k = 0; k < rows_.size(); ++k)
-        if (wanted_border(k).kind != BorderKind::none && ++wanted > most) return false;
+        if (differs(k) && ++wanted > most) return false;
     for (std::size_t j = borders_.size(); j-- > 0;)
         if (borders_[j] != wanted_border(static_cast<std::size_t>(borders_[j].unknown))) drop(j);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
+        if (!differs(k)) continue;
         const Border border = wanted_border(k);
-        if (border.kind != BorderKind::none && std::find(borders_.begin(), borders_.end(), border) == borders_.end())
-            put(border);
+        if (std::find(borders_.begin(), borders_.end(), border) == borders_.end()) put(border);
     }
     return factorise_corner();
 }

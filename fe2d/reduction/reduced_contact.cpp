@@ -1,7 +1,7 @@
 #include "fe2d/reduction/reduced_contact.hpp"
 
 #include "core/stopwatch.hpp"
-#include "fe2d/run/dense_product.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 
@@ -68,9 +68,7 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
     states_before_ = memory.states;
     right_hand_side(c, ground);
     op.stuck_force(load_, massless_, known_, work_, stuck_);
-    const Eigen::MatrixXd& stiffness = step.contact->stiffness();
-    for (Index i = 0; i < m; ++i)
-        if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
+    subtract_columns(step.contact->stiffness(), memory.opening, stuck_);
 
     const Stopwatch before;
     solution_.states = memory.states;

@@ -1,7 +1,7 @@
 #include "fe2d/reduction/reduced_operator.hpp"
 
-#include "fe2d/run/dense_product.hpp"
 #include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 namespace damslip::fe2d {
 
@@ -46,7 +46,7 @@ void ReducedSystem::add_radiation(const VectorXd& velocity, VectorXd& force) con
 }
 
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants)
-    : system_(system), constants_(constants)
+    : system_(system), constants_(constants), to_modes_(system.modes.on_plane)
 {
     const double w = 1.0 + constants.scheme.alpha, a_m = system.damping.constants.mass,
                  stretch = w * (1.0 + constants.a1 * system.damping.constants.stiffness);
@@ -86,7 +86,8 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless
                                   VectorXd& stuck) const
 {
     const double w = 1.0 + constants_.scheme.alpha;
-    work.modal.noalias() = system_.modes.on_plane.transpose() * massless;
+    work.modal.setZero(load.size());
+    to_modes_.add(massless, work.modal);
     work.modal = load - work.modal;
     work.moved.noalias() = inverse_ * work.modal;
     stuck = massless;
@@ -115,7 +116,7 @@ void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, con
         tilde.tail(m) += (k_ * z_tilde) * weights;
     }
     work.modal = load;
-    work.modal.noalias() += system_.modes.on_plane.transpose() * tilde;
+    to_modes_.add(tilde, work.modal);
     if (system_.slips_damped()) work.modal += (k_ * slip) * system_.mean_motion;
     modal_step.noalias() = inverse_ * work.modal;
     massless_step = massless_factor_ * (tilde + massless);

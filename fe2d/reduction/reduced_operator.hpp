@@ -2,6 +2,7 @@
 
 #include "fe2d/reduction/dam_modes.hpp"
 #include "fe2d/run/dynamic_operator.hpp"
+#include "fe2d/solver/transposed_product.hpp"
 #include "fe2d/time/scheme.hpp"
 
 #include <map>
@@ -69,6 +70,7 @@ public:
 private:
     const ReducedSystem& system_;
     StepConstants constants_;
+    TransposedProduct to_modes_;  ///< Φᵀ
     Eigen::MatrixXd inverse_;     ///< d⁻¹
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;

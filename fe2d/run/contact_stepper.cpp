@@ -3,6 +3,7 @@
 #include "core/defect.hpp"
 #include "core/stopwatch.hpp"
 #include "fe2d/run/step_passes.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <cmath>
 
@@ -67,13 +68,10 @@ ContactReport ContactStepper::solve(const ContactLaw& law, const StepState& stat
 {
     const StepContact& contact = contact_at(rock);
     JointSolver& solver = *problems_[op_].solver;
-    const Index m = structure_.pairs();
     op_->solve_free(free_, rock.free_gap());
     op_->stuck_force(contact, free_, known_, stuck_);
     const ContactMemory& memory = state.contact;
-    const Eigen::MatrixXd& stiffness = solver.stiffness();
-    for (Index i = 0; i < m; ++i) // Δg = x - (opening at the start, 0)
-        if (memory.opening[i] != 0.0) stuck_ -= memory.opening[i] * stiffness.col(i);
+    subtract_columns(solver.stiffness(), memory.opening, stuck_); // Δg = x - (opening at the start, 0)
 
     const Stopwatch before_contact;
     solution_.states = memory.states;

@@ -1,8 +1,8 @@
 #include "fe2d/run/dynamic_operator.hpp"
 
 #include "core/defect.hpp"
-#include "fe2d/run/dense_product.hpp"
 #include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <cassert>
 

@@ -1,6 +1,6 @@
 #include "fe2d/run/step_rock.hpp"
 
-#include "fe2d/run/dense_product.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <cmath>
 

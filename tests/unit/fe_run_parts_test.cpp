@@ -1,10 +1,11 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/run/block_products.hpp"
-#include "fe2d/run/dense_product.hpp"
 #include "fe2d/run/few_rows.hpp"
 #include "fe2d/run/node_ldlt.hpp"
 #include "fe2d/run/tied_frequencies.hpp"
+#include "fe2d/solver/dense_product.hpp"
+#include "fe2d/solver/transposed_product.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
@@ -122,6 +123,39 @@ TEST(FeRunParts, factor_by_nodes_refuses_a_zero_pivot)
     ASSERT_TRUE(in_node_blocks(zero));
     EXPECT_FALSE(node_ldlt(zero, VectorXd::Zero(4)).exists);
     EXPECT_TRUE(node_ldlt(zero, VectorXd::Ones(4)).exists);
+}
+
+// By four numbers at a time as by two, and as Eigen does it of two columns or more.
+TEST(FeRunParts, transposed_products_have_the_bits_of_the_expression)
+{
+    for (const Index columns : {2, 3, 7, 15, 24})
+        for (const Index rows : {2, 46, 120}) {
+            const MatrixXd matrix = uneven(rows * columns).reshaped(rows, columns);
+            const VectorXd x = uneven(rows).reverse(), y = uneven(columns);
+            VectorXd expected = y;
+            expected.noalias() += matrix.transpose() * x;
+            const TransposedProduct product(matrix);
+            for (const VectorLevel level : {VectorLevel::sse2, vector_level()}) {
+                VectorXd result = y;
+                product.add(x, result, level);
+                EXPECT_TRUE(result == expected) << rows << " x " << columns;
+            }
+        }
+}
+
+TEST(FeRunParts, columns_are_taken_off_one_after_the_other)
+{
+    const MatrixXd matrix = uneven(61 * 30).reshaped(61, 30);
+    VectorXd x = uneven(30);
+    for (const Index zero : {0, 4, 5, 6, 11, 17, 29}) x[zero] = 0.0;
+    VectorXd expected = uneven(61);
+    for (Index j = 0; j < 30; ++j)
+        if (x[j] != 0.0) expected -= x[j] * matrix.col(j);
+    for (const VectorLevel level : {VectorLevel::sse2, vector_level()}) {
+        VectorXd result = uneven(61);
+        subtract_columns(matrix, x, result, level);
+        EXPECT_TRUE(result == expected);
+    }
 }
 
 // The floating dam: its inner part is regular, the Schur complement has exactly the three rigid motions as null space.

@@ -15,4 +15,8 @@ void add_product(const Eigen::MatrixXd& matrix, const Eigen::Ref<const Eigen::Ve
 /// y = A x in the same order.
 void set_product(const Eigen::MatrixXd& matrix, const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y);
 
+/// y -= x_j A_j, column by column in their order, of those whose x_j is not zero.
+void subtract_columns(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& x, Eigen::VectorXd& y,
+                      VectorLevel level = vector_level());
+
 } // namespace damslip::fe2d
