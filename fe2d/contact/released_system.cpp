@@ -141,11 +141,11 @@ DAMSLIP_TWO_LEVELS void take_off(const Eigen::MatrixXd& stiffness, const std::ve
 
 ReleasedSystem::ReleasedSystem(const Eigen::MatrixXd& stiffness)
     : stiffness_(stiffness), pairs_(stiffness.rows() / 2), rows_(static_cast<std::size_t>(stiffness.rows())),
-      wanted_(rows_), base_rows_(rows_), stale_(rows_.size(), 0), place_(rows_.size(), -1),
-      factor_(stiffness.rows(), stiffness.rows()), columns_(stiffness.rows(), most_borders),
-      lines_(stiffness.rows(), most_borders), corner_(most_borders, most_borders),
-      corner_factor_(most_borders, most_borders), residual_(stiffness.rows()), step_(stiffness.rows()),
-      base_part_(stiffness.rows()), border_part_(most_borders)
+      states_(static_cast<std::size_t>(pairs_), ContactState::stick), friction_(VectorXd::Zero(pairs_)),
+      base_rows_(rows_), stale_(rows_.size(), 0), place_(rows_.size(), -1), factor_(stiffness.rows(), stiffness.rows()),
+      columns_(stiffness.rows(), most_borders), lines_(stiffness.rows(), most_borders),
+      corner_(most_borders, most_borders), corner_factor_(most_borders, most_borders), residual_(stiffness.rows()),
+      step_(stiffness.rows()), base_part_(stiffness.rows()), border_part_(most_borders)
 {
     assert(stiffness.rows() == stiffness.cols() && stiffness.rows() % 2 == 0);
     unknowns_.reserve(rows_.size());
@@ -155,28 +155,37 @@ ReleasedSystem::ReleasedSystem(const Eigen::MatrixXd& stiffness)
     corner_pivots_.reserve(most_borders);
 }
 
-void ReleasedSystem::wanted_rows(const ContactStates& states, const ContactLaw& law)
+std::pair<ReleasedSystem::Row, ReleasedSystem::Row> ReleasedSystem::rows_of(ContactState state, double friction)
 {
+    switch (state) {
+    case ContactState::stick:
+        break;
+    case ContactState::slip_downstream:
+        return {{}, {true, friction}};
+    case ContactState::slip_upstream:
+        return {{}, {true, -friction}};
+    case ContactState::open:
+        return {{true, 0.0}, {true, 0.0}};
+    case ContactState::pulled:
+        return {{}, {true, defect(Defect::friction_on_pulled_pairs) ? friction : 0.0}};
+    }
+    return {};
+}
+
+bool ReleasedSystem::take_rows(const ContactStates& states, const VectorXd& friction)
+{
+    bool changed = false;
     for (Index i = 0; i < pairs_; ++i) {
         const auto normal = static_cast<std::size_t>(i), shear = static_cast<std::size_t>(pairs_ + i);
-        wanted_[normal] = wanted_[shear] = {};
-        switch (states[normal]) {
-        case ContactState::stick:
-            break;
-        case ContactState::slip_downstream:
-            wanted_[shear] = {true, law.friction[i]};
-            break;
-        case ContactState::slip_upstream:
-            wanted_[shear] = {true, -law.friction[i]};
-            break;
-        case ContactState::open:
-            wanted_[normal] = wanted_[shear] = {true, 0.0};
-            break;
-        case ContactState::pulled:
-            wanted_[shear] = {true, defect(Defect::friction_on_pulled_pairs) ? law.friction[i] : 0.0};
-            break;
-        }
+        if (states[normal] == states_[normal] && friction[i] == friction_[i]) continue;
+        states_[normal] = states[normal];
+        friction_[i] = friction[i];
+        const auto [of_normal, of_shear] = rows_of(states[normal], friction[i]);
+        changed = changed || rows_[normal] != of_normal || rows_[shear] != of_shear;
+        rows_[normal] = of_normal;
+        rows_[shear] = of_shear;
     }
+    return changed;
 }
 
 double ReleasedSystem::right_hand_side(Index unknown, const ContactLaw& law, const ContactStates& states) const
@@ -197,9 +206,8 @@ double ReleasedSystem::entry(Index unknown, const Row& row, Index column) const
 
 bool ReleasedSystem::set(const ContactStates& states, const ContactLaw& law)
 {
-    wanted_rows(states, law);
-    if (settled_ && rows_ == wanted_) return regular_;
-    rows_ = wanted_;
+    const bool changed = take_rows(states, law.friction);
+    if (settled_ && !changed) return regular_;
     settled_ = true;
     unknowns_.clear();
     for (std::size_t k = 0; k < rows_.size(); ++k)
@@ -313,6 +321,7 @@ void ReleasedSystem::diagonal_changed(Index unknown)
 void ReleasedSystem::stiffness_changed()
 {
     rows_.assign(rows_.size(), {});
+    std::fill(states_.begin(), states_.end(), ContactState::stick);
     rebuild_base(); // nothing released: the next set() starts from there
     regular_ = true;
     settled_ = false;

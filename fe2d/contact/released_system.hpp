@@ -2,6 +2,9 @@
 
 #include "fe2d/contact/contact_problem.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace damslip::fe2d {
 
 /// The linear system of one set of contact states: the displacements that the states release, H x_D = r.
@@ -52,7 +55,9 @@ private:
         Row row;
         friend bool operator==(const Border&, const Border&) = default;
     };
-    void wanted_rows(const ContactStates& states, const ContactLaw& law);
+    static std::pair<Row, Row> rows_of(ContactState state, double friction); ///< of a pair: normal, shear
+    /// Rows of the pairs whose state or friction is another one. @returns false where all rows are what they were
+    bool take_rows(const ContactStates& states, const Eigen::VectorXd& friction);
     Border wanted_border(std::size_t unknown) const;
     bool follow_by_borders();
     void put(const Border& border);
@@ -68,7 +73,9 @@ private:
 
     const Eigen::MatrixXd& stiffness_;
     Eigen::Index pairs_;
-    std::vector<Row> rows_, wanted_;     ///< by unknown
+    std::vector<Row> rows_;              ///< by unknown
+    ContactStates states_;               ///< that they are of
+    Eigen::VectorXd friction_;           ///< the same
     std::vector<Eigen::Index> unknowns_; ///< released now
     bool settled_ = true;                ///< the borders belong to rows_ and to V as it is
     bool regular_ = true;

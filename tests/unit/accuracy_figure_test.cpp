@@ -7,8 +7,6 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip;
-using namespace damslip::cli;
 using namespace damslip::pages;
 
 RungResult result(const std::string& id, double slip, double seconds)

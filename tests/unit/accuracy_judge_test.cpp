@@ -12,8 +12,6 @@
 namespace {
 
 using namespace damslip;
-using namespace damslip::cli;
-using namespace damslip::pages;
 
 constexpr double exact = 0.05; // [m]
 
