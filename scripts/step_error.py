@@ -42,9 +42,9 @@ def with_steps(text, halvings):
     return text.replace("[time]\n", "[time]\n" + line, 1) if "\n[time]\n" in text else f"{text}\n[time]\n{line}"
 
 
-def rows(program, scene, method, water, jobs):
-    process = subprocess.run([program, "sweep", str(scene), "-q", "--method", method, "--reservoir", water, "--friction", FRICTIONS,
-                              "--polarity", "1", "-j", jobs], capture_output=True, text=True)
+def rows(program, scene, method, water, jobs, frictions=FRICTIONS, polarity="1"):
+    process = subprocess.run([program, "sweep", str(scene), "-q", "--method", method, "--reservoir", water, "--friction", frictions,
+                              "--polarity", polarity, "-j", jobs], capture_output=True, text=True)
     if process.returncode not in (0, 4):  # 4: rows without an answer
         sys.exit(f"{scene.name}, {method}, {water}: exit code {process.returncode}\n{process.stderr}")
     return list(csv.DictReader(line for line in process.stdout.splitlines() if not line.startswith("#")))
@@ -59,6 +59,8 @@ def main():
     parser.add_argument("program")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help=f"of {', '.join(SCENES)}")
     parser.add_argument("-j", "--jobs", default="1")
+    parser.add_argument("--friction", default=FRICTIONS)
+    parser.add_argument("--polarity", default="1", choices=["1", "-1"])
     arguments = parser.parse_args()
     wrong = [name for name in arguments.scenes if name not in SCENES]
     if wrong:
@@ -75,8 +77,8 @@ def main():
             chosen.write_text(text)
             fine.write_text(with_steps(text, HALVINGS))
             for method, water in MODELS:
-                for a, b in zip(rows(arguments.program, chosen, method, water, arguments.jobs),
-                                rows(arguments.program, fine, method, water, arguments.jobs)):
+                for a, b in zip(rows(arguments.program, chosen, method, water, arguments.jobs, arguments.friction, arguments.polarity),
+                                rows(arguments.program, fine, method, water, arguments.jobs, arguments.friction, arguments.polarity)):
                     slip, stated, finest = number(a["slip_m"]), number(a["slip_error_m"]), number(b["slip_m"])
                     line = [name, method, water, a["friction"], a["status"]]
                     if slip is None or finest is None or stated is None:
