@@ -17,7 +17,7 @@ bool has_pressed_lanes();
 /// PressedSlip::run() over a whole motion of four blocks that slide downstream only and rest at its begin, with the same
 /// bits. What happens within an interval, a start or a stop, is left to the block's own cross().
 /// @param motion  that of the blocks; horizontal
-/// @returns false where one of them is not resolved: none of the four is to be used
+/// @pre has_pressed_lanes() @returns false where one of them is not resolved: none of the four is to be used
 bool run_in_lanes(const SkippingMotion& motion, FourPressed& blocks);
 
 } // namespace damslip::sliding

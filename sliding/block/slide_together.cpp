@@ -9,7 +9,7 @@ namespace {
 
 using FourStages = std::array<const SlipStages*, pressed_lanes>;
 
-/// What all blocks have in common lets them go together.
+/// What all blocks have in common lets them go together. Without lanes none is made ready in vain.
 bool may_go_together(const SkippingMotion& motion, const SlideOptions& options)
 {
     return has_pressed_lanes() && !motion.has_vertical() && !motion.motion().is_sequence() &&

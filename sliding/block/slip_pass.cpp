@@ -80,6 +80,7 @@ bool SlipMotion::may_go_together() const
 
 bool SlipMotion::pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks)
 {
+    if (!has_pressed_lanes()) return false;
     const auto of = [&](std::size_t i) { return PressedSlip<false>(*blocks[i], motion, polarity); };
     FourPressed slips{of(0), of(1), of(2), of(3)};
     for (std::size_t i = 0; i < slips.size(); ++i)
