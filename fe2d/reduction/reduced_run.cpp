@@ -106,7 +106,7 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
         const bool was_self_excited = result.status == Status::self_excited;
         end = shake_with(k);
         slips.push_back({k, result.slip, largest_difference(coarser, result.history.slip)});
-        result.step_error = step_error(slips);
+        result.step_error = step_error(slips, strength.constant() ? contact_order : sudden_order);
         if (result.step_error <= wanted(result.max_slip)) break;
         if (was_self_excited && result.status == Status::self_excited) break; // both agree; there is no slip to refine
     }

@@ -25,7 +25,7 @@ struct EarthquakeRun::Lane {
 
     /// Do the static stages end in equilibrium?
     bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }
-    OrderInStep order_in_step() const;      ///< of what its joints do
+    double order_in_step() const;           ///< that an estimate of the slip's error relies on at most
     void note_slips(const RunResult& pass); ///< before `pass` becomes `result`
 };
 

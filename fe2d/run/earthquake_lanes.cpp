@@ -472,9 +472,10 @@ void EarthquakeRun::Lane::note_slips(const RunResult& pass)
                                 first ? 0.0 : change(result.history.lifts[k].slip, pass.history.lifts[k].slip)});
 }
 
-OrderInStep EarthquakeRun::Lane::order_in_step() const
+double EarthquakeRun::Lane::order_in_step() const
 {
-    return memory.laws.find<BondLaw>() || memory.laws.find<CrackWater>() ? sudden_order : contact_order;
+    const bool sudden = memory.laws.find<BondLaw>() || memory.laws.find<CrackWater>() || !strength.constant();
+    return sudden ? sudden_order : contact_order;
 }
 
 /// A pass with smaller steps; lanes whose error is still too large get the next one.
@@ -493,20 +494,20 @@ void EarthquakeRun::refine(int halvings, std::span<Lane* const> lanes) const
         const bool was_self_excited = lane.result.status == Status::self_excited;
         lane.note_slips(finer[i]);
         lane.result = std::move(finer[i]);
-        const OrderInStep orders = lane.order_in_step();
-        lane.result.slip_error = step_error(lane.slips.front(), orders);
+        const double order = lane.order_in_step();
+        lane.result.slip_error = step_error(lane.slips.front(), order);
         for (std::size_t k = 0; k < lane.result.lifts.size(); ++k)
-            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1], orders);
+            lane.result.lifts[k].slip_error = step_error(lane.slips[k + 1], order);
         double excess = 0.0; // error over what is wanted, the largest of all planes
         for (std::size_t k = 0; k < lane.slips.size(); ++k) {
             const double slip = k == 0 ? lane.result.max_slip : lane.result.lifts[k - 1].largest_slip;
-            excess = std::max(excess, step_error(lane.slips[k], orders) /
+            excess = std::max(excess, step_error(lane.slips[k], order) /
                                           (scene_.time.slip_tolerance * std::max(slip, options_.smallest_slip)));
         }
         if (lane.result.status == Status::left_plane || excess <= 1.0) continue;
         if (was_self_excited && lane.result.status == Status::self_excited)
             continue; // both agree; there is no slip to refine
-        lane.next = next_halvings(lane.slips.front(), excess);
+        lane.next = next_halvings(lane.slips.front(), excess, order);
         if (halvings < options_.largest_halvings) lane.next = std::min(lane.next, options_.largest_halvings);
     }
 }

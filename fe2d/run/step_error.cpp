@@ -1,6 +1,7 @@
 #include "fe2d/run/step_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -15,13 +16,13 @@ double ratio_of_differences(double p, int first, int second)
 
 } // namespace
 
-double observed_order(std::span<const SlipAtStep> slips, OrderInStep orders)
+double observed_order(std::span<const SlipAtStep> slips, double largest)
 {
     if (slips.size() < 3) return 1.0;
     const auto last = slips.last(3);
     const int first = last[1].halvings - last[0].halvings, second = last[2].halvings - last[1].halvings;
     const double before = last[1].change, now = last[2].change;
-    double low = 1.0, high = orders.largest;
+    double low = 1.0, high = largest;
     for (int k = 0; k < 40; ++k) {
         const double p = 0.5 * (low + high);
         (before > now * ratio_of_differences(p, first, second) ? low : high) = p;
@@ -29,22 +30,26 @@ double observed_order(std::span<const SlipAtStep> slips, OrderInStep orders)
     return low;
 }
 
-double step_error(std::span<const SlipAtStep> slips, OrderInStep orders)
+double step_error(std::span<const SlipAtStep> slips, double largest)
 {
     const auto last = slips.last(2);
     const int halvings = last[1].halvings - last[0].halvings;
-    double difference = last[1].change;
-    if (slips.size() >= 3) { // a sudden agreement is an accident
+    double change = last[1].change, safety = safety_factor.of_two;
+    if (slips.size() >= 3) {
         const int before = last[0].halvings - slips[slips.size() - 3].halvings;
-        difference = std::max(difference, last[0].change / ratio_of_differences(orders.believable, before, halvings));
+        change = std::max(change, last[0].change / ratio_of_differences(largest, before, halvings));
+        safety = safety_factor.of_three;
     }
-    return difference / (std::exp2(observed_order(slips, orders) * halvings) - 1.0);
+    return safety * change / (std::exp2(observed_order(slips, largest) * halvings) - 1.0);
 }
 
-int next_halvings(std::span<const SlipAtStep> slips, double excess)
+int next_halvings(std::span<const SlipAtStep> slips, double excess, double largest)
 {
-    const double by_second_order = excess / 3.0; // from two slips it rests on first order
-    return slips.back().halvings + (slips.size() == 2 && by_second_order > 4.0 ? 2 : 1);
+    const int last = slips.back().halvings;
+    if (slips.size() != 2) return last + 1;
+    const SlipAtStep still{last + 1, slips.back().slip, 0.0}; // as small a change as there can be
+    const double best = step_error(std::array{slips[0], slips[1], still}, largest);
+    return last + (excess * best > step_error(slips, largest) ? 2 : 1);
 }
 
 double largest_difference(std::span<const double> a, std::span<const double> b)

@@ -12,31 +12,33 @@ struct SlipAtStep {
     double change = 0.0; ///< from the slip before, at whatever time it is largest; of the first one 0 [m]
 };
 
-/// Orders in the step that an estimate relies on.
-struct OrderInStep {
-    double largest; ///< >= 1: more is not relied on, whatever the slips show
-    double
-        believable; ///< >= largest: a change that is smaller than the one before by more than this order explains is an accident
+/// Order in the step that an estimate relies on at most, whatever the slips show: of hard contact and friction. Slips show 1.75 on
+/// average (docs/verification.md, fe.sliding.order-in-step), single ones less.
+inline constexpr double contact_order = 1.5;
+/// Of what changes at an instant, which falls on a step's end: a bond that breaks, water that enters a joint, strength that follows the
+/// slip from one step to the next.
+inline constexpr double sudden_order = 1.0;
+
+/// Factors of safety of the grid convergence index (Roache 1994, J. Fluids Eng. 116, 405-413): the error that rests on two slips is
+/// three times what their change shows, one that rests on three and the order they show a quarter more.
+struct SafetyFactor {
+    double of_two = 3.0, of_three = 1.25;
 };
+inline constexpr SafetyFactor safety_factor;
 
-/// Of hard contact and friction. Slips show 1.75 on average (docs/verification.md, fe.sliding.order-in-step); held to that, 3 of 26 slips
-/// of the examples erred by more than was said, by a quarter at most, with 1.5 none (scripts/step_error.py).
-inline constexpr OrderInStep contact_order{1.5, 2.5};
-/// Of joints that change at an instant, where a bond breaks or water enters: it falls on a step's end, so changes scatter with first order.
-inline constexpr OrderInStep sudden_order{1.0, 1.0};
-
-/// Order p of the error, as c (dt / 2^k)^p, that the changes between the last three slips show, 1 <= p <= orders.largest: contact with
+/// Order p of the error, as c (dt / 2^k)^p, that the changes between the last three slips show, 1 <= p <= largest: contact with
 /// moving edges converges with first order at worst. 1 for fewer slips.
-double observed_order(std::span<const SlipAtStep> slips, OrderInStep orders = contact_order);
+/// @param largest  >= 1
+double observed_order(std::span<const SlipAtStep> slips, double largest = contact_order);
 
-/// Error of the last of at least two slips, change / (2^(p (k - j)) - 1) with the observed order [m]. The change is that of the whole
-/// history: at its end alone errors of several slides may cancel. One that is smaller than the one before by more than the
-/// believable order explains counts as large as with that order.
-double step_error(std::span<const SlipAtStep> slips, OrderInStep orders = contact_order);
+/// Error of the last of at least two slips, F change / (2^(p (k - j)) - 1) with the observed order p and the factor of safety F [m].
+/// The change is that of the whole history: at its end alone errors of several slides may cancel. One that is smaller than the one
+/// before by more than the largest order explains is an accident, and counts as large as with that order.
+double step_error(std::span<const SlipAtStep> slips, double largest = contact_order);
 
-/// Halvings to try next: one more, or two more after the first two slips when the error is far from what is wanted even
-/// if it falls with second order. @param excess  error over what is wanted, > 1 [-]
-int next_halvings(std::span<const SlipAtStep> slips, double excess);
+/// Halvings to try next: one more, or two more after the first two slips when one more cannot bring the error down to what is wanted.
+/// @param excess  error over what is wanted, > 1 [-]
+int next_halvings(std::span<const SlipAtStep> slips, double excess, double largest = contact_order);
 
 /// Largest difference of two slip histories on the same steps, as far as both go, and of their last values [m].
 /// @pre neither is empty

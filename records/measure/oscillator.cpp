@@ -1,6 +1,7 @@
 #include "records/measure/oscillator.hpp"
 
 #include <cassert>
+#include <initializer_list>
 
 namespace damslip::records {
 

@@ -365,7 +365,11 @@ std::string walking_scene(const std::string& name)
     Scene scene = walking_dam();
     scene.motion.polarity = 1;
     scene.criteria.allowable_slip = 1.0;
-    scene.motion.records = {RecordFiles{.name = "sines", .horizontal = folder / "h.csv", .vertical = folder / "v.csv"}};
+    scene.motion.records = {RecordFiles{}};
+    RecordFiles& files = scene.motion.records.front();
+    files.name = "sines";
+    files.horizontal = folder / "h.csv";
+    files.vertical = folder / "v.csv";
     const std::filesystem::path file = folder / "dam.toml";
     std::ofstream(file) << resolved_toml(scene);
     return file.string();
