@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace damslip::sliding;
+using namespace damslip::test;
 
 namespace {
 

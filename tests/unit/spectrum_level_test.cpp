@@ -164,15 +164,16 @@ LevelSpectrum two_components(double horizontal, double vertical)
 
 TEST(SpectrumLevel, VerticalForceOfAModeIsSpectralAccelerationTimesItsMass)
 {
-    for (const std::string below : {rock, std::string()}) {
+    for (const std::string& below : {rock, std::string()}) {
         const SpectrumLevel level = spectrum_level(ready_of(below), {two_components(1.0, 2.0)});
         const SpectrumDemand& row = level.rows.front();
         EXPECT_EQ(row.vertical_pga, 2.0);
         double mass = row.vertical_residual_mass;
         for (const ModeShare& mode : row.vertical_modes) {
             mass += mode.effective_mass;
-            if (!below.empty()) // without rock the share of the fixed nodes is in no mode's force
+            if (!below.empty()) { // without rock the share of the fixed nodes is in no mode's force
                 EXPECT_NEAR(mode.base_shear, 2.0 * mode.effective_mass, 1e-6 * 2.0 * level.vertical_mass);
+            }
         }
         EXPECT_NEAR(mass, 2400.0 * 40.0 * 18.0, 1e-6 * mass); // triangle and crest: (32 + 4)/2 x 40 m2
     }

@@ -1,6 +1,8 @@
 // Passes of a step against the same formulas by Eigen's expressions: not a bit differs.
 #include "fe2d/run/step_passes.hpp"
 
+#include "core/vector_level.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +11,8 @@
 namespace {
 
 using namespace damslip::fe2d;
+using damslip::vector_level;
+using damslip::VectorLevel;
 using Eigen::Index;
 using Eigen::VectorXd;
 
