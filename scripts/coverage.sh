@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh tests coverage
 cmake --preset coverage >/dev/null
-targets=(damslip damslip_unit_tests damslip_property_tests damslip_input_tests random_scenes replay_corpora)
+targets=(damslip_unit_tests damslip_property_tests damslip_input_tests random_scenes replay_corpora)
 cmake --build --preset coverage --target "${targets[@]}"
 find build/coverage -name '*.gcda' -delete   # of runs before
 ctest --preset coverage --parallel "$(nproc)" --label-regex '^(unit|property|input|random)$' --timeout 3600

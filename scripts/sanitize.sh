@@ -6,6 +6,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh tests
 cmake --preset sanitize >/dev/null
-cmake --build --preset sanitize --target damslip damslip_unit_tests damslip_property_tests damslip_input_tests random_scenes replay_corpora
+cmake --build --preset sanitize --target damslip_unit_tests damslip_property_tests damslip_input_tests random_scenes replay_corpora
 export UBSAN_OPTIONS=print_stacktrace=1
 ctest --preset sanitize --parallel "$(nproc)" --label-regex '^(unit|property|input|random)$' --timeout 3600
