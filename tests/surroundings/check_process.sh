@@ -11,11 +11,23 @@ fail() { echo "FAIL: $*" >&2; exit 1; }
 sed -e "s|\.\./records|$source/records|" "$source/examples/reference_dam.toml" >"$work/dam.toml"
 printf '\n[mesh]\ncontact_size_m = 0.25\n' >>"$work/dam.toml"
 
+# A shell starts processes in the background with SIGINT ignored, so one that comes before the program has its handler is lost.
+handles_signals() {
+    local tries
+    for tries in $(seq 500); do
+        (( 0x$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status" 2>/dev/null || echo 0) & 2 )) && return
+        kill -0 "$1" 2>/dev/null || return 0   # it has ended: what follows says so
+        sleep 0.01
+    done
+    fail "no handler of SIGINT within 5 s"
+}
+
 # interrupted SIGNAL DELAY ARGUMENTS...: code 4 soon after the signal. A second is what a free machine takes; the limit is what a
 # busy one may, and far below the minutes that the command would go on
 interrupted() {
     local signal=$1 delay=$2; shift 2
     "$damslip" "$@" >"$work/out" 2>"$work/talk" & local process=$!
+    handles_signals "$process"
     sleep "$delay"
     kill "-$signal" "$process" || fail "damslip $1 had ended after $delay s: $(cat "$work/talk")"
     local begin end code=0
@@ -37,6 +49,7 @@ interrupted TERM 0.2 modes "$work/dam.toml" --frf
 
 # --json: one object in any case.
 "$damslip" modes "$work/dam.toml" --frf --json >"$work/out" 2>/dev/null & process=$!
+handles_signals "$process"
 sleep 0.2; kill -INT "$process"; wait "$process" || true
 grep -q '"code": 4' "$work/out" || fail "no error object after an interruption"
 
