@@ -45,12 +45,18 @@ inline std::filesystem::path folder()
     return at;
 }
 
+/// Its record, as a file. @param plateau  [m/s^2]
+inline std::string record_text(double plateau = accel)
+{
+    std::string samples = "# units: m/s2\nt,a\n0,0\n";
+    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * dt, plateau);
+    return samples + fmt::format("{},0\n{},0\n", 52 * dt, 53 * dt);
+}
+
 /// The block, and beside it the record. @param more  further tables
 inline SceneText scene(const std::string& more = "", double mu = 0.7, bool two_way = false)
 {
-    std::string samples = "# units: m/s2\nt,a\n0,0\n";
-    for (int k = 1; k <= 51; ++k) samples += fmt::format("{},{}\n", k * dt, accel);
-    write_file(folder() / "pulse.csv", samples + fmt::format("{},0\n{},0\n", 52 * dt, 53 * dt));
+    write_file(folder() / "pulse.csv", record_text());
     return {fmt::format("[section]\nheight_m = 50\nbase_m = 40\ncrest_m = 5\n[dam]\ndensity_kg_m3 = 2400\n"
                         "young_modulus_GPa = 25\npoisson_ratio = 0.2\n[contact]\nfriction = {}\n"
                         "[sliding]\ntwo_way = {}\n{}"
