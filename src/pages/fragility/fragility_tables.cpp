@@ -45,6 +45,8 @@ std::string count_words(const probability::LognormalFit& fit)
     return "none: " + fit.why;
 }
 
+} // namespace
+
 Column intensity_column(const FragilityView& view)
 {
     std::string key = view.unit_text; // m/s2 -> m_s2
@@ -52,8 +54,6 @@ Column intensity_column(const FragilityView& view)
         if (c == '/') c = '_';
     return {"intensity_" + key, view.plan.input.intensity.text, view.unit_text};
 }
-
-} // namespace
 
 Table sample_table(const FragilityView& view, std::size_t first, std::size_t end)
 {
@@ -77,7 +77,8 @@ Table sample_table(const FragilityView& view, std::size_t first, std::size_t end
         {{"polarity", "polarity"}, [](const SampleRow& r) { return std::int64_t{r.sample.polarity}; }},
         {{"factor", "factor", "–"}, [](const SampleRow& r) { return r.sample.factor; }}};
     for (std::size_t v = 0; v < view.plan.variables().size(); ++v)
-        columns.push_back({{view.plan.variables()[v].name, view.plan.variables()[v].name}, [v](const SampleRow& r) { return cell_of_value(r.draw.values[v]); }});
+        columns.push_back({{view.plan.variables()[v].name, view.plan.variables()[v].name},
+                           [v](const SampleRow& r) { return cell_of_value(r.draw.values[v]); }});
     columns.insert(
         columns.end(),
         {{{"method", "method"}, [&](const SampleRow&) { return view.method; }},
@@ -278,41 +279,6 @@ Table rate_part_table(const FragilityView& view)
          {{"share", "share", "–", 3},
           [](const Part& p) { return p.whole > 0.0 ? Cell(p.part.rate / p.whole) : Cell(); }}},
         parts);
-}
-
-Table two_level_table(const FragilityView& view)
-{
-    struct Row {
-        std::string limit;
-        const TwoLevelAtLevel& at;
-    };
-    std::vector<Row> rows;
-    if (view.two_level)
-        for (const TwoLevelLimit& limit : view.two_level->limits)
-            for (const TwoLevelAtLevel& at : limit.levels) rows.push_back({limit.limit.text, at});
-    const auto used = [](auto get) { return [=](const Row& r) { return r.at.used ? Cell(get(r.at)) : Cell(); }; };
-    using A = TwoLevelAtLevel;
-    Table t = table_of<Row>(
-        "Finite elements and rigid block together",
-        {{{"limit", "limit"}, &Row::limit},
-         {intensity_column(view), [&](const Row& r) { return r.at.x / view.unit; }},
-         {{"probability", "P", "–"}, used([](const A& a) { return 0.5 * (a.low.printed + a.high.printed); })},
-         {{"lower", "2.5 %", "–", 3}, used([](const A& a) { return a.low.interval.lower; })},
-         {{"upper", "97.5 %", "–", 3}, used([](const A& a) { return a.high.interval.upper; })},
-         {{"variation", "c.o.v.", "–", 3}, used([](const A& a) { return a.low.se / std::max(a.low.p, 1e-12); })},
-         {{"rho", "ρ", "–", 3}, used([](const A& a) { return a.low.rho; })},
-         {{"dear", "FE runs"}, [](const Row& r) { return count_cell(r.at.dear); }},
-         {{"cheap", "rigid runs"}, [](const Row& r) { return count_cell(r.at.cheap); }},
-         {{"speed_up", "speed-up", "–", 3}, used([](const A& a) { return a.speed_up; })},
-         {{"remark", "remark"}, [](const Row& r) { return r.at.used ? Cell() : Cell(r.at.why_not); }}},
-        rows);
-    if (view.two_level) {
-        t.notes = {"speed-up: variance of plain Monte Carlo with finite elements for the same processor seconds over "
-                   "that of both models."};
-        if (view.two_level->disagree)
-            t.notes.push_back(fmt::format("{} draws stand by one of the two models alone.", view.two_level->disagree));
-    }
-    return t;
 }
 
 namespace {

@@ -7,6 +7,8 @@
 
 namespace damslip::pages {
 
+/// Of the levels, its key and heading with their unit.
+Column intensity_column(const FragilityView& view);
 /// One row a run: draw, record, level, answer. The same whatever the number of threads, parts and stops.
 /// @param first, end  the runs first ... end - 1 alone
 Table sample_table(const FragilityView& view, std::size_t first = 0,
