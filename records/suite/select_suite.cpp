@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
 #include <set>
 
 namespace damslip::records {
@@ -197,6 +198,18 @@ SuiteSelection select_suite(std::span<const SuiteCandidate> candidates, std::spa
     const bool all = subsets(candidates.size(), options.select, options.most_subsets) <= options.most_subsets;
     SuiteSelection selection = search.selection(all ? search.all_sets() : search.step_by_step());
     selection.exhaustive = all;
+    return selection;
+}
+
+SuiteSelection whole_suite(std::span<const SuiteCandidate> candidates, std::span<const double> log_target,
+                           double max_scale)
+{
+    SuiteOptions options;
+    options.max_scale = max_scale;
+    std::vector<std::size_t> all(candidates.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    SuiteSelection selection = SuiteSearch(candidates, log_target, options).selection(all);
+    selection.exhaustive = true;
     return selection;
 }
 

@@ -47,4 +47,8 @@ ChosenRecord scaled_to_target(const SuiteCandidate& candidate, std::span<const d
 SuiteSelection select_suite(std::span<const SuiteCandidate> candidates, std::span<const double> log_target,
                             const SuiteOptions& options);
 
+/// All candidates, each with its factor. @throws InputError as scaled_to_target()
+SuiteSelection whole_suite(std::span<const SuiteCandidate> candidates, std::span<const double> log_target,
+                           double max_scale);
+
 } // namespace damslip::records

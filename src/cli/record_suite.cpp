@@ -150,30 +150,15 @@ FittedSuite fitted(const RecordSuiteArguments& a, MeasuredSuite& suite, const re
         candidates.push_back({suite.rows[i].event, std::move(logarithms)});
         fit.spectra.push_back(std::move(spectrum));
     }
+    if (!a.select) {
+        fit.selection = records::whole_suite(candidates, log_target, a.max_scale);
+        return fit;
+    }
     records::SuiteOptions options;
     options.max_scale = a.max_scale;
     options.least_scaling = !target;
-    if (a.select) {
-        options.select = static_cast<std::size_t>(*a.select);
-        fit.selection = records::select_suite(candidates, log_target, options);
-        return fit;
-    }
-    std::vector<double> mean(log_target.size(), 0.0); // all of them, each with its factor
-    double own = 0.0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        records::ChosenRecord chosen = records::scaled_to_target(candidates[i], log_target, a.max_scale);
-        chosen.record = i;
-        own += chosen.misfit * chosen.misfit;
-        for (std::size_t k = 0; k < mean.size(); ++k)
-            mean[k] += candidates[i].log_spectrum[k] + std::log(chosen.factor) - log_target[k];
-        fit.selection.chosen.push_back(chosen);
-    }
-    const auto n = static_cast<double>(candidates.size());
-    double squares = 0.0;
-    for (const double m : mean) squares += m * m / (n * n);
-    fit.selection.mean_misfit = std::sqrt(squares / static_cast<double>(mean.size()));
-    fit.selection.single_misfit = std::sqrt(own / n);
-    fit.selection.exhaustive = true;
+    options.select = static_cast<std::size_t>(*a.select);
+    fit.selection = records::select_suite(candidates, log_target, options);
     return fit;
 }
 

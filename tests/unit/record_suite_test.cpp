@@ -3,7 +3,10 @@
 #include "core/input_error.hpp"
 #include "program_answer.hpp"
 #include "records/generate/generate.hpp"
+#include "records/generate/spectrum_file.hpp"
 #include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "records/read/read_record.hpp"
 #include "records/suite/select_suite.hpp"
 
 #include <algorithm>
@@ -181,6 +184,77 @@ TEST_F(RecordSuiteCommand, writes_a_list_that_is_read_back_with_its_factors)
     EXPECT_NE(read_file(folder / "out" / "report.html").find(fmt::format("times {:.6g}", factor)), std::string::npos);
 }
 
+// All records, each with its factor; the selection of as many as there are is the same one.
+TEST_F(RecordSuiteCommand, the_whole_suite_is_the_selection_of_all)
+{
+    std::vector<nlohmann::json> answers;
+    for (const bool select : {false, true}) {
+        std::vector<std::string> line{
+            "record", "suite", (folder / "*_?.csv").string(), "--target-spectrum", "rock", "--target-pga-m-s2",
+            "1.5",    "--json"};
+        if (select) line.insert(line.end(), {"--select", "2"});
+        const auto a = answer_of(line);
+        ASSERT_EQ(a.code, 0) << a.talk;
+        answers.push_back(nlohmann::json::parse(a.out));
+        ASSERT_EQ(answers.back()["selected"].size(), 2u);
+    }
+    EXPECT_EQ(answers[0]["selected"], answers[1]["selected"]);
+    EXPECT_EQ(answers[0]["spectra"], answers[1]["spectra"]);
+}
+
+// A matched suite meets the target at every period of the match, its PGA, and keeps its verticals, scaled as the records were; a list of it is read back
+// as it is.
+TEST_F(RecordSuiteCommand, a_matched_suite_meets_the_target_and_is_read_back)
+{
+    const std::filesystem::path list = folder / "matched" / "suite.csv";
+    const auto a = answer_of({"record", "suite", (folder / "*_?.csv").string(), "--target-spectrum", "ec8-1",
+                              "--target-pga-m-s2", "1.5", "--match", "--out", list.string()});
+    ASSERT_EQ(a.code, 0) << a.talk << a.out;
+    EXPECT_NE(a.talk.find("2 records; read it with  --records"), std::string::npos) << a.talk;
+    for (const char* name : {"rock_1.0", "ec8_3.0"}) {
+        const Record matched = read_record(list.parent_path() / fmt::format("{}_h_matched.csv", name), {});
+        EXPECT_NEAR(measure(matched).pga, 1.5, 1e-5) << name;
+        const auto target = find_target_spectrum("ec8-1", "ec8-1", GroundType::A, MotionComponent::horizontal);
+        ASSERT_TRUE(target.has_value());
+        const std::vector<double> periods{0.06, 0.11, 0.3, 0.75, 1.9};
+        const ResponseSpectrum spectrum = response_spectrum(matched.acceleration, matched.dt, periods, 0.05);
+        for (std::size_t k = 0; k < periods.size(); ++k)
+            EXPECT_NEAR(spectrum.points[k].pseudo_acceleration / (1.5 * target->amplification(periods[k])), 1.0, 0.11)
+                << name << periods[k]; // 10 % at the periods of the match, of which these are none
+        const Record up = read_record(folder / fmt::format("{}_v.csv", name), {}),
+                     scaled_up = read_record(list.parent_path() / fmt::format("{}_h_scaled_v.csv", name), {});
+        const std::size_t at = a.out.find(fmt::format("{}_h: scaled by ", name));
+        ASSERT_NE(at, std::string::npos) << a.out;
+        const double factor = std::stod(a.out.substr(at + std::string(name).size() + 13));
+        EXPECT_NEAR(measure(scaled_up).pga / measure(up).pga, factor, 1e-3 * factor); // printed with four digits
+    }
+    const auto screened = answer_of(
+        {"screen", DAMSLIP_SOURCE_DIR "/examples/reference_dam_profile.toml", "--records", list.string(), "--json"});
+    ASSERT_EQ(screened.code, 0) << screened.talk;
+    for (const auto& row : nlohmann::json::parse(screened.out)["displacements"])
+        EXPECT_NEAR(row["pga_m_s2"].get<double>(), 1.5, 1e-5);
+}
+
+TEST_F(RecordSuiteCommand, refuses_records_that_cannot_serve)
+{
+    write_file(folder / "still.csv", "# units: m/s2\nt,a\n0,0\n0.01,0\n0.02,0\n0.03,0\n");
+    auto a = answer_of({"record", "suite", (folder / "still.csv").string()});
+    EXPECT_EQ(a.code, 3);
+    a = answer_of({"record", "suite", (folder / "s*.csv").string()});
+    EXPECT_EQ(a.code, 3);
+    EXPECT_NE(a.talk.find("this record does not shake."), std::string::npos) << a.talk;
+    a = answer_of({"record", "suite", (folder / "*.at2").string()});
+    EXPECT_EQ(a.code, 3);
+    EXPECT_NE(a.talk.find("*.at2"), std::string::npos) << a.talk;
+    std::filesystem::copy_file(folder / "rock_1.0_h.csv", folder / "a,b.csv");
+    a = answer_of({"record", "suite", (folder / "a*.csv").string(), "--out", (folder / "list.csv").string()});
+    EXPECT_EQ(a.code, 3);
+    EXPECT_NE(a.talk.find("a list cannot hold this path."), std::string::npos) << a.talk;
+    a = answer_of({"record", "suite", (folder / "rock_1.0_h.csv").string(), (folder / "ec8_3.0_h.csv").string()});
+    EXPECT_EQ(a.code, 2);
+    EXPECT_NE(a.talk.find("record suite has 2 patterns."), std::string::npos) << a.talk;
+}
+
 TEST_F(RecordSuiteCommand, refuses_what_it_cannot_do)
 {
     const std::string pattern = (folder / "*_?.csv").string();
@@ -195,6 +269,7 @@ TEST_F(RecordSuiteCommand, refuses_what_it_cannot_do)
     refused({"--target-spectrum", "rock"}, "without --target-pga-m-s2");
     refused({"--target-pga-m-s2", "1", "--select", "3"}, "3 records are wanted of 2 events");
     refused({"--target-pga-m-s2", "1", "--match"}, "--match without --target-spectrum");
+    refused({"--target-pga-m-s2", "1", "--target-spectrum", "rock", "--match"}, "--match without --out");
     refused({"--target-pga-m-s2", "1", "--from", "2", "--to", "1"}, "--from 2 --to 1");
     refused({"--target-pga-m-s2", "1", "--max-scale", "0.1"}, "--max-scale 0.1");
 }
