@@ -1,0 +1,120 @@
+// `assess` from scene to page on a small dam under one pulse: every finite-element number in it is that of `fe` on the scene so changed, to the last
+// digit, and its words name the numbers that its tables hold.
+#include "program_answer.hpp"
+#include "pulse_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace damslip {
+namespace {
+
+using Json = nlohmann::json;
+
+class AssessRun : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::filesystem::create_directories(folder);
+        write_file(folder / "pulse.csv", pulse::record_text());
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::string scene(const std::string& uplift = "linear", const std::string& reservoir = "",
+                      double friction = 0.7) const
+    {
+        const std::filesystem::path file = folder / "dam.toml";
+        write_file(file,
+                   fmt::format("title = \"small dam\"\n[section]\nheight_m = 20\nbase_m = 16\ncrest_m = 3\n[dam]\n"
+                               "density_kg_m3 = 2400\nyoung_modulus_GPa = 25\npoisson_ratio = 0.2\n[foundation]\n"
+                               "young_modulus_GPa = 25\npoisson_ratio = 0.2\nwidth_m = 80\ndepth_m = 32\n[reservoir]\n"
+                               "level_m = 16\ndensity_kg_m3 = 1000\nbulk_modulus_MPa = 2200\nlength_m = 40\n{}"
+                               "[uplift]\nmodel = \"{}\"\n[contact]\nfriction = {}\n[mesh]\nsize_m = 4\n"
+                               "contact_size_m = 4\nrock_size_m = 8\n[time]\ndt_s = 0.01\n[[motion.record]]\n"
+                               "name = \"pulse\"\nhorizontal = \"pulse.csv\"\nunit = \"m/s2\"\n"
+                               "[criteria]\nallowable_slip_mm = 800\n",
+                               reservoir, uplift, friction));
+        return file.string();
+    }
+
+    /// Slip of the worse polarity [mm].
+    double slip_by_fe(const std::string& of, const std::vector<std::string>& more = {}) const
+    {
+        std::vector<std::string> line{"fe", of, "--json", "--quiet"};
+        line.insert(line.end(), more.begin(), more.end());
+        const Json answer = Json::parse(answer_of(line).out);
+        double slip = 0.0;
+        for (const Json& run : answer["runs"]) slip = std::max(slip, std::abs(run["slip_mm"].get<double>()));
+        return slip;
+    }
+
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / fmt::format("damslip assess run {}", ::getpid());
+};
+
+double slip_of(const Json& list, const std::string& assumption)
+{
+    for (const Json& row : list)
+        if (row["assumption"] == assumption) return row["slip_mm"];
+    ADD_FAILURE() << assumption << " was not run";
+    return 0.0;
+}
+
+TEST_F(AssessRun, EveryAssumptionIsARunOfTheSceneSoChanged)
+{
+    const std::string out = (folder / "out").string();
+    const ProgramAnswer answer = answer_of({"assess", scene(), "--budget", "100", "--out", out, "--quiet"});
+    ASSERT_EQ(answer.code, 0) << answer.talk;
+    const Json all = Json::parse(read_file(folder / "out" / "assess.json"));
+    const double slip = all["recommended"]["slip_mm"];
+    EXPECT_EQ(slip, slip_by_fe(scene()));
+    EXPECT_EQ(slip_of(all["assumptions"], "without uplift"), slip_by_fe(scene("none")));
+    EXPECT_EQ(slip_of(all["assumptions"], "massless rock"), slip_by_fe(scene(), {"--rock", "massless"}));
+    EXPECT_EQ(slip_of(all["assumptions"], "added mass"), slip_by_fe(scene("linear", "model = \"added-mass\"\n")));
+    double most = 0.0;
+    std::string name;
+    for (const Json& row : all["assumptions"]) {
+        EXPECT_NEAR(row["change_mm"].get<double>(), row["slip_mm"].get<double>() - slip, 1e-9) << row;
+        if (std::abs(row["change_mm"].get<double>()) > std::abs(most))
+            most = row["change_mm"], name = row["assumption"];
+    }
+    EXPECT_NE(answer.out.find(fmt::format("{} moves the answer most: {:.4g} mm in place of {:.4g} mm ({:+.0f} %).",
+                                          name, slip + most, slip, 100.0 * most / slip)),
+              std::string::npos)
+        << answer.out;
+    EXPECT_EQ(all["verdict"], "PASS"); // 726 mm of 800, massless rock apart
+    const Json& spectrum = all["response_spectrum"];
+    EXPECT_FALSE(spectrum.empty());
+    const std::string page = read_file(folder / "out" / "report.html");
+    EXPECT_NE(page.find("Change of the slip with each assumption changed"), std::string::npos);
+    EXPECT_NE(page.find("PASS"), std::string::npos);
+}
+
+// The block does not hold without an earthquake: no level has a slip, which is no pass.
+TEST_F(AssessRun, ADamThatDoesNotStandHasNoSlipAndFails)
+{
+    const ProgramAnswer answer =
+        answer_of({"assess", scene("linear", "", 0.3), "--budget", "100", "--json", "--quiet"});
+    const Json all = Json::parse(answer.out);
+    EXPECT_TRUE(all["recommended"].is_null());
+    EXPECT_EQ(all["verdict"], "FAIL");
+    EXPECT_EQ(answer.code, 0); // that it does not stand is an answer
+    EXPECT_NE(all["verdict_reason"].get<std::string>().find("does not stand without any earthquake: friction 0.3"),
+              std::string::npos)
+        << all["verdict_reason"];
+}
+
+// What the budget does not hold is named, and nothing of it is given.
+TEST_F(AssessRun, ABudgetOfNothingNamesWhatItLeavesOut)
+{
+    const ProgramAnswer answer = answer_of({"assess", scene(), "--budget", "0.001", "--json", "--quiet"});
+    const Json all = Json::parse(answer.out);
+    for (const Json& row : all["levels"]) EXPECT_NE(row["level"], "finite elements");
+    EXPECT_NE(all["verdict"], "PASS");
+    EXPECT_NE(all["notes"].dump().find("finite elements"), std::string::npos) << all["notes"];
+}
+
+} // namespace
+} // namespace damslip
