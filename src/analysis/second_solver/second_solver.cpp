@@ -26,6 +26,9 @@ constexpr double modes_allowed = 1e-4, crest_allowed = 5e-3, resultant_allowed =
 /// dam does; stiffer ones cost CalculiX many iterations.
 constexpr double springs_over_dam = 1e2;
 
+/// What the seven digits of a printed time leave of it [-], below 1 s [s].
+constexpr double printed_time = 1e-6;
+
 [[noreturn]] void refuse(const Ready& ready, std::string problem, std::string expected, std::string fix)
 {
     throw InputError(
@@ -158,9 +161,13 @@ std::vector<SecondResult> crest_beside(const Ready& ready, const std::vector<Cre
     const double start = ours.rows.front().crest_x;
     double largest = 0.0, apart = 0.0, their_peak = 0.0;
     std::size_t next = 0;
+    const auto off = [&](std::size_t row, double time) { return std::abs(ours.rows[row].time - time); };
     for (const CrestSample& sample : theirs) {
-        while (next + 1 < ours.rows.size() && ours.rows[next].time < sample.time - 1e-9) ++next;
-        if (std::abs(ours.rows[next].time - sample.time) > 1e-6) continue;
+        while (next + 1 < ours.rows.size() && off(next + 1, sample.time) <= off(next, sample.time)) ++next;
+        if (off(next, sample.time) > printed_time * std::max(1.0, sample.time))
+            throw InputError(Diagnostic{
+                file, 0, 0, fmt::format("the file has the crest at {:g} s, which is no step of our run.", sample.time),
+                "the steps of the record", "write the deck anew and run ccx to its end"});
         const double x = ours.rows[next].crest_x - start;
         largest = std::max(largest, std::abs(x));
         their_peak = std::max(their_peak, std::abs(sample.x));
