@@ -180,6 +180,17 @@ TEST_F(SecondSolverRefusals, ARunThatWasCut)
     EXPECT_EQ(d.fix, "write the deck anew and run ccx to its end");
 }
 
+// Our steps are 1 ms.
+TEST_F(SecondSolverRefusals, ARunOfOtherSteps)
+{
+    const Ready at = ready({});
+    const Diagnostic d =
+        refused([&] { beside(at, of_tied, 4, printed_crest(std::vector<double>(300, 1e-3), 0.0125)); });
+    EXPECT_EQ(d.file, "block.dat");
+    EXPECT_EQ(d.problem, "the file has the crest at 0.0125 s, which is no step of our run.");
+    EXPECT_EQ(d.expected, "the steps of the record");
+}
+
 TEST_F(SecondSolverRefusals, StagesOfAnotherScene)
 {
     const Ready at = ready({});
