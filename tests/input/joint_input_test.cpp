@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace {
 
 using namespace damslip;
@@ -36,6 +39,73 @@ TEST(JointInput, StiffnessAndPenaltyBelongTogether)
               "dam.toml:9:29: error: contact.tangential_stiffness_N_m3 = 0 is not allowed.\n"
               "  expected: a number >= 1 [N_m3]: enforcement penalty: shear stress per elastic slip\n"
               "  fix:      for example  tangential_stiffness_N_m3 = 1e11");
+}
+
+// Strengths and energies of a bond that breaks belong together; what says otherwise names the key that is missing.
+TEST(JointInput, ABondThatBreaksHasItsStrengthsAndEnergies)
+{
+    const auto has = [](const std::string& contact, const std::vector<std::string>& parts) {
+        const std::string message = joint_message(contact);
+        for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+    };
+    const std::string breaks = "bond = \"fracture\"\n";
+    EXPECT_EQ(joint_message(breaks + "cohesion_kPa = 500\nfracture_energy_shear_N_m = 1500\n"), "(accepted)");
+    has("cohesion_kPa = 500\nbond = \"together\"\nfracture_energy_shear_N_m = 1500\n",
+        {"dam.toml:10:1: error: contact.fracture_energy_shear_N_m is given, but the bond is lost together.",
+         "write  bond = \"fracture\"  with its energies, or delete fracture_energy_shear_N_m"});
+    has(breaks, {"contact breaks by energy, but contact.cohesion_kPa and contact.tensile_strength_kPa are both 0.",
+                 "a strength above 0"});
+    has(breaks + "cohesion_kPa = 500\n",
+        {"contact has cohesion and breaks by energy, but no contact.fracture_energy_shear_N_m.",
+         "add  fracture_energy_shear_N_m = 1500"});
+    has(breaks + "tensile_strength_kPa = 300\n",
+        {"contact has tensile strength, but no contact.fracture_energy_tension_N_m.",
+         "add  fracture_energy_tension_N_m = 150"});
+    has(breaks + "cohesion_kPa = 500\nfracture_energy_shear_N_m = 1500\ncohesion_lost_at_slip = false\n",
+        {"contact.cohesion_lost_at_slip = false with a bond that breaks.", "delete cohesion_lost_at_slip"});
+}
+
+TEST(JointInput, LawsOfJointsNeedContactThatIsExactAndStepsThatAreImplicit)
+{
+    const std::string breaks = "bond = \"fracture\"\ncohesion_kPa = 500\nfracture_energy_shear_N_m = 1500\n";
+    for (const auto& [other, instead] :
+         {std::pair{"enforcement = \"penalty\"\ntangential_stiffness_N_m3 = 1e11\n", "enforcement = \"exact\""},
+          {"separation = \"none\"\n", "separation = \"allowed\""},
+          {"[time]\nscheme = \"central-difference\"\n", "scheme = \"hht\""}}) {
+        const std::string message = joint_message(breaks + other);
+        EXPECT_NE(message.find(instead + std::string(" with laws of joints beyond Coulomb's")), std::string::npos)
+            << message;
+        EXPECT_NE(message.find("or leave out "), std::string::npos) << message;
+    }
+}
+
+// The longest element that carries the bond as it is: a quarter of the process zone, E' G / (4 f^2), here that of tension. On a rigid base E' is the dam's
+// alone, in plane strain.
+TEST(JointInput, ElementsLongerThanTheProcessZoneAreNoted)
+{
+    const auto notes = [](double size) {
+        const Scene scene = parse_scene(
+            "[section]\nheight_m = 20\nbase_m = 16\n[dam]\ndensity_kg_m3 = 2400\nyoung_modulus_GPa = 25\npoisson_ratio "
+            "= 0.2\n"
+            "[contact]\nfriction = 0.8\nbond = \"fracture\"\ncohesion_kPa = 2000\ntensile_strength_kPa = 1500\n"
+            "fracture_energy_tension_N_m = 150\nfracture_energy_shear_N_m = 500\n[mesh]\ncontact_size_m = " +
+                std::to_string(size) + "\n",
+            "dam.toml", FileCheck::skip);
+        for (const Diagnostic& note : scene.notes)
+            if (note.problem.find("longer than a quarter of the bond's process zone") != std::string::npos)
+                return note.problem + " " + note.expected;
+        return std::string();
+    };
+    const std::string note = notes(2.0);
+    ASSERT_NE(note, "");
+    EXPECT_NE(note.find("elements of 2 m"), std::string::npos) << note;
+    const std::size_t at = note.find("mesh.contact_size_m of at most ");
+    ASSERT_NE(at, std::string::npos) << note;
+    const double longest = std::stod(note.substr(at + 31));
+    EXPECT_EQ(notes(0.999 * longest), "");
+    EXPECT_NE(notes(1.001 * longest), "");
+    const double modulus = 25e9 / (1.0 - 0.2 * 0.2), tension = modulus * 150.0 / (4.0 * 1.5e6 * 1.5e6);
+    EXPECT_NEAR(longest, tension, 1e-5 * tension); // printed with six digits
 }
 
 TEST(JointInput, ReachBelongsToFiniteSliding)
