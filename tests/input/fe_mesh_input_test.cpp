@@ -55,6 +55,29 @@ TEST(FeMeshInput, clockwise_section)
         << mesh_message(scene);
 }
 
+TEST(FeMeshInput, sections_without_two_faces)
+{
+    Scene scene = meshable();
+    scene.section.polygon = {{0, 0}, {45, 0}};
+    EXPECT_NE(mesh_message(scene).find("section.polygon has 2 vertices."), std::string::npos) << mesh_message(scene);
+    scene.section.polygon = {{0, 0}, {45, 50}, {12, 40}}; // the toe is the highest point
+    EXPECT_NE(mesh_message(scene).find("vertex 2 (45, 50) is heel or toe and the highest point."), std::string::npos)
+        << mesh_message(scene);
+}
+
+TEST(FeMeshInput, a_lift_joint_above_the_crest)
+{
+    Scene scene = meshable();
+    LiftJoint joint;
+    joint.elevation = 62.5;
+    scene.lift_joints.push_back(joint);
+    const std::string text = mesh_message(scene);
+    EXPECT_NE(text.find("lift_joint.elevation_m = 62.5 is not between base and crest on both faces."),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("above 0 m and below 62.5 m"), std::string::npos) << text;
+}
+
 TEST(FeMeshInput, crossing_faces_are_refused_with_the_place)
 {
     Scene scene = meshable();

@@ -102,7 +102,8 @@ struct Csmip {
 struct Smc {
     std::string first = "2 CORRECTED ACCELEROGRAM", station = "ABCD", component = "    360";
     double rate = 200.0;
-    int problem = -32768, structure = -32768, place_on_dam = -32768, vertical = 90;
+    int problem = -32768, structure = -32768, place_on_dam = -32768, place_on_bridge = -32768, vertical = 90;
+    double largest = 1.7e38, smallest = 1.7e38; ///< of the samples, by the header [cm/s^2]; 1.7e38: not given
     int comments = 2, points = -1;
     std::vector<double> samples{1.5, -2.25, 3.0};
     std::string data; ///< empty: made from the samples
@@ -111,11 +112,14 @@ struct Smc {
         std::vector<double> integers(48, -32768);
         integers[12] = vertical, integers[13] = 360, integers[15] = comments, integers[17] = problem;
         integers[16] = points >= 0 ? points : static_cast<double>(samples.size());
-        integers[18] = structure, integers[27] = place_on_dam;
+        integers[18] = structure, integers[26] = place_on_bridge, integers[27] = place_on_dam;
         std::string out = first + "\n*\n" + station + "\n     1989  10  18    0004 Test event\nMoment Mag=\n";
         out += "station = Test place           component=" + component + "\nepicentral dist\ninst type\n*\n*\n*\n";
         out += fields(integers, 8, 10, 0);
-        for (int k = 0; k < 50; ++k) out += fmt::format("{:15.7E}", k == 1 ? rate : 1.7e38) + (k % 5 == 4 ? "\n" : "");
+        std::vector<double> reals(50, 1.7e38);
+        reals[1] = rate, reals[29] = largest, reals[31] = smallest;
+        for (std::size_t k = 0; k < reals.size(); ++k)
+            out += fmt::format("{:15.7E}", reals[k]) + (k % 5 == 4 ? "\n" : "");
         for (int k = 0; k < comments; ++k) out += "| 1 2 3 comment\n";
         return out + (data.empty() ? fields(samples, 8, 10, 4) : data);
     }

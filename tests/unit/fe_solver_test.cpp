@@ -42,6 +42,25 @@ TEST(FeSolver, simplicial_and_supernodal_find_the_known_solution)
     }
 }
 
+TEST(FeSolver, says_what_it_did)
+{
+    LinearSolver solver;
+    EXPECT_EQ(solver.report().text(), "Nothing has been factorised yet.");
+    solver.factorise(laplacian(10));
+    EXPECT_EQ(solver.report().text().find("Factorised: 100 unknowns, "), 0u) << solver.report().text();
+    LinearSolver moved = std::move(solver); // keeps its factor
+    const auto a = laplacian(10);
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(100, -1.0, 1.0);
+    EXPECT_LT((moved.solve(Eigen::VectorXd(a * x)) - x).lpNorm<Eigen::Infinity>(), 1e-13);
+    Eigen::SparseMatrix<double> mechanism(2, 2); // two masses on one spring
+    mechanism.insert(0, 0) = mechanism.insert(1, 1) = 1.0;
+    mechanism.insert(0, 1) = mechanism.insert(1, 0) = -1.0;
+    moved = LinearSolver();
+    moved.factorise(mechanism);
+    EXPECT_NE(moved.report().text().find("2 unknowns"), std::string::npos) << moved.report().text();
+    EXPECT_EQ(moved.report().text().find("Factorised"), std::string::npos);
+}
+
 TEST(FeSolver, counts_what_it_does)
 {
     LinearSolver solver;

@@ -2,6 +2,8 @@
 #include "program_answer.hpp"
 
 #include "core/file.hpp"
+#include "records/generate/target_spectrum.hpp"
+#include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"
 
 #include <gtest/gtest.h>
@@ -106,6 +108,25 @@ TEST_F(RecordCommand, GenerateSaysHowNearItCame)
     double peak = 0.0;
     for (const double a : made.acceleration) peak = std::max(peak, std::abs(a));
     EXPECT_NEAR(peak, 1.25, 1e-6);
+    // The rock's shape as a file of 60 periods is met as well: within the 10 % of the match, and 1 % for what lies between its rows.
+    std::string shape;
+    for (int k = 0; k < 60; ++k) {
+        const double period = 0.02 * std::pow(4.0 / 0.02, k / 59.0);
+        shape += fmt::format("{},{}\n", period, records::rock_spectrum().amplification(period));
+    }
+    write_file(folder / "shape.csv", "period_s,sa\n" + shape);
+    std::vector<std::string> by_file = line;
+    by_file[3] = (folder / "shape.csv").string();
+    answer = answer_of(by_file);
+    EXPECT_EQ(answer.code, 0) << answer.talk;
+    const Record by_shape = records::read_record(to, {});
+    const std::vector<double> periods{0.07, 0.3, 1.1};
+    const auto spectrum = records::response_spectrum(by_shape.acceleration, by_shape.dt, periods, 0.05);
+    for (std::size_t k = 0; k < periods.size(); ++k)
+        EXPECT_NEAR(spectrum.points[k].pseudo_acceleration /
+                        (1.25 * records::rock_spectrum().amplification(periods[k])),
+                    1.0, 0.11)
+            << periods[k];
     std::vector<std::string> too_fine = line;
     too_fine.insert(too_fine.end(), {"--tolerance", "0.01", "--quiet"});
     EXPECT_EQ(answer_of(too_fine).code, 4);

@@ -68,6 +68,10 @@ TEST(RecordCosmos, units_by_code)
     Cosmos counts;
     counts.unit = 50, counts.volume = 0;
     EXPECT_NE(cosmos_error(counts.text()).find("counts or volts"), std::string::npos);
+    Cosmos velocity;
+    velocity.unit = 5; // cm/s
+    EXPECT_NE(cosmos_error(velocity.text()).find("unit code 5 is no unit of acceleration."), std::string::npos)
+        << cosmos_error(velocity.text());
     Cosmos two;
     two.data_line = "      3  acceleration pts, approx 1 secs, units=g (02),Format=(8F10.5)";
     EXPECT_NE(cosmos_error(two.text()).find("c.v2:45: error: unit code 2 here, but 4 in the integer header (line 15)"),
@@ -87,6 +91,19 @@ TEST(RecordCosmos, gaps_are_refused)
     EXPECT_DOUBLE_EQ(read_cosmos_text(file.text()).at(0).acceleration[1], -9.99);
     file.samples[1] = -777.0;
     EXPECT_NE(cosmos_error(file.text()).find("stands for"), std::string::npos);
+}
+
+TEST(RecordCosmos, lines_of_the_header_that_are_not_understood)
+{
+    std::string text = Cosmos{}.text();
+    text.replace(text.find("  1 Comment line(s)"), 3, " -1");
+    EXPECT_NE(cosmos_error(text).find("c.v2:43: error: the number of comment lines is not understood."),
+              std::string::npos)
+        << cosmos_error(text);
+    Cosmos file;
+    file.data_line = "      3  acceleration pts, approx 1 secs, units=cm/sec2(04)";
+    EXPECT_NE(cosmos_error(file.text()).find("c.v2:45: error:"), std::string::npos) << cosmos_error(file.text());
+    EXPECT_NE(cosmos_error(file.text()).find("Format=(8F10.5)"), std::string::npos) << cosmos_error(file.text());
 }
 
 TEST(RecordCosmos, length_by_both_conventions)

@@ -55,6 +55,31 @@ TEST(RecordSmc, orientation_without_the_word)
     EXPECT_TRUE(warned(parse_record(file.text(), "s").at(0), "positive downwards"));
 }
 
+TEST(RecordSmc, buildings_and_bridges_are_remarked)
+{
+    Smc file;
+    file.structure = 1;
+    EXPECT_TRUE(warned(parse_record(file.text(), "s").at(0), "recorded in a building"));
+    file.structure = 2;
+    file.place_on_bridge = 1;
+    EXPECT_TRUE(warned(parse_record(file.text(), "s").at(0), "recorded on a bridge"));
+    file.place_on_bridge = 0; // beside it
+    EXPECT_FALSE(warned(parse_record(file.text(), "s").at(0), "bridge"));
+}
+
+// The header's largest and smallest sample: what the samples do not reach was cut or is in another unit.
+TEST(RecordSmc, peaks_of_the_header_are_those_of_the_samples)
+{
+    Smc file;
+    file.largest = 3.0;
+    file.smallest = -2.25;
+    EXPECT_DOUBLE_EQ(parse_record(file.text(), "s").at(0).acceleration[2], 0.03);
+    file.largest = 30.0;
+    const std::string refused = smc_error(file.text());
+    EXPECT_NE(refused.find("0.3"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("0.03"), std::string::npos) << refused;
+}
+
 TEST(RecordSmc, dams_and_problems_are_remarked)
 {
     Smc file;

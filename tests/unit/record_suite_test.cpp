@@ -48,6 +48,13 @@ TEST(RecordSuite, a_record_of_the_targets_shape_is_scaled_onto_it)
     EXPECT_TRUE(limited.at_limit);
 }
 
+TEST(RecordSuite, spectra_of_other_periods_are_refused)
+{
+    const SuiteCandidate c{"a", {0.1, 0.2}};
+    EXPECT_THROW(scaled_to_target(c, three_periods, 4.0), InputError);
+    EXPECT_THROW(scaled_to_target(SuiteCandidate{"a", {}}, {}, 4.0), InputError);
+}
+
 TEST(RecordSuite, the_factor_is_the_least_squares_of_the_logarithms)
 {
     const SuiteCandidate c = candidate_of("a", three_periods, {0.3, -0.6, 0.0});
@@ -143,9 +150,11 @@ TEST(RecordSuite, a_match_keeps_the_record_and_meets_spectrum_and_pga)
     EXPECT_NEAR(m.final_velocity, 0.0, 2e-4); // rounding to 1e-6 m/s2
     EXPECT_EQ(matched.record.acceleration.size(), rock.acceleration.size());
     EXPECT_GT(alikeness(matched.record.acceleration, rock.acceleration), 0.7); // of unrelated ones 0
-    Record coarse = rock;
+    Record coarse = rock, brief = rock;
     coarse.dt = 0.02;
     EXPECT_THROW(matched_record(coarse, target, 1.5, 0.10), InputError);
+    brief.acceleration.resize(400); // 4 s
+    EXPECT_THROW(matched_record(brief, target, 1.5, 0.10), InputError);
 }
 
 class RecordSuiteCommand : public testing::Test {
