@@ -23,7 +23,7 @@ function(damslip_install_package)
     sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
   add_library(damslip_analysis INTERFACE)
   target_link_libraries(damslip_analysis INTERFACE
-    analysis_prepare analysis_screen analysis_fe analysis_sweep analysis_fragility analysis_accuracy analysis_ablation)
+    analysis_prepare analysis_suite analysis_screen analysis_fe analysis_sweep analysis_fragility analysis_accuracy analysis_ablation)
   add_library(damslip_probability INTERFACE)
   target_link_libraries(damslip_probability INTERFACE
     probability_laws probability_sampling probability_fit probability_estimate probability_hazard probability_sensitivity probability_export)

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "analysis/suite/record_suite.hpp"
 #include "core/table.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/record.hpp"
-#include "records/suite/select_suite.hpp"
 
 #include <span>
 
@@ -18,12 +18,6 @@ Table without_checksums(Table info_table);
 
 /// @param ratio  damping [-]
 Table spectrum_table(const Record& record, const records::ResponseSpectrum& spectrum, double ratio);
-
-/// A record of a suite, measured: the row of its index.
-struct SuiteRow {
-    std::string name, event;
-    records::Measures measures;
-};
 
 /// PGA, PGV, I_A, CAV, D5-95, T_m of records as they are in their files, one each row.
 Table suite_index_table(const std::vector<SuiteRow>& rows);
