@@ -15,8 +15,6 @@
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/sweep_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -26,8 +24,6 @@ namespace damslip::cli {
 using namespace pages;
 
 namespace {
-
-constexpr std::uint32_t pilot_stream = 2; // of FragilitySizes: draws of its own
 
 void check_fragility_flags(const FragilityArguments& a)
 {
@@ -50,23 +46,15 @@ void check_fragility_flags(const FragilityArguments& a)
     need_scene_file(a.inputs, "fragility");
 }
 
-/// Runs per level that the budget pays for: a tenth goes into a pilot whose answers are thrown away.
+/// Runs per level that the budget pays for.
 std::size_t samples_by_budget(const FragilityArguments& a, const FragilityStudy& study, const Streams& streams)
 {
-    const double budget = *a.budget;
     TerminalWatch watch(streams);
-    const FragilityPlan pilot = study.plan(1, pilot_stream);
-    const std::size_t few = std::min<std::size_t>(pilot.samples.size(), 2 * pilot.levels);
-    std::vector<std::size_t> wanted; // spread over levels and draws
-    for (std::size_t i = 0; i < few; ++i) wanted.push_back(i * pilot.samples.size() / few);
-    const FragilityRuns runs = run_fragility(pilot, study.text, study.method, wanted, nullptr, a.jobs, watch);
-    const double per_run = runs.seconds / static_cast<double>(std::max<std::size_t>(1, runs.finished()));
-    const double left = std::max(0.9 * budget, budget - runs.seconds);
-    const auto samples = static_cast<std::size_t>(std::max(1.0, left / (per_run * static_cast<double>(pilot.levels))));
+    const BudgetPilot pilot = pilot_of_budget(study, *a.budget, a.jobs, watch);
     if (!streams.quiet)
-        streams.talk << fmt::format("pilot: {} runs, {:.3g} processor seconds each; --samples {}\n", runs.finished(),
-                                    per_run, samples);
-    return samples;
+        streams.talk << fmt::format("pilot: {} runs, {:.3g} processor seconds each; --samples {}\n", pilot.runs,
+                                    pilot.seconds_per_run, pilot.samples);
+    return pilot.samples;
 }
 
 std::filesystem::path journal_file(const std::filesystem::path& out, const Shard& shard)

@@ -14,7 +14,7 @@ namespace damslip {
 
 namespace {
 
-constexpr std::uint32_t cheap_stream = 1; // of FragilitySizes: draws of their own
+constexpr std::uint32_t cheap_stream = 1, pilot_stream = 2; // of FragilitySizes: draws of their own
 
 const SweepMethod& method_of_fragility(const std::string& given, const Records& records, const Scene& scene)
 {
@@ -168,6 +168,22 @@ void allow_any_scaling(FragilityInput& input)
         input.suite->polarity = SuitePolarity::as_recorded;
     }
     input.suite->allow_scaling = true;
+}
+
+BudgetPilot pilot_of_budget(const FragilityStudy& study, double budget, int jobs, Watch& watch)
+{
+    const FragilityPlan plan = study.plan(1, pilot_stream);
+    const std::size_t few = std::min<std::size_t>(plan.samples.size(), 2 * plan.levels);
+    std::vector<std::size_t> wanted; // spread over levels and draws
+    for (std::size_t i = 0; i < few; ++i) wanted.push_back(i * plan.samples.size() / few);
+    const FragilityRuns runs = run_fragility(plan, study.text, study.method, wanted, nullptr, jobs, watch);
+    BudgetPilot pilot;
+    pilot.runs = runs.finished();
+    pilot.seconds_per_run = runs.seconds / static_cast<double>(std::max<std::size_t>(1, pilot.runs));
+    const double left = std::max(0.9 * budget, budget - runs.seconds);
+    pilot.samples =
+        static_cast<std::size_t>(std::max(1.0, left / (pilot.seconds_per_run * static_cast<double>(plan.levels))));
+    return pilot;
 }
 
 std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study, Conditioning asked,

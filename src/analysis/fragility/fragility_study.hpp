@@ -41,6 +41,17 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
 /// Records may be scaled beyond suite.max_scale; they are listed.
 void allow_any_scaling(FragilityInput& input);
 
+/// What a few runs say of a budget; their answers are thrown away.
+struct BudgetPilot {
+    std::size_t runs = 0;         ///< of the pilot, two a level
+    double seconds_per_run = 0.0; ///< processor time
+    std::size_t samples =
+        1; ///< runs per level that the budget pays for, the pilot's time taken off it, a tenth of it at most
+};
+
+/// @param budget  processor seconds
+BudgetPilot pilot_of_budget(const FragilityStudy& study, double budget, int jobs, Watch& watch);
+
 enum class Conditioning { automatic, on, off };
 
 /// A plan whose runs draw friction only where the rigid block, corrected by a pilot, does not know whether the dam slides too far; none where friction
