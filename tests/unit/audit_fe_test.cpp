@@ -1,4 +1,6 @@
 // What `damslip fe` may say of a slip: with which motion, how sure, and when nothing.
+#include "core/file.hpp"
+#include "csv_rows.hpp"
 #include "pages/fe/contact_tables.hpp"
 #include "pages/fe/fe_report.hpp"
 #include "program_answer.hpp"
@@ -15,7 +17,6 @@
 
 namespace {
 
-using namespace damslip;
 using namespace damslip;
 using namespace damslip::cli;
 using namespace damslip::pages;
@@ -209,30 +210,12 @@ TEST(Audit, A16_fixed_sub_steps_have_no_error_estimate_and_no_verdict)
     EXPECT_EQ(reduced.run()["verdict"], "undecided");
 }
 
-/// Last less first row of a column of a CSV file with comments.
+/// Last less first row of a column of a CSV file with comments; not a number where there is no such column.
 double change_of(const std::filesystem::path& file, const std::string& column)
 {
-    std::ifstream in(file);
-    std::string line;
-    std::ptrdiff_t at = -1;
-    double first = std::nan(""), last = std::nan("");
-    while (std::getline(in, line)) {
-        if (line.starts_with("#")) continue;
-        std::vector<std::string> cells(1);
-        for (const char c : line)
-            if (c == ',')
-                cells.emplace_back();
-            else
-                cells.back() += c;
-        if (at < 0) {
-            at = std::find(cells.begin(), cells.end(), column) - cells.begin();
-            if (at == static_cast<std::ptrdiff_t>(cells.size())) return std::nan("");
-            continue;
-        }
-        last = std::stod(cells[static_cast<std::size_t>(at)]);
-        if (std::isnan(first)) first = last;
-    }
-    return last - first;
+    const auto rows = csv_rows(read_file(file));
+    if (rows.empty() || !rows.front().contains(column)) return std::nan("");
+    return std::stod(rows.back().at(column)) - std::stod(rows.front().at(column));
 }
 
 // What goes in is what is stored and dissipated, radiation by the acoustic water included: the columns add up to the imbalance.

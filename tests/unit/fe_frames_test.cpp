@@ -1,6 +1,7 @@
 // fe --frames: what the files for ParaView say against the other files of the same run. The history's columns are sums and largest values of
 // the pairs, so each frame has to give them back at its time; the last one is the state at the end.
 #include "core/file.hpp"
+#include "csv_rows.hpp"
 #include "program_answer.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include <filesystem>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <tuple>
 #include <unistd.h>
 
@@ -56,19 +56,8 @@ struct Grid {
 std::map<std::string, std::vector<double>> columns_of(const std::filesystem::path& file)
 {
     std::map<std::string, std::vector<double>> columns;
-    std::vector<std::string> names;
-    std::istringstream in(read_file(file));
-    for (std::string line; std::getline(in, line);) {
-        if (line.starts_with('#')) continue;
-        std::istringstream fields(line);
-        std::size_t j = 0;
-        const bool heading = names.empty();
-        for (std::string field; std::getline(fields, field, ','); ++j)
-            if (heading)
-                names.push_back(field);
-            else
-                columns[names.at(j)].push_back(field.empty() ? NAN : std::stod(field));
-    }
+    for (const auto& row : csv_rows(read_file(file)))
+        for (const auto& [name, field] : row) columns[name].push_back(field.empty() ? NAN : std::stod(field));
     return columns;
 }
 

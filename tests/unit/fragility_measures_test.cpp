@@ -1,5 +1,6 @@
 // Measures of intensity and designs of a fragility by the program: a level of any measure is a factor of the one record, so that P is that of the same
 // factor by PGA; records as they are follow a line by hand; P over the water level is counted in the table of the runs.
+#include "csv_rows.hpp"
 #include "pulse_study.hpp"
 
 #include "records/measure/response_spectrum.hpp"
@@ -7,37 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include <numbers>
-#include <sstream>
 
 namespace damslip {
 namespace {
 
 using FragilityMeasures = pulse::Study;
 using Json = nlohmann::json;
-
-/// Rows of a CSV of the program by the names of its columns.
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& text)
-{
-    std::vector<std::string> head;
-    std::vector<std::map<std::string, std::string>> rows;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) {
-        if (line.starts_with('#')) continue;
-        std::vector<std::string> cells(1);
-        for (const char c : line)
-            if (c == ',')
-                cells.emplace_back();
-            else
-                cells.back() += c;
-        if (head.empty()) {
-            head = cells;
-            continue;
-        }
-        auto& row = rows.emplace_back();
-        for (std::size_t i = 0; i < head.size(); ++i) row[head[i]] = cells.at(i);
-    }
-    return rows;
-}
 
 /// [m/s^2]
 std::vector<double> pulse_samples()
@@ -137,7 +113,7 @@ TEST_F(FragilityMeasures, ACloudOfRecordsIsALineByHand)
                  .variable = "kind = \"aleatory\"\nlognormal = { median = 0.15, beta = 0.3 }\n"});
     const ProgramAnswer answer = fragility({"--samples", "64", "--out", out("cloud"), "--quiet"});
     ASSERT_EQ(answer.code, 0) << answer.talk;
-    const auto runs = rows_of(bytes("cloud", "samples.csv"));
+    const auto runs = csv_rows(bytes("cloud", "samples.csv"));
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     std::vector<std::pair<double, double>> points;
     for (const auto& run : runs) {
@@ -175,7 +151,7 @@ TEST_F(FragilityMeasures, TheFileOfWaterLevelsIsCountedFromTheRuns)
         fragility({"--samples", "256", "--conditioning", "off", "--out", out("levels"), "--quiet"});
     ASSERT_EQ(answer.code, 0) << answer.talk;
     std::map<std::string, std::pair<double, double>> counts; // failures and runs by level
-    for (const auto& run : rows_of(bytes("levels", "samples.csv"))) {
+    for (const auto& run : csv_rows(bytes("levels", "samples.csv"))) {
         auto& [failed, all] = counts[run.at("level")];
         failed += run.at("slip_mm").empty() || std::stod(run.at("slip_mm")) > 200.0;
         all += 1.0;
