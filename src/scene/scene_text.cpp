@@ -16,6 +16,7 @@ namespace damslip {
 
 struct SceneText::Tables {
     std::filesystem::path file;
+    std::string text; ///< as it was read; empty: root has other values
     toml::table root;
     SectionInput section;
     std::vector<KeyGroup> groups = key_groups(section);
@@ -159,6 +160,7 @@ std::string text_of(const KeyValue& value)
 SceneText::SceneText(std::string_view toml_text, std::filesystem::path file)
 {
     auto tables = std::make_shared<Tables>();
+    tables->text = toml_text;
     tables->root = toml_of(toml_text, file);
     tables->file = std::move(file);
     tables_ = std::move(tables);
@@ -194,6 +196,8 @@ toml::table SceneText::Tables::with(std::span<const KeyChange> changes, const Sc
 
 Scene SceneText::with(std::span<const KeyChange> changes) const
 {
+    if (changes.empty() && !tables_->text.empty()) // a copy of the tables has no lines for messages
+        return scene_of_table(toml_of(tables_->text, tables_->file), tables_->file, FileCheck::must_exist);
     return scene_of_table(tables_->with(changes, *this), tables_->file, FileCheck::must_exist);
 }
 

@@ -200,6 +200,14 @@ protected:
         std::filesystem::temp_directory_path() / fmt::format("damslip fragility input {}", ::getpid());
 };
 
+// As every other command: what is wrong in the scene itself has its line, too.
+TEST_F(FragilityCommandInput, KeysOfTheSceneHaveTheirLine)
+{
+    refused("[time]\nsubstep = 1\n" + variable + intensity + limit, "substep", {"unknown key time.substep", "fix:"});
+    refused("[criteria]\nallowable_slip_mm = -5\n" + variable + intensity + limit, "allowable_slip_mm",
+            {"criteria.allowable_slip_mm = -5 is not allowed.", "fix:"});
+}
+
 TEST_F(FragilityCommandInput, LawsThatContradictThemselves)
 {
     refused(
