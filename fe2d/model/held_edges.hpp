@@ -24,7 +24,7 @@ struct HeldStart {
 /// u_ff = r u_g. The motion of the ground therefore loads the dam and its water only, as on massless rock, and the record
 /// is the motion of the free surface. The same motion comes out of the direct method (Zienkiewicz, Bicanic & Shen 1989;
 /// Løkke & Chopra 2017), which puts the stresses ρ c (2 u̇_up - u̇) of the incoming wave on the bottom and those of the free
-/// field on the sides (src/verification/cases/fe_rock_cases.cpp compares). Left out: what the curtain's other modulus
+/// field on the sides (verification/cases/fe_rock_cases.cpp compares). Left out: what the curtain's other modulus
 /// scatters of the free field.
 ///
 /// @param fixed, free  of one scene and base, apart from ModelOptions::edges

@@ -58,14 +58,14 @@ void add(const Command& command, CLI::App& parent, Parser& p, const Wanted& want
     refuse_no_numbers(sub);
 }
 
-void build(Parser& p, const Wanted& wanted)
+void build(Parser& p, std::span<const Command> rows, const Wanted& wanted)
 {
     p.app.set_version_flag("--version", "damslip " + program_version());
     p.app.require_subcommand(1);
     p.app.footer(std::string("Examples:\n  damslip screen examples/reference_dam.toml\n  damslip sweep "
                              "examples/reference_dam.toml --friction 0.65:1.0:0.05\n") +
                  exit_codes);
-    for (const Command& command : commands()) add(command, p.app, p, wanted);
+    for (const Command& command : rows) add(command, p.app, p, wanted);
 }
 
 /// The command that was typed.
@@ -126,10 +126,10 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
 
 } // namespace
 
-Invocation parse_arguments(const std::vector<std::string>& arguments)
+Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<const Command> rows)
 {
     Parser parser;
-    build(parser, [&](const Command& command) { // what is not named cannot be the one that is typed
+    build(parser, rows, [&](const Command& command) { // what is not named cannot be the one that is typed
         return std::find(arguments.begin(), arguments.end(), command.name) != arguments.end();
     });
     if (arguments.empty()) throw HelpText{parser.app.help()};
@@ -149,7 +149,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments)
 std::vector<CommandSummary> command_summaries()
 {
     Parser parser;
-    build(parser, [](const Command&) { return true; });
+    build(parser, commands(), [](const Command&) { return true; });
     return summaries_of(parser.app);
 }
 

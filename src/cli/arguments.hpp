@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/command.hpp"
 #include "cli/command_summary.hpp"
 #include "cli/terminal/streams.hpp"
 
@@ -23,8 +24,8 @@ struct HelpText {
     std::string text;
 };
 
-/// Parses the command line. @throws HelpText, UsageError (with the nearest command or flag)
-Invocation parse_arguments(const std::vector<std::string>& arguments);
+/// Parses the command line of a program with those commands. @throws HelpText, UsageError (with the nearest command or flag)
+Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<const Command> rows);
 
 /// The program itself (its name is empty) and all its commands.
 std::vector<CommandSummary> command_summaries();

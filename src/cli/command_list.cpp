@@ -1,4 +1,5 @@
 #include "cli/command.hpp"
+#include "cli/verifier.hpp"
 
 namespace damslip::cli {
 
@@ -12,17 +13,40 @@ Command slide_command();
 Command sweep_command();
 Command fragility_command();
 Command worker_command();
-Command study_command();
 Command fe_command();
 Command modes_command();
-Command mesh_command();
 Command explain_command();
 Command accuracy_command();
 Command record_command();
-Command verify_command();
 Command schema_command();
 Command completion_command();
 Command man_command();
+
+namespace {
+
+/// A row that damslip-verify carries out.
+template <class Arguments>
+int hand_on(const Arguments&, const Streams& streams)
+{
+    return streams.hand_on();
+}
+
+Command study_row()
+{
+    return study_command(hand_on<StudyArguments>);
+}
+
+Command mesh_row()
+{
+    return mesh_command(hand_on<MeshArguments>);
+}
+
+Command verify_row()
+{
+    return verify_command(hand_on<VerifyArguments>);
+}
+
+} // namespace
 
 std::span<const Command> commands()
 {
@@ -38,14 +62,14 @@ std::span<const Command> commands()
                  sweep_command,
                  fragility_command,
                  worker_command,
-                 study_command,
+                 study_row,
                  fe_command,
                  modes_command,
-                 mesh_command,
+                 mesh_row,
                  explain_command,
                  accuracy_command,
                  record_command,
-                 verify_command,
+                 verify_row,
                  schema_command,
                  completion_command,
                  man_command,

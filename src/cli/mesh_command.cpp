@@ -1,5 +1,5 @@
-#include "analysis/second_solver/second_solver.hpp"
 #include "cli/flags.hpp"
+#include "cli/verifier.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 #include "fe2d/gmsh/write_gmsh.hpp"
@@ -21,17 +21,6 @@ using namespace pages;
 
 namespace {
 
-struct MeshArguments {
-    RunInputs inputs;
-    std::filesystem::path out;      ///< Gmsh file; empty: none
-    std::string format = "4.1";     ///< of the Gmsh file: "2.2" or "4.1"
-    std::string base = "twice";     ///< nodes of the base in it: "twice" or "shared"
-    std::string to = "gmsh";        ///< for whom `out` is: "gmsh" or "calculix"
-    std::string analysis = "modes"; ///< of the deck for CalculiX: "modes", "tied" or "static-contact"
-    int modes = 10;                 ///< of that deck: found, or superposed
-    std::filesystem::path results;  ///< .dat file that ccx made of the deck, to compare with; empty: none
-};
-
 fe2d::BaseNodes base_nodes(const MeshArguments& arguments, const fe2d::Mesh& mesh)
 {
     if (arguments.base == "twice") return fe2d::BaseNodes::twice;
@@ -49,43 +38,10 @@ Scene of_first_order(Scene scene)
     return scene;
 }
 
-int calculix(const MeshArguments& arguments, const Streams& streams)
-{
-    if (arguments.out.empty() && arguments.results.empty())
-        throw UsageError(Diagnostic{"", 0, 0, "--to calculix without --out and without --results.",
-                                    "the deck to write, or the results to compare",
-                                    "add  --out FILE.inp , or  --results FILE.dat"});
-    const SecondAnalysis analysis = arguments.analysis == "tied"             ? SecondAnalysis::tied
-                                    : arguments.analysis == "static-contact" ? SecondAnalysis::static_contact
-                                                                             : SecondAnalysis::modes;
-    const Scene given = read_run_scene(arguments.inputs, streams);
-    need_section(given, "damslip mesh", "a wedge is rigid; damslip screen SCENE gives its slip");
-    const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
-    Watch watch;
-    if (!arguments.out.empty()) {
-        write_file(arguments.out, calculix_deck(ready, analysis, arguments.modes, watch));
-        streams.talk << fmt::format("written: {} (CalculiX, {})\n", arguments.out.string(), arguments.analysis);
-    }
-    if (arguments.results.empty()) return exit_ok;
-    const std::vector<SecondResult> results = beside_calculix(
-        ready, analysis, arguments.modes, read_file(arguments.results), arguments.results.string(), watch);
-    const Table table = second_solver_table(results);
-    if (streams.form == Form::json) {
-        auto j = json_header("mesh", given);
-        j["second_solver"] = json_of(table);
-        streams.out << j.dump(2) << "\n";
-    } else {
-        streams.out << given.title << "\n\n" << text(table);
-    }
-    const bool all = std::all_of(results.begin(), results.end(), [](const SecondResult& r) { return r.within(); });
-    return all ? exit_ok : exit_no_answer;
-}
-
 /// The mesh of a scene as contact runs have it, the program's own or an imported one: sizes, shapes, contact pairs; written as a
 /// Gmsh file where asked for.
 int mesh(const MeshArguments& arguments, const Streams& streams)
 {
-    if (arguments.to == "calculix") return calculix(arguments, streams);
     if (!arguments.results.empty())
         throw UsageError(
             Diagnostic{"", 0, 0, "--results without --to calculix.", "results of CalculiX", "add  --to calculix"});
@@ -143,10 +99,13 @@ void mesh_flags(CLI::App& sub, MeshArguments& a)
 
 } // namespace
 
-Command mesh_command()
+Command mesh_command(Carry<MeshArguments> calculix)
 {
+    const auto carry = [calculix](const MeshArguments& arguments, const Streams& streams) {
+        return arguments.to == "calculix" ? calculix(arguments, streams) : mesh(arguments, streams);
+    };
     return {"mesh", "the finite-element mesh of a scene: sizes and shapes; written for Gmsh or CalculiX",
-            "damslip mesh examples/reference_dam.toml --out dam.msh", with_flags<MeshArguments>(mesh_flags, mesh)};
+            "damslip mesh examples/reference_dam.toml --out dam.msh", with_flags<MeshArguments>(mesh_flags, carry)};
 }
 
 } // namespace damslip::cli

@@ -3,6 +3,7 @@
 #include "cli/arguments.hpp"
 #include "cli/terminal/interrupt.hpp"
 #include "cli/terminal/visible_stream.hpp"
+#include "cli/verifier.hpp"
 #include "core/cache_folder.hpp"
 #include "core/usage_error.hpp"
 
@@ -55,17 +56,21 @@ void prepare_farewell(Form form)
 } // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out, std::ostream& raw_talk,
-                bool talk_is_terminal)
+                bool talk_is_terminal, std::span<const Command> rows)
 {
     VisibleStream out(raw_out), talk(raw_talk);
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     const Form form = json ? Form::json : Form::text;
     try {
-        const Invocation invocation = parse_arguments(arguments);
+        const Invocation invocation = parse_arguments(arguments, rows);
         prepare_farewell(form);
         const InterruptGuard interrupt;
         Streams streams{out, talk, invocation.form, invocation.quiet, talk_is_terminal && !invocation.quiet};
         if (streams.terminal) streams.bar = &raw_talk;
+        streams.hand_on = [&] {
+            raw_out.flush(), raw_talk.flush();
+            return start_verifier(arguments);
+        };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
         const int code = invocation.run(streams);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cli/command.hpp"
+
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -7,8 +9,9 @@
 namespace damslip::cli {
 
 /// The whole program but for the process around it. @returns an ExitCode
-/// @param talk  a terminal: progress is drawn on it
-int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& talk,
-                bool talk_is_terminal);
+/// @param talk_is_terminal  progress is drawn on it
+/// @param rows              its commands
+int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& talk, bool talk_is_terminal,
+                std::span<const Command> rows = commands());
 
 } // namespace damslip::cli

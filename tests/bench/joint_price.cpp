@@ -2,6 +2,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -77,7 +78,7 @@ double median(std::vector<double> values)
 void measure(const Case& c, int repeats)
 {
     const Watch nobody;
-    Scene plain = read_scene(std::string(DAMSLIP_SOURCE_DIR) + "/examples/" + c.scene);
+    Scene plain = read_scene(std::string(source_dir()) + "/examples/" + c.scene);
     no_law(plain);
     plain.mesh.contact_size = c.contact_size;
     plain.mesh.size = 2.0;

@@ -28,7 +28,7 @@ for page in "${pages[@]}"; do
     done <"$work/links"
 
     # Files of the source tree in backticks: a path with a folder of it in front.
-    { grep -o '`[^`]*`' "$page" || true; } | tr -d '`' | grep -xE '(src|sliding|fe2d|records|tests|examples|scripts|docs|cmake)/[A-Za-z0-9_./-]+' |
+    { grep -o '`[^`]*`' "$page" || true; } | tr -d '`' | grep -xE '(src|sliding|fe2d|records|verification|studies|tests|examples|scripts|docs|cmake)/[A-Za-z0-9_./-]+' |
         sort -u >"$work/files" || true
     while IFS= read -r file; do
         [ -e "$file" ] || compgen -G "$file.*" >/dev/null || wrong "$page: $file is not there"
@@ -55,6 +55,7 @@ done <"$work/rows"
 # Commands: lines of code that call the program, and calls in backticks.
 { grep -hE '^    (build/release/)?damslip ' "${pages[@]}"; cat "${pages[@]}" | grep -o '`damslip [^`]*`' | tr -d '`'; } |
     sed 's/^ *//; s|^build/release/||; s/  *#.*//; s/ > .*//; s/[|\\].*//' | sort -u >"$work/commands"
+{ "$program" verify --list; "$program" verify --hard --list; } >"$work/cases"
 while read -r _ command rest; do
     case $command in -* | [A-Z]* | '') continue ;; esac
     read -ra words <<<"$rest"
@@ -69,7 +70,7 @@ while read -r _ command rest; do
         esac
     done
     if [ "$command" = verify ] && [[ ${words[0]:-} =~ ^[a-z] ]]; then
-        grep -qF "## ${words[0]}" docs/verification.md || wrong "damslip verify ${words[0]}: there is no such case"
+        grep -qF -- "${words[0]}" "$work/cases" || wrong "damslip verify ${words[0]}: there is no such case"
     fi
 done <"$work/commands"
 [ "$(wc -l <"$work/commands")" -ge 30 ] || wrong "only $(wc -l <"$work/commands") commands were found"

@@ -117,10 +117,6 @@ TEST(CliInput, RecordGenerateNamesTheRange)
     says("--pga-m-s2", "-1", "0.001 to 50 m/s2");
 }
 
-TEST(CliInput, VerifyWithoutACase)
-{
-    EXPECT_EQ(run({"verify", "no.such.case"}).code, 2);
-}
 TEST(CliInput, CompletionForAnUnknownShell)
 {
     EXPECT_EQ(run({"completion", "tcsh"}).code, 2);

@@ -4,6 +4,7 @@
 #include "core/usage_error.hpp"
 #include "pages/record/record_tables.hpp"
 #include "records/generate/spectrum_file.hpp"
+#include "source_dir.hpp"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -115,7 +116,7 @@ TEST(RecordCommand, converts_scales_and_informs)
     using namespace cli;
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "damslip_record_command";
     std::filesystem::create_directories(folder);
-    const auto data = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "records/data/rock_1.0_h.csv";
+    const auto data = std::filesystem::path(source_dir()) / "records/data/rock_1.0_h.csv";
     std::ostringstream out, talk;
     const Streams streams{out, talk, Form::text, true};
     RecordInput input;

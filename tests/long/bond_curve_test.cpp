@@ -2,6 +2,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ double slip_with(const char* section, double cohesion_kPa, double contact_size)
         text += fmt::format("cohesion_kPa = {}\ntensile_strength_kPa = {}\nfracture_energy_shear_N_m = 1500\n"
                             "fracture_energy_tension_N_m = 150\n",
                             cohesion_kPa, 0.5 * cohesion_kPa);
-    const std::string records = std::string(DAMSLIP_SOURCE_DIR) + "/records/data/";
+    const std::string records = std::string(source_dir()) + "/records/data/";
     text += fmt::format("[mesh]\ncontact_size_m = {}\n[motion]\npolarity = 1\n[[motion.record]]\nname = \"EC8\"\n"
                         "horizontal = \"{}ec8_3.0_h.csv\"\nvertical = \"{}ec8_3.0_v.csv\"\n",
                         contact_size, records, records);

@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "random/random_motion.hpp"
+#include "source_dir.hpp"
 
 #include <fmt/format.h>
 
@@ -159,7 +160,7 @@ std::string example(Draw& draw)
     const std::string name =
         draw.word({"reference_dam", "reference_dam_profile", "reference_dam_ruptured", "reference_dam_printed_uplift",
                    "reference_dam_goldgruber", "triangular_dam", "cracked_upper_block", "koyna", "pine_flat"});
-    return read_file(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples" / (name + ".toml"));
+    return read_file(std::filesystem::path(source_dir()) / "examples" / (name + ".toml"));
 }
 
 } // namespace

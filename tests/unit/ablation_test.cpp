@@ -4,6 +4,7 @@
 #include "scene/read.hpp"
 #include "scene/write.hpp"
 #include "sweep_scene.hpp"
+#include "source_dir.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -303,7 +304,7 @@ protected:
 TEST_F(AblateScene, EveryExampleGivesTheSameTableAgain)
 {
     std::size_t examples = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(DAMSLIP_SOURCE_DIR "/examples")) {
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(source_dir()) + "/examples")) {
         if (entry.path().extension() != ".toml" || entry.path().filename() == "rock_wedge.toml") continue; // no section
         SCOPED_TRACE(entry.path().filename().string());
         const std::vector<std::string> short_record{"--record", path("pulse.csv"), "--vertical", path("late.csv")};

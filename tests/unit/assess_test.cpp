@@ -2,6 +2,7 @@
 #include "pages/assess/assess_report.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -34,7 +35,7 @@ ContactRun fe_run_of(const std::string& record, int polarity, double slip_mm)
 /// The reference dam, whose rigid block slides 2.559 mm, without finite elements.
 Assessment screened(double allowable_mm)
 {
-    Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam_profile.toml");
+    Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam_profile.toml");
     scene.criteria.allowable_slip = allowable_mm * one_mm;
     scene.criteria.document.clear();
     Assessment a;
@@ -144,7 +145,7 @@ TEST(Assess, RangeOfARunWithoutErrorHoldsTheOtherPolarityWithIts)
 
 TEST(Assess, TimeForElementsOfTwiceTheSizeAloneGivesTheirSlipWithoutAnError)
 {
-    Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam_profile.toml");
+    Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam_profile.toml");
     scene.mesh.size = 4.0;
     scene.mesh.contact_size = 2.5;
     scene.criteria.allowable_slip = 5.0;
@@ -236,14 +237,14 @@ TEST(Assess, NumbersAreTheOnesOfTheJson)
 
 TEST(AssessCommand, BadInputIsRefusedBeforeAnythingRuns)
 {
-    const std::string dam = std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam_profile.toml";
+    const std::string dam = std::string(source_dir()) + "/examples/reference_dam_profile.toml";
     const ProgramAnswer no_time = answer_of({"assess", dam, "--budget", "0"});
     EXPECT_EQ(no_time.code, 2);
     EXPECT_NE(no_time.talk.find("seconds > 0"), std::string::npos);
-    const ProgramAnswer no_record = answer_of({"assess", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml"});
+    const ProgramAnswer no_record = answer_of({"assess", std::string(source_dir()) + "/examples/koyna.toml"});
     EXPECT_EQ(no_record.code, 3);
     EXPECT_NE(no_record.talk.find("--record FILE"), std::string::npos);
-    const ProgramAnswer wedge = answer_of({"assess", std::string(DAMSLIP_SOURCE_DIR) + "/examples/rock_wedge.toml"});
+    const ProgramAnswer wedge = answer_of({"assess", std::string(source_dir()) + "/examples/rock_wedge.toml"});
     EXPECT_EQ(wedge.code, 3);
 }
 

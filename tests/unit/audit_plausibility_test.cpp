@@ -5,6 +5,7 @@
 #include "scene/read.hpp"
 #include "scene/usual.hpp"
 #include "scene/write.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -170,7 +171,7 @@ TEST(Audit, A18_shipped_scenes_raise_no_note)
     int scenes = 0;
     for (const char* below : {"/examples", "/tests/report"})
         for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(DAMSLIP_SOURCE_DIR + std::string(below))) {
+             std::filesystem::recursive_directory_iterator(source_dir() + std::string(below))) {
             if (entry.path().extension() != ".toml") continue;
             ++scenes;
             for (const std::string& note : note_texts(read_scene(entry.path()).notes)) ADD_FAILURE() << note;
@@ -217,9 +218,8 @@ TEST(Audit, A18_notes_reach_standard_error_text_json_and_report)
 TEST(Audit, A18_strict_refuses_before_anything_is_computed)
 {
     const Folder folder;
-    for (const char* command : {"screen", "fe", "sweep", "modes", "mesh", "explain", "accuracy", "study"}) {
+    for (const char* command : {"screen", "fe", "sweep", "modes", "mesh", "explain", "accuracy"}) {
         std::vector<std::string> arguments{command, folder.path("stiff.toml"), "--strict"};
-        if (std::string(command) == "study") arguments.insert(arguments.end(), {"--out", folder.path("study")});
         const ProgramAnswer a = answer_of(arguments);
         EXPECT_EQ(a.code, 3) << command << a.talk;
         EXPECT_EQ(a.out, "") << command;

@@ -10,6 +10,7 @@
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "scene/with_friction.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +74,7 @@ public:
     /// earthquake has one answer.
     std::string unsolvable_dam() const
     {
-        const std::filesystem::path root = DAMSLIP_SOURCE_DIR;
+        const std::filesystem::path root = source_dir();
         std::string text = text_of(root / "examples/reference_dam.toml");
         for (std::size_t at = 0; (at = text.find("../records/", at)) != std::string::npos;)
             text.replace(at, 3, root.string() + "/");
@@ -136,7 +137,7 @@ std::string table_of_the_list()
 
 TEST(Audit, Statuses_the_page_is_the_list)
 {
-    const std::string page = text_of(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "docs/statuses.md");
+    const std::string page = text_of(std::filesystem::path(source_dir()) / "docs/statuses.md");
     EXPECT_NE(page.find(table_of_the_list()), std::string::npos) << "docs/statuses.md wants this table:\n"
                                                                  << table_of_the_list();
 }
@@ -402,7 +403,7 @@ TEST(Audit, B3_a_solver_without_an_answer_is_not_refused_by_accuracy)
 
 TEST(Audit, B3_a_seepage_that_is_not_solved_is_a_rung_without_an_answer)
 {
-    Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam.toml");
+    Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam.toml");
     scene.motion.records.resize(1);
     const Records records = load_records(scene, Method::rigid_block);
     const Watch nobody;

@@ -121,7 +121,7 @@ TEST(Audit, C_a_folder_for_a_file_is_refused_before_anything_is_computed)
         EXPECT_EQ(a.code, 2) << command[0];
         EXPECT_NE(a.talk.find("is a folder"), std::string::npos) << a.talk;
     }
-    for (const char* command : {"screen", "fe", "modes", "study", "accuracy"}) {
+    for (const char* command : {"screen", "fe", "modes", "accuracy"}) {
         const ProgramAnswer a = answer_of({command, scene, "--out", w.in("pulse.csv")});
         EXPECT_EQ(a.code, 2) << command;
         EXPECT_NE(a.talk.find("is not a folder"), std::string::npos) << a.talk;

@@ -3,6 +3,7 @@
 #include "core/statistics.hpp"
 #include "core/usage_error.hpp"
 #include "program_answer.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -241,10 +242,10 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
 {
     // The example with added mass by name: "auto" makes it acoustic for modes, while contact runs keep added mass. On
     // massless rock, which is condensed.
-    std::ifstream in(DAMSLIP_SOURCE_DIR "/examples/reference_dam_profile.toml");
+    std::ifstream in(std::string(source_dir()) + "/examples/reference_dam_profile.toml");
     std::string text((std::istreambuf_iterator<char>(in)), {});
     for (std::size_t at = 0; (at = text.find("../records", at)) != std::string::npos; at += 10)
-        text.replace(at, 10, DAMSLIP_SOURCE_DIR "/records");
+        text.replace(at, 10, std::string(source_dir()) + "/records");
     text.insert(text.find("[reservoir]") + 11, "\nmodel = \"added-mass\"");
     text.insert(text.find("[foundation]") + 12, "\nmass = \"massless\"");
     const std::string file = (folder / "added_mass.toml").string();
@@ -269,7 +270,7 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
 
     // Koyna has neither water nor rock nor curtain: the dam is all there is.
     const auto bare = nlohmann::json::parse(
-        answer_of({"explain", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml", "--method", "fe", "--json"})
+        answer_of({"explain", std::string(source_dir()) + "/examples/koyna.toml", "--method", "fe", "--json"})
             .out);
     ASSERT_EQ(bare["model"].size(), 2u);
     EXPECT_EQ(bare["model"][0]["effect"], "dam");
@@ -279,7 +280,7 @@ TEST_F(CliScene, ExplainCountsAreThoseOfTheRun)
 // The example's joint at 51.5 m is 12 m long; the FE effects name it, limit equilibrium says that it leaves it out.
 TEST_F(CliScene, LiftJointsAreExplainedAndLeftOutOfScreening)
 {
-    const std::string file = std::string(DAMSLIP_SOURCE_DIR) + "/examples/cracked_upper_block.toml";
+    const std::string file = std::string(source_dir()) + "/examples/cracked_upper_block.toml";
     const ProgramAnswer a = answer_of({"explain", file, "--method", "fe", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto plan = nlohmann::json::parse(a.out);
@@ -368,7 +369,7 @@ TEST_F(CliScene, StaticSlidingHasNoSlip)
 TEST_F(CliScene, ModesGiveTheFrequencies)
 {
     const ProgramAnswer a =
-        answer_of({"modes", std::string(DAMSLIP_SOURCE_DIR) + "/examples/koyna.toml", "--count", "2", "--json"});
+        answer_of({"modes", std::string(source_dir()) + "/examples/koyna.toml", "--count", "2", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto j = nlohmann::json::parse(a.out);
     EXPECT_NEAR(j["modes"][0]["frequency_Hz"].get<double>(), 3.07, 0.1); // Chopra & Chakrabarti (1973), 3 %

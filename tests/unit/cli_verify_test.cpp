@@ -1,6 +1,6 @@
 // The commands that print what is verified, and the one that prints a mesh.
 #include "core/file.hpp"
-#include "program_answer.hpp"
+#include "verifier_answer.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,21 +15,21 @@ using nlohmann::json;
 
 TEST(CliVerify, CountsItsChecks)
 {
-    const ProgramAnswer a = answer_of({"verify", "records.measure.triangle", "--json"});
+    const ProgramAnswer a = verifier_answer({"verify", "records.measure.triangle", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const json j = json::parse(a.out);
     EXPECT_EQ(j["cases"], 1);
     EXPECT_EQ(j["failed"], 0);
     EXPECT_EQ(j["checks"].get<std::size_t>(), j["results"].size());
     EXPECT_GT(j["results"].size(), 5u);
-    const ProgramAnswer text = answer_of({"verify", "records.measure.triangle"});
+    const ProgramAnswer text = verifier_answer({"verify", "records.measure.triangle"});
     EXPECT_NE(text.out.find("1 cases, "), std::string::npos);
     EXPECT_NE(text.out.find(", 0 failed"), std::string::npos);
 }
 
 TEST(CliVerify, MarkdownHasClaimSourceAndTolerance)
 {
-    const ProgramAnswer a = answer_of({"verify", "records.measure.triangle", "--markdown"});
+    const ProgramAnswer a = verifier_answer({"verify", "records.measure.triangle", "--markdown"});
     ASSERT_EQ(a.code, 0) << a.talk;
     for (const char* words : {"## records.measure.triangle", "Source: ", "Tolerance: ", "| quantity | unit |"})
         EXPECT_NE(a.out.find(words), std::string::npos) << words;
@@ -37,18 +37,18 @@ TEST(CliVerify, MarkdownHasClaimSourceAndTolerance)
 
 TEST(CliVerify, HardCasesShowBothAnswers)
 {
-    const ProgramAnswer a = answer_of({"verify", "--hard", "one-spike", "--json"});
+    const ProgramAnswer a = verifier_answer({"verify", "--hard", "one-spike", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const json row = json::parse(a.out)["results"].at(0);
     EXPECT_NEAR(row["value_a"].get<double>(), row["value_b"].get<double>(), row["tolerance"].get<double>());
     EXPECT_NE(row["value_a"], row["value_b"]);
-    EXPECT_NE(answer_of({"verify", "--hard", "one-spike"}).out.find("hard.record.one-spike"), std::string::npos);
+    EXPECT_NE(verifier_answer({"verify", "--hard", "one-spike"}).out.find("hard.record.one-spike"), std::string::npos);
 }
 
 TEST(CliVerify, AFilterThatFindsNothingIsRefused)
 {
     for (const char* kind : {"--markdown", "--hard"}) {
-        const ProgramAnswer a = answer_of({"verify", "no.such.case", kind});
+        const ProgramAnswer a = verifier_answer({"verify", "no.such.case", kind});
         EXPECT_EQ(a.code, 2);
         EXPECT_NE(a.talk.find("no case has \"no.such.case\" in its name"), std::string::npos) << a.talk;
     }

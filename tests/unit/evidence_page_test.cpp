@@ -1,7 +1,7 @@
 // What is shown of results of others: shares and quantiles against counts by hand, the figure's points against their logarithms, and
 // the command on a set whose numbers are closed forms.
-#include "pages/verify/evidence.hpp"
-#include "program_answer.hpp"
+#include "verification/pages/evidence.hpp"
+#include "verifier_answer.hpp"
 #include "slammer_files.hpp"
 
 namespace damslip::slammer_tests {
@@ -136,7 +136,7 @@ TEST_F(EvidenceCommand, PageAndFigureOfAFolder)
     write_set(forty(1.0));
     const std::filesystem::path svg = folder / "slips.svg";
     const ProgramAnswer page =
-        answer_of({"verify", folder.string(), "--external", "--markdown", "--svg", svg.string()});
+        verifier_answer({"verify", folder.string(), "--external", "--markdown", "--svg", svg.string()});
     EXPECT_EQ(page.code, 0) << page.talk;
     EXPECT_NE(page.out.find("\n## slammer\nJibson, Rathje, Jibson & Lee (2013)"), std::string::npos);
     EXPECT_NE(page.out.find("| rigid block, slip | 80 | 80 |"), std::string::npos) << page.out;
@@ -154,7 +154,7 @@ TEST_F(EvidenceCommand, PageAndFigureOfAFolder)
 TEST_F(EvidenceCommand, ExitCodeFollowsTheShareWithin)
 {
     write_set(forty(1.2));
-    const ProgramAnswer bad = answer_of({"verify", folder.string(), "--external", "--json"});
+    const ProgramAnswer bad = verifier_answer({"verify", folder.string(), "--external", "--json"});
     EXPECT_EQ(bad.code, 4);
     const Json found = Json::parse(bad.out);
     std::size_t told = 0;
@@ -173,7 +173,7 @@ TEST_F(EvidenceCommand, ExitCodeFollowsTheShareWithin)
 
 TEST_F(EvidenceCommand, AFolderWithoutTheSetIsRefused)
 {
-    const ProgramAnswer a = answer_of({"verify", folder.string(), "--external"});
+    const ProgramAnswer a = verifier_answer({"verify", folder.string(), "--external"});
     EXPECT_EQ(a.code, 3);
     EXPECT_NE(a.talk.find(set_file() + ": error: there is no such file."), std::string::npos) << a.talk;
 }

@@ -4,6 +4,7 @@
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ using namespace damslip;
 std::vector<std::filesystem::path> example_files()
 {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(DAMSLIP_SOURCE_DIR "/examples"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(source_dir()) + "/examples"))
         if (entry.path().extension() == ".toml") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;

@@ -1,5 +1,5 @@
 // Results of others: what is in the program, and SLAMMER's schemes against the exact analyses they approximate.
-#include "program_answer.hpp"
+#include "verifier_answer.hpp"
 
 #include "sliding/flexible/flexible_slide.hpp"
 #include "verification/external/external.hpp"
@@ -95,7 +95,7 @@ TEST(ExternalEvidence, AMissingSetIsNamed)
 // A folder that is named and does not hold the set is an error, not a smaller answer.
 TEST(ExternalEvidence, AFolderWithoutTheSetIsRefused)
 {
-    const ProgramAnswer a = answer_of({"verify", "--external", "/nowhere", "--quiet"});
+    const ProgramAnswer a = verifier_answer({"verify", "--external", "/nowhere", "--quiet"});
     EXPECT_EQ(a.code, 3);
     EXPECT_NE(a.talk.find("slammer_results.json.gz"), std::string::npos) << a.talk;
 }
@@ -103,7 +103,7 @@ TEST(ExternalEvidence, AFolderWithoutTheSetIsRefused)
 // Without a folder: all that the program holds; what lies outside is Pine Flat's base that bends, and its reason has numbers.
 TEST(ExternalEvidence, WithoutAFolderEveryMissHasItsReason)
 {
-    const ProgramAnswer a = answer_of({"verify", "--external", "--quiet", "--json"});
+    const ProgramAnswer a = verifier_answer({"verify", "--external", "--quiet", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto j = nlohmann::json::parse(a.out);
     EXPECT_GE(j["numbers"], 43);

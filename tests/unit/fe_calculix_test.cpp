@@ -1,8 +1,8 @@
 // Decks for CalculiX, and its printed results. That both programs agree is tested by scripts/second-solver.sh.
-#include "analysis/second_solver/read_dat.hpp"
+#include "verification/second_solver/read_dat.hpp"
 #include "core/input_error.hpp"
 #include "fe2d/assembly/added_mass_points.hpp"
-#include "fe2d/calculix/deck.hpp"
+#include "verification/second_solver/deck.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>

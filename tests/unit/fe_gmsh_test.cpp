@@ -7,6 +7,7 @@
 #include "scene/read.hpp"
 #include "scene/write.hpp"
 #include "verification/cases/mixed_mesh.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -201,7 +202,7 @@ TEST(FeGmsh, TheResolvedSceneNamesTheFile)
 
 TEST(FeGmsh, TheExampleOfGmshItself)
 {
-    const Scene scene = read_scene(DAMSLIP_SOURCE_DIR "/examples/imported_mesh/dam.toml");
+    const Scene scene = read_scene(std::string(source_dir()) + "/examples/imported_mesh/dam.toml");
     const ImportedMesh imported = import_mesh(scene);
     EXPECT_EQ(imported.summary.version, "4.1");
     EXPECT_EQ(imported.summary.unused, 0);

@@ -7,6 +7,7 @@
 #include "scene/fragility_input.hpp"
 #include "scene/fragility_keys.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -137,13 +138,13 @@ protected:
     /// What `damslip fragility` says of it. The talk tells of runs, too: there must be none.
     ProgramAnswer answer(const std::string& curve, const std::string& levels, const std::string& out = "") const
     {
-        const std::filesystem::path example = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/fragility";
+        const std::filesystem::path example = std::filesystem::path(source_dir()) / "examples/fragility";
         std::string scene = read_file(example / "dam.toml");
         const auto put = [&scene](const std::string& old, const std::string& text) {
             for (std::size_t at = scene.find(old); at != std::string::npos; at = scene.find(old, at + text.size()))
                 scene.replace(at, old.size(), text);
         };
-        put("../../records", std::string(DAMSLIP_SOURCE_DIR) + "/records");
+        put("../../records", std::string(source_dir()) + "/records");
         put("levels_g = [0.05, 0.075, 0.1, 0.125, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]", "levels_g = " + levels);
         std::ofstream(folder_ / "dam.toml") << scene;
         if (!curve.empty()) std::ofstream(folder_ / "hazard.csv") << curve;

@@ -5,6 +5,7 @@
 #include "program_answer.hpp"
 #include "records/read/read_record.hpp"
 #include "verification/exact/block_slip.hpp"
+#include "source_dir.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,7 @@ TEST(Fragility, RecordedMotions)
 {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("damslip recorded " + std::to_string(::getpid()));
-    const std::filesystem::path data = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "records" / "data";
+    const std::filesystem::path data = std::filesystem::path(source_dir()) / "records" / "data";
     std::string list = "horizontal\n";
     std::vector<Record> records;
     for (const char* name : {"rock_1.0_h.csv", "ec8_3.0_h.csv"}) {

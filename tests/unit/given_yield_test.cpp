@@ -4,6 +4,7 @@
 #include "records/read/read_record.hpp"
 #include "scene/read.hpp"
 #include "sliding/block/fixed_yield.hpp"
+#include "source_dir.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -48,7 +49,7 @@ TEST(GivenYield, OneNumberIsTheBlockOfConstantYield)
 TEST(GivenYield, YieldOfASceneGivenDirectlySlidesAsTheScene)
 {
     // Dam with water, uplift and added mass: on a level base only its yield rules how far it slides horizontally.
-    const Scene scene = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "examples/reference_dam_profile.toml");
+    const Scene scene = read_scene(std::filesystem::path(source_dir()) / "examples/reference_dam_profile.toml");
     const Ready ready = prepare(scene, Method::rigid_block);
     const RigidModel model = ready.rigid_model();
     GroundMotion motion = ready.motion(ready.records().front());

@@ -2,6 +2,7 @@
 #include "program_answer.hpp"
 
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ protected:
     }
 
     std::filesystem::path folder;
-    const std::string record = std::string(DAMSLIP_SOURCE_DIR) + "/records/data/rock_1.0_h.csv";
+    const std::string record = std::string(source_dir()) + "/records/data/rock_1.0_h.csv";
 };
 
 TEST_F(InitDraw, AFewNumbersMakeASceneThatRuns)
@@ -84,7 +85,7 @@ TEST_F(InitDraw, AbsurdNumbersAreRefusedWithTheirRange)
 TEST_F(InitDraw, TheSectionIsAFileOfItsOwn)
 {
     const ProgramAnswer drawn =
-        answer_of({"draw", std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam.toml", "--out", path("d.svg")});
+        answer_of({"draw", std::string(source_dir()) + "/examples/reference_dam.toml", "--out", path("d.svg")});
     ASSERT_EQ(drawn.code, 0) << drawn.talk;
     const std::string svg = content("d.svg");
     EXPECT_EQ(svg.rfind("<svg", 0), 0u);

@@ -8,6 +8,7 @@
 #include "scene/read.hpp"
 
 #include "program_answer.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +50,7 @@ class OneWay : public testing::TestWithParam<OneScene> {
 protected:
     OneWay()
     {
-        const std::filesystem::path data = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report";
+        const std::filesystem::path data = std::filesystem::path(source_dir()) / "tests/report";
         const OneScene& s = GetParam();
         std::string text =
             "[section]\nheight_m = 20\nbase_m = 16\ncrest_m = 4\nneck_m = 4\n[dam]\n"

@@ -10,6 +10,7 @@
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/write/write_record.hpp"
+#include "source_dir.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -203,7 +204,7 @@ const std::vector<Shipped> shipped{
     {"ec8_3.0_h", "ec8-1", "h", 3.0, 25.0, 3},      {"ec8_3.0_v", "ec8-1", "v", 2.7, 25.0, 3},
     {"rock_2.0_long_h", "rock", "h", 2.0, 90.0, 2}, {"rock_2.0_long_v", "rock", "v", 2.0, 90.0, 2},
 };
-const std::filesystem::path data_folder = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "records/data";
+const std::filesystem::path data_folder = std::filesystem::path(source_dir()) / "records/data";
 
 class ShippedRecord : public testing::TestWithParam<Shipped> {};
 

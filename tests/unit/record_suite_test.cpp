@@ -8,6 +8,7 @@
 #include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"
 #include "records/suite/select_suite.hpp"
+#include "source_dir.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -165,7 +166,7 @@ protected:
         std::filesystem::create_directories(folder);
         for (const char* name : {"rock_1.0", "ec8_3.0"})
             for (const char* component : {"_h.csv", "_v.csv"})
-                std::filesystem::copy_file(std::string(DAMSLIP_SOURCE_DIR "/records/data/") + name + component,
+                std::filesystem::copy_file(std::string(source_dir()) + "/records/data/" + name + component,
                                            folder / (std::string(name) + component));
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
@@ -185,10 +186,10 @@ TEST_F(RecordSuiteCommand, writes_a_list_that_is_read_back_with_its_factors)
     const double factor = answer["selected"][0]["factor"];
     EXPECT_NEAR(factor, 0.5, 0.05); // its spectrum follows the target within 10 %
     const auto screened =
-        answer_of({"screen", DAMSLIP_SOURCE_DIR "/examples/reference_dam_profile.toml", "--records", list, "--json"});
+        answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records", list, "--json"});
     const auto row = nlohmann::json::parse(screened.out)["displacements"][0];
     EXPECT_NEAR(row["pga_m_s2"].get<double>(), factor * answer["records"][0]["pga_m_s2"].get<double>(), 1e-9);
-    const auto reported = answer_of({"screen", DAMSLIP_SOURCE_DIR "/examples/reference_dam_profile.toml", "--records",
+    const auto reported = answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records",
                                      list, "--out", (folder / "out").string()});
     EXPECT_NE(read_file(folder / "out" / "report.html").find(fmt::format("times {:.6g}", factor)), std::string::npos);
 }
@@ -238,7 +239,7 @@ TEST_F(RecordSuiteCommand, a_matched_suite_meets_the_target_and_is_read_back)
         EXPECT_NEAR(measure(scaled_up).pga / measure(up).pga, factor, 1e-3 * factor); // printed with four digits
     }
     const auto screened = answer_of(
-        {"screen", DAMSLIP_SOURCE_DIR "/examples/reference_dam_profile.toml", "--records", list.string(), "--json"});
+        {"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records", list.string(), "--json"});
     ASSERT_EQ(screened.code, 0) << screened.talk;
     for (const auto& row : nlohmann::json::parse(screened.out)["displacements"])
         EXPECT_NEAR(row["pga_m_s2"].get<double>(), 1.5, 1e-5);

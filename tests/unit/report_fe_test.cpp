@@ -5,6 +5,7 @@
 #include "pages/fe/fe_report.hpp"
 #include "pages/report/page_html.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ struct FeReportRun {
 
 FeReportRun make_run()
 {
-    const Scene given = read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report/fe_dam.toml");
+    const Scene given = read_scene(std::filesystem::path(source_dir()) / "tests/report/fe_dam.toml");
     const Watch nobody;
     const Ready ready = prepare(given, Method::finite_elements);
     const EffectPlan& plan = ready.plan;

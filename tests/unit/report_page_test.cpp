@@ -4,6 +4,7 @@
 #include "pages/report/escape.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/report/sketch.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -150,7 +151,7 @@ TEST(ReportPage, TablesShowDigitsUnitsVerdictsAndNothing)
 
 TEST(ReportPage, VendoredFilesAreThoseOfTheirChecksums)
 {
-    const std::filesystem::path folder = std::filesystem::path(DAMSLIP_SOURCE_DIR) / "src/pages/report/vendor/uplot";
+    const std::filesystem::path folder = std::filesystem::path(source_dir()) / "src/pages/report/vendor/uplot";
     std::istringstream sums(read_file(folder / "SHA256SUMS"));
     std::string sum, name;
     std::size_t n = 0;

@@ -1,6 +1,7 @@
 #include "core/units.hpp"
 #include "pages/screen/screen_report.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ using namespace damslip::pages;
 /// The scene of the browser test, which names its records.
 Scene report_scene()
 {
-    return read_scene(std::filesystem::path(DAMSLIP_SOURCE_DIR) / "tests/report/dam.toml");
+    return read_scene(std::filesystem::path(source_dir()) / "tests/report/dam.toml");
 }
 
 struct ReportRun {

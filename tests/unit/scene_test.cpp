@@ -3,6 +3,7 @@
 #include "scene/read.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
+#include "source_dir.hpp"
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -138,7 +139,7 @@ TEST(Scene, ADateOfAProjectIsAText)
 
 TEST(Scene, KeyDocumentationIsCurrent)
 {
-    std::ifstream in(DAMSLIP_SOURCE_DIR "/docs/scene-keys.md");
+    std::ifstream in(std::string(source_dir()) + "/docs/scene-keys.md");
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     EXPECT_TRUE(text == scene_keys_markdown()) << "make it again: damslip schema --markdown > docs/scene-keys.md";
 }

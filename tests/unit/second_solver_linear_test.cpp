@@ -1,7 +1,7 @@
 // Modes and tied earthquakes beside a second solver. CalculiX is not at hand, so its part is played by calculix_reader.hpp: it reads
 // the deck alone, has elements, equations and superposition of its own, and prints what ccx would. Both then compute the same model
 // by different code, and what is put wrong in its answer on purpose has to come out as the difference.
-#include "program_answer.hpp"
+#include "verifier_answer.hpp"
 #include "second_solver_scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -120,7 +120,7 @@ TEST_F(SecondSolverLinear, TheCommandWritesTheDeckAndComparesTheResults)
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> all = modes;
         all.insert(all.end(), more.begin(), more.end());
-        return answer_of(all);
+        return verifier_answer(all);
     };
     const ProgramAnswer written = with({"--out", inp});
     ASSERT_EQ(written.code, 0) << written.talk;

@@ -1,5 +1,5 @@
 // What is not written or compared for CalculiX, each with the scene's or the result file's name, what would do, and a fix that does.
-#include "program_answer.hpp"
+#include "verifier_answer.hpp"
 #include "second_solver_scene.hpp"
 
 #include <functional>
@@ -236,7 +236,7 @@ TEST_F(SecondSolverRefusals, TheCommandAsksForWhatIsMissing)
     const std::string scene = (folder / "block.toml").string(), dat = (folder / "block.dat").string();
     write_file(scene, BlockScene{}.text());
     write_file(dat, "nothing");
-    const ProgramAnswer aimless = answer_of({"mesh", scene, "--to", "calculix"});
+    const ProgramAnswer aimless = verifier_answer({"mesh", scene, "--to", "calculix"});
     EXPECT_EQ(aimless.code, 2);
     EXPECT_NE(aimless.talk.find("--to calculix without --out and without --results."), std::string::npos)
         << aimless.talk;
@@ -248,7 +248,7 @@ TEST_F(SecondSolverRefusals, TheCommandAsksForWhatIsMissing)
                                             {"tied", "displacements of the crest"},
                                             {"static-contact", "static stages"}}) {
         const ProgramAnswer empty =
-            answer_of({"mesh", scene, "--to", "calculix", "--analysis", analysis, "--results", dat});
+            verifier_answer({"mesh", scene, "--to", "calculix", "--analysis", analysis, "--results", dat});
         EXPECT_EQ(empty.code, 3) << analysis;
         EXPECT_NE(empty.talk.find(dat + ": error: no " + missing + " in the file."), std::string::npos) << empty.talk;
     }

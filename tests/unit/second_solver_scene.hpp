@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/ready.hpp"
-#include "analysis/second_solver/second_solver.hpp"
+#include "verification/second_solver/second_solver.hpp"
 #include "calculix_reader.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"

@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
 #include "verification/exact/flexible_slip.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -46,7 +47,7 @@ struct SlammerAnalysis {
 std::filesystem::path slammer_folder()
 {
     if (const char* named = std::getenv("DAMSLIP_SLAMMER")) return named;
-    return std::filesystem::path(DAMSLIP_SOURCE_DIR) / "../shared/slammer";
+    return std::filesystem::path(source_dir()) / "../shared/slammer";
 }
 
 class SlammerSet : public testing::Test {

@@ -1,5 +1,5 @@
 // `damslip study`: its grid, findings and files on a small dam.
-#include "study/study_findings.hpp"
+#include "studies/goldgruber_2015/study_findings.hpp"
 #include "sweep_scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -46,7 +46,7 @@ protected:
     }
     Answer study(const std::string& out, std::vector<std::string> more) const
     {
-        return answer_of(
+        return verifier_answer(
             with({"study", path("dam.toml"), "--out", path(out), "--method", "rigid,rigid-v,fe-whole-steps"}, more));
     }
 };
@@ -106,7 +106,7 @@ TEST_F(Study, TwiceTheSizeWithTheSameFrequenciesSlidesAsFar)
 
 TEST_F(Study, RefusesADamWithoutCurtain)
 {
-    const Answer a = answer_of({"study", path("block.toml"), "--out", path("none")});
+    const Answer a = verifier_answer({"study", path("block.toml"), "--out", path("none")});
     EXPECT_EQ(a.code, 2);
     for (const char* words : {"block.toml: error: damslip study needs ", "[curtain]", "damslip sweep"})
         EXPECT_NE(a.talk.find(words), std::string::npos) << a.talk;

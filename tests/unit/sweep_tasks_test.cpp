@@ -5,6 +5,7 @@
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "cli/sweep_plan.hpp"
 #include "scene/read.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -122,7 +123,7 @@ TEST(SweepTasks, FeGroupsHoldTheFrictionsOfOneVariantMotionAndMethod)
 
 Scene dam_with_water()
 {
-    return read_scene(std::string(DAMSLIP_SOURCE_DIR) + "/examples/reference_dam_profile.toml");
+    return read_scene(std::string(source_dir()) + "/examples/reference_dam_profile.toml");
 }
 
 // The source's rock has no mass, whatever the scene says; the other laws leave the rock alone.

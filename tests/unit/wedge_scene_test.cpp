@@ -3,6 +3,7 @@
 #include "scene/read.hpp"
 #include "scene/wedge_shape.hpp"
 #include "scene/write.hpp"
+#include "source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ namespace {
 using namespace damslip;
 using WedgeJson = nlohmann::json;
 
-const std::string wedge_example = std::string(DAMSLIP_SOURCE_DIR) + "/examples/rock_wedge.toml";
+const std::string wedge_example = std::string(source_dir()) + "/examples/rock_wedge.toml";
 
 /// A wedge on two equal planes 45 degrees steep, open to the north, given by volume and areas.
 const std::string symmetric_wedge_text = R"([wedge]

@@ -2,6 +2,7 @@
 
 #include "core/stop.hpp"
 
+#include <functional>
 #include <iosfwd>
 
 namespace damslip::cli {
@@ -18,6 +19,9 @@ struct Streams {
     bool terminal = false;       ///< `talk` is a terminal: progress is drawn
     std::ostream* bar = nullptr; ///< the terminal itself, for a bar that is drawn over; null: no terminal
     StopAsked stop = {};         ///< does the user want the command to end? empty: never
+    /// Hands the whole command line to damslip-verify, the second program; does not come back unless that cannot be started.
+    /// @throws InputError where it is not installed
+    std::function<int()> hand_on = {};
 };
 
 } // namespace damslip::cli

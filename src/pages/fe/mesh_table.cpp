@@ -7,19 +7,6 @@
 
 namespace damslip::pages {
 
-Table second_solver_table(const std::vector<SecondResult>& results)
-{
-    const std::vector<ColumnOf<SecondResult>> columns{
-        {{"quantity", "quantity"}, [](const SecondResult& r) { return r.what; }},
-        {{"unit", "unit"}, [](const SecondResult& r) { return r.unit; }},
-        {{"damslip", "damslip", "", 7}, [](const SecondResult& r) { return r.ours; }},
-        {{"calculix", "CalculiX", "", 7}, [](const SecondResult& r) { return r.theirs; }},
-        {{"difference", "difference", "–", 2}, [](const SecondResult& r) { return r.difference; }},
-        {{"allowed", "allowed", "–", 2}, [](const SecondResult& r) { return r.allowed; }},
-        {{"within", "within"}, [](const SecondResult& r) { return r.within(); }}};
-    return table_of<SecondResult>("Beside CalculiX", columns, results);
-}
-
 Table mesh_table(const fe2d::Mesh& mesh)
 {
     struct Row {

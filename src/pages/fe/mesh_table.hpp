@@ -1,14 +1,10 @@
 #pragma once
 
-#include "analysis/second_solver/second_solver.hpp"
 #include "core/table.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe2d/mesh/mesh.hpp"
 
 namespace damslip::pages {
-
-/// Our results beside those of CalculiX.
-Table second_solver_table(const std::vector<SecondResult>& results);
 
 /// Numbers, sizes and shapes of a mesh, in one row.
 Table mesh_table(const fe2d::Mesh& mesh);

@@ -1,0 +1,7 @@
+#include "cli/process.hpp"
+#include "verification/program/carry.hpp"
+
+int main(int argc, char** argv)
+{
+    return damslip::cli::run_process(argc, argv, damslip::cli::verifier_commands());
+}
