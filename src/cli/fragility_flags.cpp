@@ -67,7 +67,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
 Command fragility_command()
 {
     return {"fragility", "how likely the dam slides too far: P by the strength of the earthquake, rates per year",
-            "damslip fragility examples/fragility.toml --out results/fragility",
+            "damslip fragility examples/fragility/dam.toml --out results/fragility",
             with_flags<FragilityArguments>(fragility_flags, fragility)};
 }
 

@@ -6,7 +6,7 @@
 
 namespace damslip::cli {
 
-/// A stream in front of another one that lets no control character through but newline and tab (pages::visible()):
+/// A stream in front of another one that lets no control character through but newline and tab (visible()):
 /// names and titles come from files, and what they hold must not move a terminal's cursor or hide text.
 class VisibleStream : public std::ostream {
 public:
