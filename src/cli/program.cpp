@@ -85,6 +85,8 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
         const int code = invocation.run(streams);
+        if (json && !out.used()) // a command whose answer is files
+            out << nlohmann::ordered_json{{"schema", "damslip.done/1"}, {"exit_code", code}}.dump(2) << "\n";
         out.flush();
         if (!out) {
             talk << "error: standard output could not be written: the disk is full, or its reader went away.\n";

@@ -35,7 +35,7 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes, const Look
 {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status))
+    if (!fs::exists(status) || path.native().find('\0') != std::string::npos) // the system reads a name up to a NUL
         refuse_read(path, "there is no such file.",
                     "check the name; relative names start from the file that mentions them");
     if (fs::is_directory(status)) refuse_read(path, "this is a folder, not a file.", "name a file inside it");

@@ -105,6 +105,8 @@ DOORS_TEST(D3_RecordsOfOneNameAreToldApart)
     write("b/x.csv", pulse);
     write("same.toml", block + "[[motion.record]]\nhorizontal = \"a/x.csv\"\n[[motion.record]]\nhorizontal = \"b/x.csv\"\n");
     write("list.csv", "horizontal\na/x.csv\nb/x.csv\n");
+    write("nul.csv", std::string("horizontal\npulse.csv\0.csv\n", 26));
+    EXPECT_EQ(answer_of({"screen", path("block.toml"), "--records", path("nul.csv")}).code, 3);
     using Words = std::vector<std::string>;
     for (const Words& more : {Words{path("same.toml")}, Words{path("block.toml"), "--records", path("list.csv")},
                               Words{path("block.toml"), "--record", path("a/x.csv"), path("b/x.csv")}}) {
@@ -228,6 +230,7 @@ DOORS_TEST(D9_JsonIsOneObjectWhereverItIsAskedFor)
                         Words{"mesh", scene, "--out", path("a.msh")}, Words{"man", "fe"}, Words{"man", "--out", path("man")},
                         Words{"completion", "bash"}, Words{"schema"}, Words{"schema", "--markdown"},
                         Words{"init", path("own.toml"), "--height", "30"}, Words{"sweep", scene, "--plan", "--out", path("parts.csv")},
+                        Words{"sweep", scene, "--slurm-array", path("job.sh"), "--out", path("parts.csv")},
                         Words{"sweep", scene, "--out", path("rows.csv")}, Words{"record", "info", path("pulse.csv")},
                         Words{"record", "convert", path("pulse.csv"), "--out", path("pulse.at2")},
                         Words{"slide", "--yield-g", "0.05", "--record", path("pulse.csv")},

@@ -24,6 +24,7 @@ VisibleStream::Buffer::int_type VisibleStream::Buffer::overflow(int_type c)
 
 std::streamsize VisibleStream::Buffer::xsputn(const char* text, std::streamsize count)
 {
+    used_ = used_ || count > 0;
     const std::string whole = unfinished_ + std::string(text, static_cast<std::size_t>(count));
     const std::size_t kept = unfinished_bytes(whole);
     unfinished_ = whole.substr(whole.size() - kept);
