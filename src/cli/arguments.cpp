@@ -145,7 +145,8 @@ UsageError usage_error(const CLI::App& top, const std::vector<std::string>& argu
         if (option->get_positional()) positionals += fmt::format(" {}", name);
         const std::string word = option->get_positional() ? name : "--" + name;
         const std::size_t at = message.find(word), end = at + word.size();
-        if (at >= first || (end < message.size() && std::string_view(" :=,").find(message[end]) == std::string_view::npos))
+        if (at >= first ||
+            (end < message.size() && std::string_view(" :=,").find(message[end]) == std::string_view::npos))
             continue;
         first = at;
         expected = described(*option);

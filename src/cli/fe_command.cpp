@@ -44,7 +44,7 @@ struct FeArguments {
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
     SpectrumArguments spectrum;                ///< peaks by the modes, too
-    int jobs = 0;           ///< threads; 0: all cores
+    int jobs = 0;                              ///< threads; 0: all cores
     bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
 
     bool reports() const { return !out.empty() || !pdf.empty(); }
@@ -52,8 +52,10 @@ struct FeArguments {
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0),
-            arguments.modes,    {},                   arguments.jobs};
+    return {arguments.polarity,  arguments.mesh_error,
+            arguments.reports(), arguments.frames.value_or(0),
+            arguments.modes,     {},
+            arguments.jobs};
 }
 
 /// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked

@@ -79,7 +79,7 @@ int init(const InitArguments& arguments, const Streams& streams)
     write_file(drawing, pages::drawn_section(scene));
     if (!put_json_document(streams, "init", {{"scene", a.out.string()}, {"drawing", drawing.string()}}))
         streams.out << fmt::format("{}: the scene, assumptions marked\n{}: its section\nnext:  damslip screen {}\n",
-                               a.out.string(), drawing.string(), a.out.string());
+                                   a.out.string(), drawing.string(), a.out.string());
     return exit_ok;
 }
 

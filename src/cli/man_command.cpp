@@ -1,5 +1,5 @@
-#include "cli/document.hpp"
 #include "cli/arguments.hpp"
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"

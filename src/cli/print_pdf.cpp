@@ -73,7 +73,8 @@ std::string url_of(const std::filesystem::path& file)
 {
     std::string url = "file://";
     for (const char c : file.string()) {
-        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/-._~").find(c) != std::string_view::npos;
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                           std::string_view("/-._~").find(c) != std::string_view::npos;
         url += plain && static_cast<unsigned char>(c) < 0x80 ? std::string(1, c)
                                                              : fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }

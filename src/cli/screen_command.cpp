@@ -66,7 +66,8 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         write_screening(arguments.out, in);
         if (!streams.quiet)
             streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
-                         << (!given.wedge ? "equilibrium.csv, verdicts.csv, yield.csv, " : "") << (has_rocking(s) ? "rocking_block.csv, " : "") << (s.flexible ? "flexible_block.csv, " : "")
+                         << (!given.wedge ? "equilibrium.csv, verdicts.csv, yield.csv, " : "")
+                         << (has_rocking(s) ? "rocking_block.csv, " : "") << (s.flexible ? "flexible_block.csv, " : "")
                          << "scene.resolved.toml\nreport: " << (arguments.out / "report.html").string() << "\n";
     }
     if (!arguments.pdf.empty()) {
@@ -96,7 +97,8 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
 Command screen_command()
 {
     return {"screen", "limit equilibrium, yield accelerations, rigid-block displacement and regressions",
-            "damslip screen examples/reference_dam.toml --record records/data/rock_1.0_h.csv --vertical records/data/rock_1.0_v.csv",
+            "damslip screen examples/reference_dam.toml --record records/data/rock_1.0_h.csv --vertical "
+            "records/data/rock_1.0_v.csv",
             with_flags<ScreenArguments>(screen_flags, screen)};
 }
 

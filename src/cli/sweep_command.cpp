@@ -1,5 +1,5 @@
-#include "cli/document.hpp"
 #include "cli/sweep_command.hpp"
+#include "cli/document.hpp"
 
 #include "cli/input/make_axes.hpp"
 #include "cli/print_pdf.hpp"
@@ -204,8 +204,7 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
-    if (streams.form == Form::json)
-        streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
+    if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
     if (job.shard) {
         const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
         put(job.out, part_text(identity, *job.shard, csv(table), table.rows.size(), static_cast<std::size_t>(bad)),

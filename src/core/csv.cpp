@@ -82,7 +82,8 @@ std::string csv_cell(std::string_view text)
     std::string cell = visible(text, LineEnds::replaced);
     if (cell.empty()) return cell;
     if (begins_formula(cell)) cell.insert(0, 1, '\'');
-    if (cell.find_first_of(",\"") == std::string::npos && cell.front() != '#' && without_blanks(cell) == cell) return cell;
+    if (cell.find_first_of(",\"") == std::string::npos && cell.front() != '#' && without_blanks(cell) == cell)
+        return cell;
     std::string quoted = "\"";
     for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
     return quoted + '"';

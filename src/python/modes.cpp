@@ -42,7 +42,8 @@ struct ModesAnswer final : Result {
     }
 };
 
-std::shared_ptr<ModesAnswer> modes(const OpenedScene& opened, std::optional<int> count, bool transfer, const py::object& progress)
+std::shared_ptr<ModesAnswer> modes(const OpenedScene& opened, std::optional<int> count, bool transfer,
+                                   const py::object& progress)
 {
     if (opened.scene.wedge)
         refuse_usage("a wedge has no modes: it is rigid.", "a scene with a [section]", "scene.screen() gives its slip");

@@ -489,7 +489,8 @@ private:
 
     void pass(std::size_t bytes)
     {
-        for (const char c : text_.substr(at_, bytes)) place_ = c == '\n' ? Findings::Place{place_.line + 1, 1} : Findings::Place{place_.line, place_.column + 1};
+        for (const char c : text_.substr(at_, bytes))
+            place_ = c == '\n' ? Findings::Place{place_.line + 1, 1} : Findings::Place{place_.line, place_.column + 1};
         at_ += bytes;
     }
     void pass_until(std::string_view end) { pass(std::min(text_.find(end, at_), text_.size()) - at_); }

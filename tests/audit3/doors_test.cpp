@@ -64,17 +64,20 @@ struct Doors {
     }
 
     fs::path folder = fs::temp_directory_path() / fmt::format("damslip_doors_{}", ::getpid());
-    const std::string block =
-        "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
-        "young_modulus_GPa = 2500\n[contact]\nfriction = 0.12\n[mesh]\nsize_m = 1\ncontact_size_m = 1\n[time]\nsubsteps = 1\n";
+    const std::string block = "[section]\npolygon_m = [[0, 0], [8, 0], [8, 2], [0, 2]]\n[dam]\ndensity_kg_m3 = 2500\n"
+                              "young_modulus_GPa = 2500\n[contact]\nfriction = 0.12\n[mesh]\nsize_m = "
+                              "1\ncontact_size_m = 1\n[time]\nsubsteps = 1\n";
 };
 
 /// A test of the suite Audit3 with the members of Doors.
-#define DOORS_TEST(name)           \
-    struct name : Doors {          \
-        void run();                \
-    };                             \
-    TEST(Audit3, name) { name().run(); } \
+#define DOORS_TEST(name)                                                                                               \
+    struct name : Doors {                                                                                              \
+        void run();                                                                                                    \
+    };                                                                                                                 \
+    TEST(Audit3, name)                                                                                                 \
+    {                                                                                                                  \
+        name().run();                                                                                                  \
+    }                                                                                                                  \
     void name::run()
 
 constexpr const char* no_number = "(^|[^[:alnum:]_])-?(inf|nan)([^[:alnum:]_]|$)";
@@ -103,7 +106,8 @@ DOORS_TEST(D3_RecordsOfOneNameAreToldApart)
 {
     write("a/x.csv", pulse);
     write("b/x.csv", pulse);
-    write("same.toml", block + "[[motion.record]]\nhorizontal = \"a/x.csv\"\n[[motion.record]]\nhorizontal = \"b/x.csv\"\n");
+    write("same.toml",
+          block + "[[motion.record]]\nhorizontal = \"a/x.csv\"\n[[motion.record]]\nhorizontal = \"b/x.csv\"\n");
     write("list.csv", "horizontal\na/x.csv\nb/x.csv\n");
     write("nul.csv", std::string("horizontal\npulse.csv\0.csv\n", 26));
     EXPECT_EQ(answer_of({"screen", path("block.toml"), "--records", path("nul.csv")}).code, 3);
@@ -136,7 +140,8 @@ DOORS_TEST(D4_NamesThatAreNoUtf8AreRefusedBeforeAnythingIsWritten)
         EXPECT_NE(answer.talk.find("fix:      rename"), std::string::npos) << answer.talk;
         EXPECT_TRUE(is_utf8(answer.talk) && is_utf8(answer.out));
     }
-    EXPECT_FALSE(fs::exists(folder / name / "out") || fs::exists(folder / "rows.csv") || fs::exists(folder / "screened"));
+    EXPECT_FALSE(fs::exists(folder / name / "out") || fs::exists(folder / "rows.csv") ||
+                 fs::exists(folder / "screened"));
 }
 
 DOORS_TEST(D4_OldHeadersAreReadAsLatin1)
@@ -148,7 +153,8 @@ DOORS_TEST(D4_OldHeadersAreReadAsLatin1)
     const CsvTable list = parse_csv("horizontal,event\nx.csv,\374ber\n");
     EXPECT_EQ(list.rows[0].cells[1], "\303\274ber");
     EXPECT_EQ(utf8_text("plain \303\274"), "plain \303\274");
-    for (const char* wrong : {"\300\200", "\355\240\200", "\364\220\200\200", "\342\202", "\200"}) EXPECT_FALSE(is_utf8(wrong));
+    for (const char* wrong : {"\300\200", "\355\240\200", "\364\220\200\200", "\342\202", "\200"})
+        EXPECT_FALSE(is_utf8(wrong));
     for (const char* right : {"", "a", "\303\274", "\342\202\254", "\360\237\230\200"}) EXPECT_TRUE(is_utf8(right));
 }
 
@@ -213,13 +219,16 @@ DOORS_TEST(D9_NothingThatDrivesIsSaidInWords)
                          "reservoir = { level_m = 27, model = \"added-mass\" }\nuplift = { model = \"linear\" }\n"
                          "mesh = { size_m = 6, contact_size_m = 4 }\n[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
     using Words = std::vector<std::string>;
-    for (const Words& words : {Words{"assess", path("still.toml"), "--budget", "1"}, Words{"assess", path("floats.toml"), "--budget", "1"},
-                               Words{"fe", path("run_out.toml"), "--no-mesh-error"}, Words{"screen", path("floats.toml")},
-                               Words{"explain", path("floats.toml"), "--ablate"}}) {
+    for (const Words& words :
+         {Words{"assess", path("still.toml"), "--budget", "1"}, Words{"assess", path("floats.toml"), "--budget", "1"},
+          Words{"fe", path("run_out.toml"), "--no-mesh-error"}, Words{"screen", path("floats.toml")},
+          Words{"explain", path("floats.toml"), "--ablate"}}) {
         const ProgramAnswer answer = answer_of(words);
-        EXPECT_FALSE(std::regex_search(answer.out + answer.talk, std::regex(no_number))) << words[0] << words[1] << answer.out;
+        EXPECT_FALSE(std::regex_search(answer.out + answer.talk, std::regex(no_number)))
+            << words[0] << words[1] << answer.out;
     }
-    EXPECT_NE(answer_of({"assess", path("floats.toml"), "--budget", "1"}).out.find("no friction would hold it"), std::string::npos);
+    EXPECT_NE(answer_of({"assess", path("floats.toml"), "--budget", "1"}).out.find("no friction would hold it"),
+              std::string::npos);
 }
 
 DOORS_TEST(D9_JsonIsOneObjectWhereverItIsAskedFor)
@@ -227,9 +236,10 @@ DOORS_TEST(D9_JsonIsOneObjectWhereverItIsAskedFor)
     const std::string scene = path("block.toml");
     using Words = std::vector<std::string>;
     for (Words words : {Words{"draw", scene}, Words{"draw", scene, "--out", path("a.svg")}, Words{"mesh", scene},
-                        Words{"mesh", scene, "--out", path("a.msh")}, Words{"man", "fe"}, Words{"man", "--out", path("man")},
-                        Words{"completion", "bash"}, Words{"schema"}, Words{"schema", "--markdown"},
-                        Words{"init", path("own.toml"), "--height", "30"}, Words{"sweep", scene, "--plan", "--out", path("parts.csv")},
+                        Words{"mesh", scene, "--out", path("a.msh")}, Words{"man", "fe"},
+                        Words{"man", "--out", path("man")}, Words{"completion", "bash"}, Words{"schema"},
+                        Words{"schema", "--markdown"}, Words{"init", path("own.toml"), "--height", "30"},
+                        Words{"sweep", scene, "--plan", "--out", path("parts.csv")},
                         Words{"sweep", scene, "--slurm-array", path("job.sh"), "--out", path("parts.csv")},
                         Words{"sweep", scene, "--out", path("rows.csv")}, Words{"record", "info", path("pulse.csv")},
                         Words{"record", "convert", path("pulse.csv"), "--out", path("pulse.at2")},
@@ -245,15 +255,19 @@ DOORS_TEST(D9_JsonIsOneObjectWhereverItIsAskedFor)
 
 DOORS_TEST(D9_EveryNameOfASuiteComesBackFromItsList)
 {
-    const std::set<std::string> names{"#a_h.csv", "=x_h.csv", "comma, and \"quotes\"_h.csv", "'=y_h.csv", " blank _h.csv"};
+    const std::set<std::string> names{"#a_h.csv", "=x_h.csv", "comma, and \"quotes\"_h.csv", "'=y_h.csv",
+                                      " blank _h.csv"};
     for (const std::string& name : names) write("suite/" + name, pulse);
-    ASSERT_EQ(answer_of({"record", "suite", path("suite"), "--target-pga-m-s2", "2", "--out", path("suite/list.csv")}).code, 0);
+    ASSERT_EQ(
+        answer_of({"record", "suite", path("suite"), "--target-pga-m-s2", "2", "--out", path("suite/list.csv")}).code,
+        0);
     std::set<std::string> read;
     const CsvTable list = parse_csv(read_file(path("suite/list.csv")));
     for (const CsvLine& row : list.rows) read.insert(row.cells[0]);
     EXPECT_EQ(read, names);
     EXPECT_NE(read_file(path("suite/list.csv")).find(",'=x,"), std::string::npos); // its event
-    const ProgramAnswer screened = answer_of({"screen", path("block.toml"), "--records", path("suite/list.csv"), "--json"});
+    const ProgramAnswer screened =
+        answer_of({"screen", path("block.toml"), "--records", path("suite/list.csv"), "--json"});
     ASSERT_EQ(screened.code, 0) << screened.talk;
     EXPECT_EQ(Json::parse(screened.out)["records"].size(), names.size());
 }
@@ -296,8 +310,10 @@ DOORS_TEST(D9_PagesArePrintedFromAnyFolderAndNothingStaysThere)
 {
     const fs::path scratch = folder / "t#x?%41";
     {
-        const Browser echo(folder, "for word; do case $word in --print-to-pdf=*) out=${word#*=} ;; file://*) page=$word ;; esac; done\n"
-                                   "echo \"$page\" > \"$out\"\n");
+        const Browser echo(
+            folder,
+            "for word; do case $word in --print-to-pdf=*) out=${word#*=} ;; file://*) page=$word ;; esac; done\n"
+            "echo \"$page\" > \"$out\"\n");
         cli::print_pdf("<p>page</p>", folder / "printed");
         EXPECT_NE(read_file(folder / "printed").find("/t%23x%3F%2541/damslip-print-"), std::string::npos);
         EXPECT_TRUE(fs::is_empty(scratch));
@@ -316,8 +332,8 @@ DOORS_TEST(D10_KeysOfALineAreGivenOnceAndInNumbersThatEnd)
     std::string many = "{\"set\":{";
     for (int k = 0; k < 200'000; ++k) many += fmt::format("{}\"k{}\":1", k ? "," : "", k);
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<Json> answers =
-        worker(many + "}}\n{\"set\":{\"contact.friction\":0.1,\"contact.friction\":0.2}}\n{\"id\":1,\"id\":2}\n{\"id\":{\"a\":1,\"b\":2}}\n");
+    const std::vector<Json> answers = worker(many + "}}\n{\"set\":{\"contact.friction\":0.1,\"contact.friction\":0.2}}"
+                                                    "\n{\"id\":1,\"id\":2}\n{\"id\":{\"a\":1,\"b\":2}}\n");
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     ASSERT_EQ(answers.size(), 5u);
     EXPECT_NE(answers[1].dump().find("more than 1000 members"), std::string::npos) << answers[1];
@@ -331,11 +347,15 @@ DOORS_TEST(D10_EveryWrongCommandLineSaysWhatIsExpected)
     const std::string scene = path("block.toml");
     using Words = std::vector<std::string>;
     for (const auto& [words, expected] :
-         {std::pair{Words{"screen"}, "SCENE"}, std::pair{Words{"screen", scene, "--friction", "much"}, "--friction FLOAT"},
-          std::pair{Words{"fe", scene, "--polarity", "3"}, "--polarity INT"}, std::pair{Words{"fe", scene, "--out"}, "--out TEXT"},
-          std::pair{Words{"screen", scene, "another"}, "damslip screen SCENE"}, std::pair{Words{"fe", scene, "--frames", "5"}, "--frames INT"},
-          std::pair{Words{"fe", scene, "--base", "tied", "--reduced"}, "--base TEXT"}, std::pair{Words{"record"}, "info"},
-          std::pair{Words{"-q"}, "screen"}, std::pair{Words{"modes", scene, "--count", "0"}, "--count INT"},
+         {std::pair{Words{"screen"}, "SCENE"},
+          std::pair{Words{"screen", scene, "--friction", "much"}, "--friction FLOAT"},
+          std::pair{Words{"fe", scene, "--polarity", "3"}, "--polarity INT"},
+          std::pair{Words{"fe", scene, "--out"}, "--out TEXT"},
+          std::pair{Words{"screen", scene, "another"}, "damslip screen SCENE"},
+          std::pair{Words{"fe", scene, "--frames", "5"}, "--frames INT"},
+          std::pair{Words{"fe", scene, "--base", "tied", "--reduced"}, "--base TEXT"},
+          std::pair{Words{"record"}, "info"}, std::pair{Words{"-q"}, "screen"},
+          std::pair{Words{"modes", scene, "--count", "0"}, "--count INT"},
           std::pair{Words{"regress"}, "--yield-g FLOAT"}, std::pair{Words{"sweep", scene, "-j", "x"}, "--jobs INT"},
           std::pair{Words{"screen", scene, "--frictoin", "1"}, "--friction"}, std::pair{Words{"scren"}, "screen"}}) {
         const ProgramAnswer answer = answer_of(words);
@@ -365,7 +385,8 @@ DOORS_TEST(C_ModesPrintsAsManyAsAreAskedFor)
     const std::string dam = (fs::path(source_dir()) / "examples" / "reference_dam.toml").string();
     const Json four = Json::parse(answer_of({"modes", dam, "--count", "4", "--json", "-q"}).out);
     EXPECT_EQ(four["modes"].size(), 4u);
-    EXPECT_EQ(Json::parse(answer_of({"modes", path("block.toml"), "--count", "3", "--json", "-q"}).out)["modes"].size(), 3u);
+    EXPECT_EQ(Json::parse(answer_of({"modes", path("block.toml"), "--count", "3", "--json", "-q"}).out)["modes"].size(),
+              3u);
 }
 
 DOORS_TEST(C_TheTablesOfEquilibriumAreFilesToo)
@@ -398,7 +419,8 @@ void check_example(const cli::Command& command, const std::string& example)
     std::string before;
     for (const std::string& word : words) {
         const bool output = before == "--out" || before == "--report" || command.name == "init";
-        const bool file = word.find('*') == std::string::npos && std::regex_match(word, std::regex(".*\\.(toml|csv|at2)"));
+        const bool file =
+            word.find('*') == std::string::npos && std::regex_match(word, std::regex(".*\\.(toml|csv|at2)"));
         EXPECT_TRUE(output || !file || fs::exists(fs::path(source_dir()) / word)) << example;
         before = word;
     }

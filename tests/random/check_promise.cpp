@@ -264,7 +264,8 @@ void check_commands(const std::filesystem::path& file, std::uint32_t turn, Check
     case 7:
         return run("assess", {"--budget", "0.5"});
     case 8:
-        return check_command({"fragility", with_probability(file), "--samples", "8", "--share-rows", "0"}, as_json, runs);
+        return check_command({"fragility", with_probability(file), "--samples", "8", "--share-rows", "0"}, as_json,
+                             runs);
     default:
         return check_worker(scene, runs);
     }

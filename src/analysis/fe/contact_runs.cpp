@@ -39,13 +39,14 @@ int shown_polarity(const Scene& scene, int polarity)
 
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(options, ready.scene)),
-      jobs_(options.jobs), options_(ready.run_options(watch)), coarser_(
-                                              ready, options.mesh_error && !options.start,
-                                              [this](const fe2d::RunProgress& p) {
-                                                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
-                                                  return answer(watch_);
-                                              },
-                                              watch)
+      jobs_(options.jobs), options_(ready.run_options(watch)),
+      coarser_(
+          ready, options.mesh_error && !options.start,
+          [this](const fe2d::RunProgress& p) {
+              meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+              return answer(watch_);
+          },
+          watch)
 {
     watch.begin("fe", static_cast<double>(whole()));
     watch.phase("set-up");
@@ -117,8 +118,8 @@ void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 }
 
 ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)),
-      jobs_(options.jobs), options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
+    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)), jobs_(options.jobs),
+      options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
       coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
 {
     check_reducible(ready.scene);

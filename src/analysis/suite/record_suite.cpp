@@ -122,8 +122,8 @@ std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::file
     text += fmt::format("horizontal,vertical,{}event,weight,scale\n", others ? "other_horizontal," : "");
     for (const SuiteLine& line : lines)
         text += fmt::format("{},{},{}{},{},{}\n", path(line.horizontal), path(line.vertical),
-                            others ? path(line.other_horizontal) + "," : "", csv_cell(line.event), shortest(line.weight),
-                            shortest(line.scale));
+                            others ? path(line.other_horizontal) + "," : "", csv_cell(line.event),
+                            shortest(line.weight), shortest(line.scale));
     return text;
 }
 

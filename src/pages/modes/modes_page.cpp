@@ -139,9 +139,8 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
         notes.push_back(water_counts(*m.water));
         for (std::string& warning : reservoir_warnings(m.scene, coupled_modes_to)) notes.push_back(std::move(warning));
     } else if (m.modes.status != fe2d::ModesStatus::ok) {
-        notes.push_back(
-            fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count.value_or(usual_modes),
-                        m.modes.solver.text()));
+        notes.push_back(fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count.value_or(usual_modes),
+                                    m.modes.solver.text()));
     }
     if (m.scene.reservoir && m.modes.frequency.size() && !m.choice && !m.water)
         notes.push_back(criterion_sentence(m.scene, m.modes.frequency[0]));
@@ -162,7 +161,8 @@ void write_shapes(const std::filesystem::path& folder, const fe2d::Model& model,
 
 Table frequency_table(const ModesResult& m)
 {
-    return m.coupled ? coupled_mode_table(*m.coupled, m.leading, m.count.value_or(m.coupled->frequency.size())) : natural_mode_table(m.modes);
+    return m.coupled ? coupled_mode_table(*m.coupled, m.leading, m.count.value_or(m.coupled->frequency.size()))
+                     : natural_mode_table(m.modes);
 }
 
 Table damping_table(const ModesResult& m)

@@ -80,8 +80,7 @@ SweepPart read_part(const fs::path& file)
     };
     SweepPart part;
     part.file = file;
-    const std::string content =
-        read_file(file, largest_part, [&](const std::string& start) { head_of(start, part); });
+    const std::string content = read_file(file, largest_part, [&](const std::string& start) { head_of(start, part); });
     const std::size_t at = head_of(content, part);
     part.rows_of_sweep = std::stoull(of_sweep[1]);
     part.shard = {std::stoull(of_part[1]), std::stoull(of_part[2])};
@@ -178,8 +177,9 @@ Table sweep_rows_of(const std::string& csv)
     Table table{"", sweep_columns(with), {}, {}};
     const auto check = [&](const CsvLine& line, bool fits) {
         if (!fits)
-            refuse({}, fmt::format("line {}, \"{:.60}\", is not one of a sweep of this version.", line.number,
-                                   fmt::format("{}", fmt::join(line.cells, ","))),
+            refuse({},
+                   fmt::format("line {}, \"{:.60}\", is not one of a sweep of this version.", line.number,
+                               fmt::format("{}", fmt::join(line.cells, ","))),
                    "the columns of this version", "run the parts again");
     };
     check(read.heading, std::equal(keys.begin(), keys.end(), table.columns.begin(), table.columns.end(),
