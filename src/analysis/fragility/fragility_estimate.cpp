@@ -3,7 +3,7 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/statistics.hpp"
-#include "probability/estimate/two_level.hpp"
+#include "probability/fit/interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -332,8 +332,7 @@ std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const 
     std::vector<CapacityBracket> brackets;
     for (const auto& [key, curve] : curves) {
         std::vector<LimitAnswer> answers;
-        for (const auto& id : curve)
-            answers.push_back(id ? answer_to(limit, runs.rows[*id]) : LimitAnswer::missing);
+        for (const auto& id : curve) answers.push_back(id ? answer_to(limit, runs.rows[*id]) : LimitAnswer::missing);
         if (answers.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
         CapacityBracket& bracket = brackets.emplace_back();
         const auto first = std::find(answers.begin(), answers.end(), LimitAnswer::fails);
@@ -394,8 +393,8 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
     for (const LimitInput& wanted : plan.input.limits) {
         LimitEstimate& limit = estimate.limits.emplace_back();
         limit.limit = wanted;
-        const LimitCounts counts = conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1)
-                                               : count_limit(plan, runs, wanted);
+        const LimitCounts counts =
+            conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1) : count_limit(plan, runs, wanted);
         if (design == FragilityDesign::cloud) {
             fit_cloud_of(plan, runs, limit);
             for (const double x : plan.input.intensity.levels) {

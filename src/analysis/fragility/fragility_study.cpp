@@ -14,7 +14,7 @@ namespace damslip {
 
 namespace {
 
-constexpr std::uint32_t cheap_stream = 1, pilot_stream = 2; // of FragilitySizes: draws of their own
+constexpr std::uint32_t pilot_stream = 2; // of FragilitySizes: draws of their own
 
 const SweepMethod& method_of_fragility(const std::string& given, const Records& records, const Scene& scene)
 {
@@ -87,39 +87,6 @@ probability::HazardCurve hazard_of(const FragilityInput& input)
                        "change the levels of [intensity], or take a curve that reaches them"});
     }
     return {std::move(x), file.curve.rate()};
-}
-
-/// Rigid runs beside the finite elements, and the estimate of both.
-TwoLevelFragility two_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
-                             const FragilityExtras& extras, Watch& watch)
-{
-    const FragilityRuns beside =
-        run_fragility(plan, study.text, study.rigid(), wanted_samples(plan), nullptr, extras.jobs, watch);
-    const FragilityPlan others = study.plan(extras.cheap_samples, cheap_stream);
-    const FragilityRuns cheap =
-        run_fragility(others, study.text, study.rigid(), wanted_samples(others), nullptr, extras.jobs, watch);
-    return estimate_two_level(plan, dear, beside, others, cheap);
-}
-
-/// Multifidelity Monte Carlo with few modes between finite elements and block where the scene allows them.
-MfmcFragility many_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
-                          const FragilityExtras& extras, Watch& watch)
-{
-    constexpr std::size_t least_pilot = 24;
-    MfmcOptions options;
-    options.dear = study.method.id;
-    try {
-        if (!study.method.reduced)
-            options.cheap.push_back(method_of_fragility("fe-reduced", study.suite.pairs, study.scene).id);
-    } catch (const InputError&) { // few modes cannot run it: two models are left
-    }
-    options.cheap.push_back(study.rigid().id);
-    options.pilot = std::max(least_pilot, plan.samples.size() / plan.levels / 10);
-    options.most_cheap = static_cast<std::size_t>(extras.cheap_samples);
-    options.jobs = extras.jobs;
-    return run_mfmc(
-        plan, dear, [&](std::size_t samples, std::uint32_t stream) { return study.plan(samples, stream); }, study.text,
-        options, watch);
 }
 
 /// The limit's level with P nearest to 0.1.
@@ -241,10 +208,6 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
     if (runs.complete()) {
         capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);
         const bool cloud = input.intensity.design == FragilityDesign::cloud;
-        const bool two_kinds = !conditioned && study.finite_elements() && extras.cheap_samples > 0 && !cloud;
-        if (two_kinds && extras.multi_fidelity == "two-level")
-            answer.two_level = two_models(study, plan, runs, extras, watch);
-        if (two_kinds && extras.multi_fidelity == "mfmc") answer.mfmc = many_models(study, plan, runs, extras, watch);
         if (!conditioned && !cloud)
             for (const LimitEstimate& limit : answer.estimate.limits)
                 for (IntervalPoint& point : own_prefixes(plan, runs, limit.limit, level_near_a_tenth(limit)))

@@ -32,9 +32,8 @@ std::string status_words(const FragilityView& view)
 std::vector<Table> tables_of(const FragilityView& view)
 {
     std::vector<Table> tables;
-    for (Table table :
-         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view),
-          rate_table(view), rate_part_table(view), cause_table(view), needed_yield_table(view)})
+    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view), rate_table(view),
+                        rate_part_table(view), cause_table(view), needed_yield_table(view)})
         if (!table.rows.empty()) tables.push_back(std::move(table));
     return tables;
 }
@@ -185,9 +184,7 @@ nlohmann::ordered_json fragility_json(const FragilityView& view)
     j["probabilities"] = json_of(fragility_table(view));
     j["curves"] = json_of(curve_table(view));
     j["rates"] = json_of(rate_table(view));
-    if (view.two_level) j["two_models"] = json_of(two_level_table(view));
     if (view.conditioned) j["conditioned_on_friction"] = json_of(conditioned_table(view));
-    if (view.mfmc) j["multi_fidelity"] = json_of(mfmc_table(view));
     if (view.causes) j["causes"] = json_of(cause_table(view));
     j["needed_yield"] = json_of(needed_yield_table(view));
     j["notes"] = view.notes;
@@ -218,8 +215,7 @@ Page fragility_page(const FragilityView& view)
     page.warnings = view.notes;
     Section curves{"Fragility", {curve_chart(view)}, Fold::open};
     Section rates{"Rates", {}, Fold::open}, causes{"What it comes from", {}, Fold::open};
-    for (Table table :
-         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view)})
+    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view)})
         if (!table.rows.empty()) curves.parts.push_back(rows_part(std::move(table)));
     page.sections.push_back(std::move(curves));
     if (const Table table = rate_table(view); !table.rows.empty()) {
