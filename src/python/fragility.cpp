@@ -179,7 +179,8 @@ void add_fragility(py::module_& module)
         .def_property_readonly("beta", [](const FragilityCurve& c) { return of_fit(c, &Curve::beta); })
         .def_property_readonly("rate", [](const FragilityCurve& c) -> std::optional<std::pair<double, double>> {
             if (!c.limit->rate) return std::nullopt;
-            return std::pair(c.limit->rate->raw_low.lower, c.limit->rate->raw_high.upper);
+            const probability::Interval bounds = c.limit->rate->bounds();
+            return std::pair(bounds.lower, bounds.upper);
         });
 
     py::class_<FragilityResult, Result, std::shared_ptr<FragilityResult>>(module, "FragilityResult")

@@ -1,3 +1,4 @@
+#include "analysis/fragility/hazard_file.hpp"
 #include "core/input_error.hpp"
 #include "probability/estimate/bands.hpp"
 #include "probability/fit/capacity_fit.hpp"
@@ -28,7 +29,7 @@ namespace {
 std::string hazard_message(const std::string& text)
 {
     try {
-        (void)parse_hazard_curve(text, "hazard.csv");
+        (void)damslip::parse_hazard_file(text, "hazard.csv", {});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -306,37 +307,39 @@ TEST(ProbabilityHazard, FilesThatAreWrongAreNamedByLineWithTheFix)
     expect_has(hazard_message("im,rate\n0.1,1e-2\n0.2,2e-2\n"), "never rise");
     expect_has(hazard_message("im,rate\n0.1,1e-2\n0.2,zero\n"), "\"zero\" is no number");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,1.0,0.5\n"),
-               "poe-0.1 = 1");
+               "the curve has 1 points with a rate"); // poe = 1 is passed over
     expect_has(hazard_message("lon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9,0.5\n"), "investigation_time");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9,0.5\n3,4,0,0.9,0.5\n"),
                "2 sites");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9\n"),
                "4 fields below 5");
-    expect_has(hazard_message(""), "0 lines");
+    expect_has(hazard_message(""), "the file is empty");
 }
 
 TEST(ProbabilityHazard, SitesAndPointsWithoutEarthquakesAreToldApart)
 {
+    using damslip::HazardFile, damslip::parse_hazard_file;
+    damslip::HazardWish wish;
+    wish.measure = *damslip::parse_intensity("SA(0.3)");
+    wish.site = {3.0, 4.0};
     const HazardFile file =
-        parse_hazard_curve("# investigation_time=50, imt=\"SA(0.3)\"\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n"
-                           "1,2,0,0.9,0.5,0\n3,4,0,0.8,0.4,0.1\n",
-                           "x.csv", Site{3.0, 4.0});
-    EXPECT_EQ(file.measure, "SA(0.3)");
+        parse_hazard_file("# investigation_time=50, imt=\"SA(0.3)\"\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n"
+                          "1,2,0,0.9,0.5,0\n3,4,0,0.8,0.4,0.1\n",
+                          "x.csv", wish);
     EXPECT_EQ(file.curve.x().size(), 3u);
     EXPECT_NEAR(file.curve.rate().front(), -std::log(0.2) / 50.0, 1e-15);
     const HazardFile cut =
-        parse_hazard_curve("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n1,2,0,0.9,0.5,0\n",
-                           "hazard_curve-mean-PGA_1.csv");
+        parse_hazard_file("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n1,2,0,0.9,0.5,0\n",
+                          "hazard_curve-mean-PGA_1.csv", {});
     EXPECT_EQ(cut.curve.x().size(), 2u);
-    EXPECT_EQ(cut.notes.size(), 1u);
-    EXPECT_EQ(cut.measure, "PGA");
+    expect_has(cut.notes.back(), "points without any earthquake: 1, left out");
 }
 
 TEST(ProbabilityHazard, RatesOutsideTheTestedLevelsAreTold)
 {
     const HazardCurve curve({0.1, 1.0}, {1e-2, 1e-4});
     const AnnualRate within = annual_rate(curve, 0.4, 0.2, 0.1, 1.0);
-    EXPECT_FALSE(within.below_upper.has_value());
+    EXPECT_FALSE(within.all_events); // P at the first point is small, but not 0
     const AnnualRate narrow = annual_rate(curve, 0.4, 0.2, 0.5, 0.6);
     EXPECT_FALSE(narrow.mostly_tested);
     EXPECT_GT(narrow.outside_share, within.outside_share);
