@@ -28,6 +28,5 @@ class Scene:
     def fragility(self, records: Optional[Suite] = None, levels: Union[None, float, Sequence[float]] = None, unit: str = "g",
                   limits_mm: Union[None, float, Sequence[float]] = None, method: Optional[str] = None,
                   measure: Optional[str] = None, design: Optional[str] = None, samples: Optional[int] = None,
-                  tables: Optional[Mapping[str, object]] = None, cheap_samples: int = 2048, share_rows: int = 128,
-                  conditioning: str = "auto", multi_fidelity: str = "two-level",
+                  tables: Optional[Mapping[str, object]] = None, share_rows: int = 128, conditioning: str = "auto",
                   jobs: int = 0, progress: Progress = None) -> FragilityResult: ...

@@ -112,6 +112,10 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
         if (word.size() > 2 && word.starts_with("--")) {
             const std::string flag = word.substr(0, word.find('='));
             const std::vector<std::string> known = flag_names(*app);
+            if (path == "damslip fragility" && (flag == "--multi-fidelity" || flag == "--cheap-samples"))
+                refuse_usage(flag + " is no longer there: cheaper models beside the finite elements gained nothing.",
+                             "finite elements alone, with friction conditioned on where it is drawn",
+                             "leave it out; fewer runs for the same interval:  --conditioning on");
             if (std::find(known.begin(), known.end(), flag) == known.end())
                 unknown("flag", flag, " of " + path, known, path + " --help");
         } else if (const std::vector<std::string> names = command_names(*app);
