@@ -25,19 +25,20 @@ using pages::Page;
 using pages::Section;
 
 /// A folder with a strong half-sine pulse and a dam of 40 m whose friction is given.
-class Report : public testing::Test {
-protected:
-    void SetUp() override
+struct Folder {
+    Folder()
     {
-        std::filesystem::create_directories(folder);
-        std::ofstream(folder / "pulse.csv") << "time_s,acceleration_m_s2\n0,0\n0.1,1.5\n0.2,3\n0.3,1.5\n0.4,0\n0.5,-2\n"
-                                               "0.6,-2\n0.7,0\n0.8,0\n";
+        std::filesystem::create_directories(path);
+        std::ofstream(path / "pulse.csv") << "time_s,acceleration_m_s2\n0,0\n0.1,1.5\n0.2,3\n0.3,1.5\n0.4,0\n0.5,-2\n"
+                                             "0.6,-2\n0.7,0\n0.8,0\n";
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
 
     std::string dam(double friction, const std::string& more = "") const
     {
-        const std::filesystem::path file = folder / fmt::format("dam_{}.toml", friction);
+        const std::filesystem::path file = path / fmt::format("dam_{}.toml", friction);
         std::ofstream(file) << "title = \"Dam\"\nsection = { height_m = 40, base_m = 34, crest_m = 5 }\n"
                                "dam = { density_kg_m3 = 2400, young_modulus_GPa = 25, poisson_ratio = 0.2 }\n"
                                "reservoir = { level_m = 37 }\nuplift = { model = \"linear\" }\n"
@@ -56,12 +57,10 @@ protected:
         return pages::screen_page({given, ready.scene, screening, ready.records(), 1});
     }
 
-    const std::filesystem::path folder =
+    const std::filesystem::path path =
         std::filesystem::temp_directory_path() /
         ("damslip_audit3_report_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
-
-using Audit3 = Report;
 
 std::vector<std::string> titles(const Page& page)
 {
@@ -92,18 +91,20 @@ constexpr const char* cadam = "[[combination]]\nname = \"usual\"\nkind = \"usual
                               "required_flotation_factor = 1.2\n[[combination]]\nname = \"quake\"\nkind = \"extreme\"\n"
                               "k_h = 0.2\nrequired_sliding_factor = 1.1\n";
 
-TEST_F(Audit3, C_EquilibriumFirstWhereTheSlipIsZero)
+TEST(Audit3, C_EquilibriumFirstWhereTheSlipIsZero)
 {
-    const Page still = screened(dam(2.5)), sliding = screened(dam(0.9));
+    const Folder f;
+    const Page still = f.screened(f.dam(2.5)), sliding = f.screened(f.dam(0.9));
     EXPECT_TRUE(has(still.headline.sentence, "does not slide")) << still.headline.sentence;
     EXPECT_LT(place(still, "Limit equilibrium"), place(still, "Slip"));
     EXPECT_GT(place(sliding, "Limit equilibrium"), place(sliding, "Slip"));
     EXPECT_LT(place(sliding, "Limit equilibrium"), place(sliding, "Records"));
 }
 
-TEST_F(Audit3, C_ChecksAreOneMatrix)
+TEST(Audit3, C_ChecksAreOneMatrix)
 {
-    const Scene given = read_scene(dam(0.9, cadam));
+    const Folder f;
+    const Scene given = read_scene(f.dam(0.9, cadam));
     const Ready ready = prepare(given, Method::rigid_block);
     const auto combinations = run_screening(ready, 1).combinations;
     const Table matrix = sliding::check_matrix(combinations);
@@ -120,20 +121,21 @@ TEST_F(Audit3, C_ChecksAreOneMatrix)
     const std::string html = pages::screen_report({given, ready.scene, run_screening(ready, 1), ready.records(), 1});
     EXPECT_TRUE(has(html, "<td class=\"fail\">FAIL "));
     EXPECT_LT(html.find("Load combinations: value / required"), html.find("Quantities of each combination"));
-    const std::string out = answer_of({"screen", dam(0.9, cadam)}).out;
+    const std::string out = answer_of({"screen", f.dam(0.9, cadam)}).out;
     EXPECT_TRUE(has(out, "Load combinations: value / required")) << out;
 }
 
-TEST_F(Audit3, C_VerdictIsTheSecondColumn)
+TEST(Audit3, C_VerdictIsTheSecondColumn)
 {
-    const Scene given = read_scene(dam(0.9));
+    const Folder f;
+    const Scene given = read_scene(f.dam(0.9));
     const Ready ready = prepare(given, Method::rigid_block);
     const std::string html = pages::screen_report({given, ready.scene, run_screening(ready, 1), ready.records(), 1});
     EXPECT_TRUE(has(html, "<th scope=\"col\">record</th><th scope=\"col\">verdict</th>"));
 }
 
 // Four runs of two records: the milder polarity of each is folded at the end.
-TEST_F(Audit3, C_WorsePolarityInFullTheOtherInAnAppendix)
+TEST(Audit3, C_WorsePolarityInFullTheOtherInAnAppendix)
 {
     std::vector<ContactRun> runs;
     std::vector<Section> sections;
@@ -157,11 +159,13 @@ TEST_F(Audit3, C_WorsePolarityInFullTheOtherInAnAppendix)
     for (const Section& section : page.sections) EXPECT_EQ(section.fold, pages::Fold::open);
 }
 
-TEST_F(Audit3, C_SweepIsLedByTheFrictionNeeded)
+TEST(Audit3, C_SweepIsLedByTheFrictionNeeded)
 {
-    const std::string scene = dam(0.9), out = (folder / "sweep.csv").string();
-    ASSERT_EQ(answer_of({"sweep", scene, "--friction", "0.9,1.0,1.1,1.4,2.0", "--method", "rigid", "--out", out}).code, 0);
-    const std::string html = read(folder / "sweep.html");
+    const Folder f;
+    const std::string scene = f.dam(0.9), out = (f.path / "sweep.csv").string();
+    ASSERT_EQ(answer_of({"sweep", scene, "--friction", "0.9,1.0,1.1,1.4,2.0", "--method", "rigid", "--out", out}).code,
+              0);
+    const std::string html = read(f.path / "sweep.html");
     const std::size_t needs = html.find("A slip of 20 mm at most needs a friction of");
     ASSERT_NE(needs, std::string::npos);
     EXPECT_LT(needs, html.find("the largest slip is"));
@@ -170,12 +174,13 @@ TEST_F(Audit3, C_SweepIsLedByTheFrictionNeeded)
     EXPECT_LT(html.find("<dt>Friction needed, rigid</dt>"), html.find("<dt>Rows</dt>"));
 }
 
-TEST_F(Audit3, C_AssessHasTheLimitsOfValidity)
+TEST(Audit3, C_AssessHasTheLimitsOfValidity)
 {
-    std::filesystem::create_directories(folder / "out");
+    const Folder f;
+    std::filesystem::create_directories(f.path / "out");
     const ProgramAnswer answer =
-        answer_of({"assess", dam(0.9), "--budget", "0.1", "--report", (folder / "out" / "report.html").string()});
-    const std::string html = read(folder / "out" / "report.html");
+        answer_of({"assess", f.dam(0.9), "--budget", "0.1", "--out", (f.path / "out").string()});
+    const std::string html = read(f.path / "out" / "report.html");
     ASSERT_FALSE(html.empty()) << answer.talk;
     EXPECT_TRUE(has(html, "<h2>Limits of validity</h2>"));
     for (const char* heading : {"aspect", "assumption", "invalid when", "do instead"})
@@ -183,9 +188,10 @@ TEST_F(Audit3, C_AssessHasTheLimitsOfValidity)
     EXPECT_TRUE(has(html, "this is no upper bound"));
 }
 
-TEST_F(Audit3, C_TablesAreNoWiderThanTheTerminal)
+TEST(Audit3, C_TablesAreNoWiderThanTheTerminal)
 {
-    for (const std::string& file : {dam(0.9, cadam), dam(2.5)}) {
+    const Folder f;
+    for (const std::string& file : {f.dam(0.9, cadam), f.dam(2.5)}) {
         std::istringstream lines(answer_of({"screen", file}).out);
         for (std::string line; std::getline(lines, line);) {
             if (line.starts_with("note: ")) continue;
@@ -212,18 +218,19 @@ TEST_F(Audit3, C_TablesAreNoWiderThanTheTerminal)
     for (int i = 0; i < 12; ++i) EXPECT_TRUE(has(out, fmt::format("a long heading {}", i)));
 }
 
-TEST_F(Audit3, C_WordsOfTheTables)
+TEST(Audit3, C_WordsOfTheTables)
 {
-    const std::string tall = dam(0.9, "[[combination]]\nname = \"quake\"\nkind = \"extreme\"\nk_h = 0.1\n");
+    const Folder f;
+    const std::string tall = f.dam(0.9, "[[combination]]\nname = \"quake\"\nkind = \"extreme\"\nk_h = 0.1\n");
     const std::string out = answer_of({"screen", tall}).out;
     for (const char* heading : {"k_h / PGA", "overturning at", "full base opening at"})
         EXPECT_TRUE(has(out, heading)) << heading << "\n" << out;
     for (const char* old : {"k_h of the PGA", "a tips", "a opens base"}) EXPECT_FALSE(has(out, old)) << old;
     // No water, but cohesion: nothing to hold statically.
-    std::ofstream(folder / "bonded.toml")
-        << "section = { height_m = 10, base_m = 8 }\ndam = { density_kg_m3 = 2400 }\n"
-           "reservoir = { level_m = 9 }\nuplift = { model = \"none\" }\ncontact = { friction = 0.8, cohesion_kPa = 900 }\n";
-    EXPECT_TRUE(has(answer_of({"screen", (folder / "bonded.toml").string()}).out, "cohesion alone suffices"));
+    std::ofstream(f.path / "bonded.toml") << "section = { height_m = 10, base_m = 8 }\ndam = { density_kg_m3 = 2400 }\n"
+                                             "reservoir = { level_m = 9 }\nuplift = { model = \"none\" }\ncontact = { "
+                                             "friction = 0.8, cohesion_kPa = 900 }\n";
+    EXPECT_TRUE(has(answer_of({"screen", (f.path / "bonded.toml").string()}).out, "cohesion alone suffices"));
 }
 
 } // namespace

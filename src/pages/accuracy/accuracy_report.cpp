@@ -167,7 +167,7 @@ Page accuracy_page(const AccuracyReportInput& in)
     page.warnings = in.messages;
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     page.sections.push_back(cost_section(in));
-    page.sections.push_back({"Rungs", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
+    page.sections.push_back({"Model levels", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
     page.sections.push_back(convergence_section(in));
     page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});

@@ -62,7 +62,7 @@ std::vector<ColumnOf<RungRow>> rung_columns()
     };
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
-    return {{{"rung", "rung"}, [](const R& r) { return rung_id(r.result.rung); }},
+    return {{{"rung", "model level"}, [](const R& r) { return rung_id(r.result.rung); }},
             {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_record(r.result.slip); }},
             {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.low); }},
             {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.high); }},
@@ -90,7 +90,7 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
 {
     std::vector<RungRow> rows;
     for (std::size_t i = 0; i < results.size(); ++i) rows.push_back({results[i], j.rungs[i], j});
-    Table t = table_of("Rungs", rung_columns(), rows);
+    Table t = table_of("Model levels", rung_columns(), rows);
     t.notes = {
         "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the model levels of the "
         "same "
@@ -156,7 +156,7 @@ Table slip_table(const std::vector<RungResult>& results, const std::vector<Recor
         for (std::size_t i = 0; i < r.slip.size() && i < records.size(); ++i)
             rows.push_back({rung_id(r.rung), records[i].files.name, r.slip[i]});
     return table_of<Row>("",
-                         {{{"rung", "rung"}, &Row::rung},
+                         {{{"rung", "model level"}, &Row::rung},
                           {{"record", "record"}, &Row::record},
                           {{"slip_m", "slip", "m", 6}, &Row::slip}},
                          rows);

@@ -82,7 +82,7 @@ std::string aligned(const std::vector<TextLine>& lines, std::size_t header, cons
             for (const std::size_t j : group)
                 line += (line.empty() ? "" : "  ") + padded(lines[i][j], widths[j], right[j]);
             while (!line.empty() && line.back() == ' ') line.pop_back();
-            out += line + "\n";
+            if (!line.empty() || i == 0 || i >= header) out += line + "\n"; // a part without units has no line for them
             if (i + 1 != header) continue;
             for (std::size_t k = 2; k < total; ++k) out += "─";
             out += "\n";
