@@ -53,7 +53,7 @@ bool falls_after(const ContactRun& run);
 /// Did the solver find no answer for the state after the earthquake?
 bool open_after(const ContactRun& run);
 
-/// What may be said of a run: of the base, of every lift joint and of the state after the earthquake the worst. PASS and FAIL by
+/// Verdict of a run: the worst of its base, of every lift joint and of the state after the earthquake. PASS and FAIL come from
 /// judge(), with the total error of each slip. @param allowable  slip [m]; none: no criterion
 Verdict verdict_of(const ContactRun& run, const std::optional<double>& allowable);
 /// Of all runs: FAIL if one fails, none if one has no verdict, undecided if one is, else PASS.

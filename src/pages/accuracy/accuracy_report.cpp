@@ -102,7 +102,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
     list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
     if (j.choice) {
-        list.emplace_back("Rung within the tolerance", rung_id(in.results[*j.choice].rung));
+        list.emplace_back("Model level within the tolerance", rung_id(in.results[*j.choice].rung));
         list.emplace_back("It takes", fmt::format("{:.3g} s", in.results[*j.choice].seconds));
     }
     return list;

@@ -165,7 +165,7 @@ Table slip_table(const std::vector<RungResult>& results, const std::vector<Recor
 Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records)
 {
     using Number = std::size_t;
-    return table_of<Number>("Rung " + rung_id(result.rung),
+    return table_of<Number>("Model level " + rung_id(result.rung),
                             {{{"record", "record"}, [&](Number i) { return records[i].files.name; }},
                              {{"slip_mm", "slip", "mm", 6}, [&](Number i) { return result.slip[i] / mm; }},
                              {{"seconds", "time, all records", "s", 3}, [&](Number) { return result.seconds; }}},
