@@ -336,7 +336,7 @@ std::string friction_gave_back(const RunHistory& history)
     if (!(gave > 0.01 * kinetic)) return "";
     return fmt::format(
         " Friction gave {:.3g} J/m back, which it cannot: its force turns or ends within steps too long for that, "
-        "as where the dam hops. Use a smaller step (time.dt_s or time.substeps).",
+        "as where the whole base opens and closes. Use a smaller step (time.dt_s or time.substeps).",
         gave);
 }
 

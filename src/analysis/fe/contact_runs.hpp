@@ -44,7 +44,7 @@ public:
     bool gives_way() const { return exact_.has_value(); } ///< is each run compared with exact contact?
     std::size_t whole() const;                            ///< runs of all records and polarities
 
-    /// Told each run as soon as it is there, in their order, on the calling thread. It may take the large parts.
+    /// Called with each run as soon as it is finished, in order, on the calling thread. It may move the large parts out.
     using TakeRun = std::function<void(ContactRun& run, const GroundMotion& motion)>;
 
     /// All records, the polarities of each beside each other. Ends early when the watch asks. Results do not depend on

@@ -83,7 +83,7 @@ std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
     std::vector<std::string> sentences;
     for (const ContactRun& r : runs)
         sentences.push_back(by_itself(r) && &r != told
-                                ? fmt::format("Self-excited, too: walked >= {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
+                                ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
                                 : r.fe.message);
     return sentences;
 }
