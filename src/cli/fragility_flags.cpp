@@ -38,6 +38,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
             "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
             "(OpenQuake) and a journal for --resume",
             "-o,--out");
+    add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
     sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
@@ -58,7 +59,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
 Command fragility_command()
 {
     return {"fragility", "how likely the dam slides too far: P by the strength of the earthquake, rates per year",
-            "damslip fragility examples/fragility.toml --out results/fragility",
+            "damslip fragility examples/fragility/dam.toml --out results/fragility",
             with_flags<FragilityArguments>(fragility_flags, fragility)};
 }
 
