@@ -274,10 +274,9 @@ Table rate_table(const FragilityView& view)
                 fmt::format("{}: {:.0f} % of the upper bound stem from intensities outside the tested levels.",
                             l.limit.text, 100.0 * l.rate->raw.outside_share));
         if (!l.rate->raw_high.all_events)
-            t.notes.push_back(
-                fmt::format("{}: earthquakes weaker than {:.3g} {}, the curve's first point, are not counted; "
-                            "P is {:.3g} at most there.",
-                            l.limit.text, l.rate->raw.x_first / view.unit, view.unit_text, l.rate->raw_high.p_first));
+            t.notes.push_back(fmt::format(
+                "{}: earthquakes below {:.3g} {}, the curve's first point, are left out; P is {:.3g} at most there.",
+                l.limit.text, l.rate->raw.x_first / view.unit, view.unit_text, l.rate->raw_high.p_first));
     }
     if (std::any_of(rated.begin(), rated.end(), [](const L& l) { return !l.rate->raw_high.all_events; }))
         t.notes.push_back("hazard.all_events, the rate of all earthquakes, counts the weaker ones, too.");
