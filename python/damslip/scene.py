@@ -174,7 +174,7 @@ class Scene:
             raise UsageError(f"polarity={polarity!r} is not allowed: 1, -1, or None for both")
         return _whole(_core._fe(self._opened, polarity, mesh_error, spread, progress))
 
-    def modes(self, count=10, transfer=False, progress=None):
+    def modes(self, count=None, transfer=False, progress=None):
         """Natural frequencies and damping, as `damslip modes`."""
         return _whole(_core._modes(self._opened, count, transfer, progress))
 

@@ -128,6 +128,40 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
     }
 }
 
+/// What CLI11 refused, with what is expected in its place: the flag that its message names, or the arguments of the command.
+UsageError usage_error(const CLI::App& top, const std::vector<std::string>& arguments, const std::string& message)
+{
+    const CLI::App* app = &top;
+    std::string path = "damslip";
+    for (const std::string& word : arguments) {
+        const std::vector<std::string> names = command_names(*app);
+        if (std::find(names.begin(), names.end(), word) == names.end()) continue;
+        app = app->get_subcommand(word);
+        path += " " + word;
+    }
+    const auto described = [](const CLI::Option& option) {
+        return fmt::format("{} {}: {}", option.get_name(), option.get_type_name(), option.get_description());
+    };
+    std::string expected, positionals;
+    std::size_t first = std::string::npos; // where the message names it
+    for (const CLI::Option* option : app->get_options()) {
+        const std::string name = option->get_single_name();
+        if (option->get_positional()) positionals += fmt::format(" {}", name);
+        const std::string word = option->get_positional() ? name : "--" + name;
+        const std::size_t at = message.find(word), end = at + word.size();
+        if (at >= first ||
+            (end < message.size() && std::string_view(" :=,").find(message[end]) == std::string_view::npos))
+            continue;
+        first = at;
+        expected = described(*option);
+    }
+    const std::vector<std::string> below = command_names(*app);
+    if (expected.empty())
+        expected = below.empty() ? path + positionals + " [OPTIONS]" : fmt::format("one of {}", fmt::join(below, ", "));
+    return UsageError(Diagnostic{"", 0, 0, message + (message.ends_with('.') ? "" : "."), expected,
+                                 fmt::format("run  {} --help", path)});
+}
+
 } // namespace
 
 Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<const Command> rows)
@@ -145,7 +179,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<
     } catch (const CLI::CallForVersion& version) {
         throw HelpText{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(Diagnostic{"", 0, 0, error.what(), "", "run  damslip --help  or  damslip COMMAND --help"});
+        throw usage_error(parser.app, arguments, error.what());
     }
     return {chosen(parser), parser.json ? Form::json : Form::text, parser.quiet, parser.cache};
 }
