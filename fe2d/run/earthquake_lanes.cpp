@@ -58,7 +58,8 @@ EarthquakeRun::Lane EarthquakeRun::lane_of(const Contact& contact) const
 {
     Lane lane{Strength(contact, scene_.lift_joints, structure_->planes()), ContactMemory(structure_->pairs())};
     lane.memory.laws = joint_laws(scene_, contact, structure_->planes());
-    if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift))
+    if (auto water = base_water(scene_, structure_->plane(), options_.uplift, options_.cracked_uplift,
+                                options_.drain_loss))
         lane.memory.laws.add(std::move(water));
     lane.contact = contact;
     lane.load = stages_.last();
@@ -104,15 +105,17 @@ void EarthquakeRun::go_on(StaticContact& statics, Lane& lane, const RunState& fr
     lane.strength.restore(from);
     lane.memory.laws.restore(from.laws);
     const SplitLoad before = load_of(lane);
-    if (auto* water = lane.memory.laws.find<CrackWater>(); water && options_.cracked_uplift_after) {
+    auto* water = lane.memory.laws.find<CrackWater>();
+    if (water && (options_.cracked_uplift_after || water->report().drains_lost)) {
         const CrackLengths& crack = water->report().largest;
-        lane.uplift = options_.cracked_uplift_after(crack.upstream, crack.downstream);
+        const CrackedUplift& cracked = cracked_after(water->report());
+        lane.uplift = cracked ? cracked(crack.upstream, crack.downstream) : options_.drain_loss->before;
         lane.load = load_with(stages_, *model_, lane.uplift);
         water->rest_with(lane.uplift);
     }
     lane.result.stages.push_back(
         solve_stage(statics, *structure_, "as it was left", load_of(lane), lane.strength, lane.memory, &before));
-    if (const auto* water = lane.memory.laws.find<CrackWater>(); water && options_.cracked_uplift_after)
+    if (water && options_.cracked_uplift_after)
         lane.result.stages.back().water = water_in(water->report().largest);
 }
 
@@ -257,6 +260,12 @@ std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane
     return results;
 }
 
+/// Pressure with cracks after an earthquake, with what it has left of the drains; empty: cracks do not matter then.
+const CrackedUplift& EarthquakeRun::cracked_after(const JointWaterReport& water) const
+{
+    return water.drains_lost ? options_.drain_loss->cracked_after : options_.cracked_uplift_after;
+}
+
 /// The pressure under the base after the earthquake, as the options have it or with all that has cracked under full head. What
 /// the water in the joint has come to goes into the result.
 PressureProfile EarthquakeRun::water_after(const ContactMemory& end, RunResult& result) const
@@ -266,7 +275,7 @@ PressureProfile EarthquakeRun::water_after(const ContactMemory& end, RunResult& 
     result.base_water = water->report();
     if (!options_.cracked_uplift_after) return options_.uplift_after;
     const CrackLengths& crack = result.base_water->largest;
-    return options_.cracked_uplift_after(crack.upstream, crack.downstream);
+    return cracked_after(*result.base_water)(crack.upstream, crack.downstream);
 }
 
 bool EarthquakeRun::rests_between(const GroundMotion& motion) const

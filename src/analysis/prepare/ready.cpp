@@ -7,6 +7,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/frequency_content.hpp"
+#include "scene/opening_water.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 
@@ -117,6 +118,17 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
             water.drains = DrainState::effective; // where the crack has not reached them
             options.cracked_uplift_after = cracked_uplift(scene, water, seepage);
         }
+    }
+    if (drains_shear_off(scene)) {
+        water = scene_uplift_state(scene);
+        water.drains = DrainState::ineffective;
+        // A dam that yields has slipped a little before it slides.
+        options.drain_loss = fe2d::DrainLoss{std::max(*scene.drains->lost_at_slip, options.smallest_slip),
+                                             uplift_of(scene, water, seepage->profile_of(scene)),
+                                             cracked_uplift(scene, water, seepage),
+                                             {}};
+        water.curtain = CurtainState::damaged;
+        if (options.cracked_uplift_after) options.drain_loss->cracked_after = cracked_uplift(scene, water, seepage);
     }
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));

@@ -148,6 +148,11 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
+    if (!in.scene.wedge) {
+        write_file(folder / "equilibrium.csv", csv(sliding::equilibrium_table(in.screening.combinations), comments));
+        write_file(folder / "verdicts.csv", csv(sliding::verdict_table(in.screening.combinations), comments));
+        write_file(folder / "yield.csv", csv(yield_table(in.screening), comments));
+    }
     if (has_rocking(in.screening))
         write_file(folder / "rocking_block.csv", csv(rocking_table(in.screening, allowable), comments));
     if (const Table events = event_table(in.screening); !events.rows.empty())

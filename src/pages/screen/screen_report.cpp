@@ -275,8 +275,7 @@ Headline screen_headline(const Scene& scene, const Screening& s)
                             sliding_body(scene)),
                 Outcome::fail, "FAIL"};
     if (model.state != sliding::StaticState::at_rest)
-        return {fmt::format("The {} slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
-                            sliding_body(scene), model.block.friction, model.critical_friction),
+        return {fmt::format("The {} slides without any earthquake: {}.", sliding_body(scene), model.why_it_fails()),
                 Outcome::fail, "FAIL"};
     if (overturns(s.bases.front()))
         return {
