@@ -53,7 +53,7 @@ std::vector<KeyGroup> motion_groups()
                      std::vector<std::pair<std::string, SlidingScheme>>{{"exact", SlidingScheme::exact},
                                                                         {"slammer", SlidingScheme::slammer}})),
          word("lift_off", "no-friction",
-              "while the normal force is zero: no resistance (no-friction) or vertical flight and plastic landing "
+              "while the normal force is zero: no resistance (no-friction) or vertical flight and plastic impact "
               "(ballistic)",
               "\"ballistic\"",
               choice(&SlidingOptions::lift_off,
@@ -63,7 +63,7 @@ std::vector<KeyGroup> motion_groups()
          number("run_out_max", seconds, Range::between(0, 600), "60", "integration after the record's end at most",
                 "60", at(&SlidingOptions::run_out_max)),
          number("restitution", none, Range::between(0, 1), "by angular momentum",
-                "block that rocks: angular rate after a landing over that before", "0.8",
+                "block that rocks: angular rate after an impact over that before", "0.8",
                 at(&SlidingOptions::restitution)),
          number(
              "steady_rate_change", none, Range::half_open(0, 1), "0.1",
