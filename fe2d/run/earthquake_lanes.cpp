@@ -138,8 +138,8 @@ VectorXd EarthquakeRun::displacement_of(const VectorXd& moving, const VectorXd& 
     return without_edges(*model_, *moving_model_, moving_->with_rock_to_model(moving));
 }
 
-/// Wanted of the steps of pass `level`: half a step has an eighth of its local error, so the worst steps of the first pass
-/// are halved `level` times, the others as often as it takes to be no worse.
+/// Control of the steps in pass `level`. Half a step has an eighth of the local error, so the worst steps of the first pass
+/// are halved `level` times, and the others as often as they need to reach the same local error.
 StepControl EarthquakeRun::control_of(const Lane& lane, int level) const
 {
     return {lane.local_error / std::pow(8.0, level), level};

@@ -1,6 +1,5 @@
 #include "fe2d/run/stages.hpp"
 
-#include "core/defect.hpp"
 #include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/model/lift_water.hpp"
 #include "fe2d/run/static_path.hpp"
@@ -70,8 +69,7 @@ VectorXd load_with(const LoadStages& stages, const Model& model, const PressureP
     if (uplift.empty()) return stages.last();
     VectorXd sum = stages.before_uplift;
     for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
-        if (side == ContactSide::dam || !defect(Defect::uplift_on_one_face))
-            sum += uplift_load(model.mesh, model.dofs, uplift, side);
+        sum += uplift_load(model.mesh, model.dofs, uplift, side);
     return sum;
 }
 

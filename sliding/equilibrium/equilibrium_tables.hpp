@@ -17,6 +17,9 @@ Table equilibrium_table(const std::vector<Equilibrium>& all);
 /// One row per check of each combination: value, required value, PASS / FAIL / no criterion, source.
 Table verdict_table(const std::vector<Equilibrium>& all);
 
+/// For people: a row for each combination that is judged, a column for each check: "FAIL 2.950 / 3".
+Table check_matrix(const std::vector<Equilibrium>& all);
+
 /// Uplift and critical friction of each model.
 Table uplift_comparison_table(const std::vector<UpliftComparison>& all);
 

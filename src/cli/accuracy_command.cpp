@@ -43,8 +43,7 @@ void check(const AccuracyArguments& a)
         refuse_usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
     for (const auto& [flag, given] : {std::pair{"--method", !a.method.empty()},
                                       {"--level", a.level.has_value()},
-                                      {"--samples", a.samples.has_value()},
-                                      {"--reduced", a.middle}})
+                                      {"--samples", a.samples.has_value()}})
         if (given && !a.probability)
             refuse_usage(fmt::format("{} without --probability.", flag), "both", "add  --probability");
     if (!a.rung.empty() && !parse_rung(a.rung))

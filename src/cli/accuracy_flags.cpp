@@ -26,9 +26,10 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
     add_pdf(sub, a.pdf);
     const char* const group = "Probability";
-    sub.add_flag("--probability", a.probability,
-                 "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes, "
-                 "Sobol' points and two models; of a scene for fragility, its first limit")
+    sub.add_flag(
+           "--probability", a.probability,
+           "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes and "
+           "Sobol' points; of a scene for fragility, its first limit")
         ->group(group);
     sub.add_option("--method", a.method, "as of fragility; default: rigid-v or rigid")->group(group);
     sub.add_option("--level", a.level, "intensity in the unit of the levels; default: where P is nearest to 0.1")
@@ -36,8 +37,6 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
         ->group(group);
     sub.add_option("--samples", a.samples, "runs of the largest estimate; default: 16384, of finite elements 128")
         ->check(CLI::Range(16, 10'000'000))
-        ->group(group);
-    sub.add_flag("--reduced", a.middle, "finite elements on few modes as a third model, between them and the block")
         ->group(group);
     add_jobs(sub, a.jobs)->group(group);
     sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));

@@ -44,6 +44,7 @@ struct FeArguments {
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
     SpectrumArguments spectrum;                ///< peaks by the modes, too
+    int jobs = 0;                              ///< threads; 0: all cores
     bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
 
     bool reports() const { return !out.empty() || !pdf.empty(); }
@@ -51,8 +52,10 @@ struct FeArguments {
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0),
-            arguments.modes};
+    return {arguments.polarity,  arguments.mesh_error,
+            arguments.reports(), arguments.frames.value_or(0),
+            arguments.modes,     {},
+            arguments.jobs};
 }
 
 /// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked
@@ -250,6 +253,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->excludes(reduced);
     add_response_spectrum(sub, a.spectrum);
     add_pdf(sub, a.pdf);
+    add_jobs(sub, a.jobs, "threads, for both polarities side by side; 0: all cores");
 }
 
 } // namespace

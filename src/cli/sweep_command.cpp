@@ -1,4 +1,5 @@
 #include "cli/sweep_command.hpp"
+#include "cli/document.hpp"
 
 #include "cli/input/make_axes.hpp"
 #include "cli/print_pdf.hpp"
@@ -137,7 +138,8 @@ int print_plan(const SweepArguments& arguments, const TaskList& tasks, const Str
     const std::size_t parts =
         arguments.parts ? static_cast<std::size_t>(*arguments.parts) : tasks.variants() * tasks.motions();
     check_for_scripts(sweep_command_line(arguments));
-    if (arguments.plan) streams.out << plan_text(arguments, parts);
+    if (arguments.plan && !put_json_document(streams, "sweep-plan", {{"plan", plan_text(arguments, parts)}}))
+        streams.out << plan_text(arguments, parts);
     if (!arguments.slurm_array.empty()) write_file(arguments.slurm_array, slurm_script(arguments, parts));
     if (!streams.quiet)
         streams.talk << fmt::format("{} parts, {} rows; afterwards:  {}\n", parts, tasks.rows(),
@@ -202,13 +204,12 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
-    if (streams.form == Form::json)
-        put(job.out, sweep_json(job.scene, table, compared, outcome).dump(2) + "\n", streams);
-    else if (job.shard) {
+    if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
+    if (job.shard) {
         const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
         put(job.out, part_text(identity, *job.shard, csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
             streams);
-    } else {
+    } else if (streams.form != Form::json || !job.out.empty()) {
         put(job.out, csv(table, csv_comments(identity)), streams);
     }
     if (!streams.quiet) {

@@ -66,9 +66,9 @@ TEST_F(AccuracyInput, ASceneWithoutElasticityHasNoFiniteElementsAndSaysSo)
 {
     const std::string out = run({path("rigid.toml")}, 0);
     EXPECT_NE(out.find("No finite elements: dam.young_modulus_GPa is not given."), std::string::npos);
-    EXPECT_NE(out.find("No rung with vertical motion"), std::string::npos);
+    EXPECT_NE(out.find("No model level with vertical motion"), std::string::npos);
     EXPECT_EQ(out.find("fe-"), std::string::npos);
-    EXPECT_NE(out.find("Cheapest rung within 2 %: rigid:h"), std::string::npos);
+    EXPECT_NE(out.find("Cheapest model level within 2 %: rigid:h"), std::string::npos);
 }
 
 TEST_F(AccuracyInput, ARungThatTheSceneCannotRunIsRefused)

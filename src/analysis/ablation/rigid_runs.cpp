@@ -30,11 +30,7 @@ double shortest_time(Task&& task)
 
 std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
 {
-    if (fails_statically(r.status))
-        return model.state == sliding::StaticState::lifts_off
-                   ? "the uplift carries more than the weight"
-                   : fmt::format("friction {:.4g} is below the {:.4g} that holds it", model.block.friction,
-                                 model.critical_friction);
+    if (fails_statically(r.status)) return model.why_it_fails();
     if (reported(r.status, r.slip) || r.notes.empty()) return "";
     return r.status == Status::runs_away || r.status == Status::rocks_first ? r.notes.back() : r.notes.front();
 }

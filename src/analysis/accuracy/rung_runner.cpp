@@ -47,11 +47,12 @@ std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& l
     if (!has_water(scene)) return {RungWater::dry};
     switch (scene.reservoir->model) {
     case ReservoirModel::hydrostatic:
-        left_out.push_back("Added mass and acoustic water are not on this ladder: reservoir.model = \"hydrostatic\".");
+        left_out.push_back(
+            "Added mass and acoustic water are not in this hierarchy of models: reservoir.model = \"hydrostatic\".");
         return {RungWater::hydrostatic};
     case ReservoirModel::added_mass:
-        left_out.push_back(
-            "Acoustic water is not on this ladder: reservoir.model = \"added-mass\"; with \"auto\" it is.");
+        left_out.push_back("Acoustic water is not in this hierarchy of models: reservoir.model = \"added-mass\"; with "
+                           "\"auto\" it is.");
         return {RungWater::added_mass};
     case ReservoirModel::acoustic:
     case ReservoirModel::automatic:
@@ -63,7 +64,8 @@ std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& l
 bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
 {
     const std::optional<Diagnostic> why_not = why_not_reducible(scene);
-    if (why_not) left_out.push_back("Reduced runs are not on this ladder: " + first_line(why_not->problem));
+    if (why_not)
+        left_out.push_back("Reduced runs are not in this hierarchy of models: " + first_line(why_not->problem));
     return !why_not;
 }
 
@@ -214,7 +216,8 @@ LadderFacts RungRunner::facts() const
     LadderFacts facts;
     facts.rocks = rocks_first();
     facts.vertical = std::any_of(records_->begin(), records_->end(), [](const RecordPair& p) { return p.vertical; });
-    if (!facts.vertical) facts.left_out.push_back("No rung with vertical motion: the records have none that counts.");
+    if (!facts.vertical)
+        facts.left_out.push_back("No model level with vertical motion: the records have none that counts.");
     facts.slammer = scene_.sliding.scheme == SlidingScheme::slammer;
     facts.regressions = best_regressions(scene_, records_);
     if (facts.regressions.empty()) facts.left_out.push_back("No regression is valid for all records.");

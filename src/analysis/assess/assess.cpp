@@ -132,7 +132,7 @@ std::vector<Assumption> assumptions_of(const Assessment& a)
 
 void run_screenings(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
 {
-    a.ready = prepare(given, Method::rigid_block, {.stop = watch.stop()});
+    a.ready = prepare(given, Method::rigid_block, {.flexible_modes = true, .stop = watch.stop()});
     a.screening = run_screening(a.ready, options.jobs);
     try_part("flexible block", a.left_out, [&] {
         const Ready flexible = prepare(with_flexible_block(given), Method::rigid_block, a.ready.pairs,

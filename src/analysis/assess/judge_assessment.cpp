@@ -284,9 +284,7 @@ void judge_assessment(Assessment& a)
     const RigidModel& model = a.screening.bases.front().model;
     if (model.state != sliding::StaticState::at_rest) {
         a.verdict = Verdict::fail;
-        a.verdict_reason = fmt::format("The dam does not stand without any earthquake: friction {:.4g} is below the "
-                                       "{:.4g} that holds it.",
-                                       model.block.friction, model.critical_friction);
+        a.verdict_reason = "The dam does not stand without any earthquake: " + model.why_it_fails() + ".";
         return;
     }
     judge_slip(a);

@@ -117,14 +117,18 @@ Verdict verdict_of(const std::vector<ContactRun>& runs, const std::optional<doub
     return verdict;
 }
 
-const ContactRun& worst_of(const std::vector<ContactRun>& runs)
+bool milder(const ContactRun& a, const ContactRun& b)
 {
     const auto severity = [](const ContactRun& r) {
         const int rank = status_row(r.fe.status).judging == Judging::fails && !has_slip(r) ? 2 : has_slip(r) ? 1 : 0;
         return std::pair(rank, rank == 1 ? std::abs(r.fe.max_slip) : 0.0);
     };
-    return *std::max_element(runs.begin(), runs.end(),
-                             [&](const ContactRun& a, const ContactRun& b) { return severity(a) < severity(b); });
+    return severity(a) < severity(b);
+}
+
+const ContactRun& worst_of(const std::vector<ContactRun>& runs)
+{
+    return *std::max_element(runs.begin(), runs.end(), milder);
 }
 
 int exit_code_of(const std::vector<ContactRun>& runs)

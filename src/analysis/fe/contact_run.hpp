@@ -54,14 +54,15 @@ bool falls_after(const ContactRun& run);
 /// Did the solver find no answer for the state after the earthquake?
 bool open_after(const ContactRun& run);
 
-/// What may be said of a run: of the base, of every lift joint and of the state after the earthquake the worst. PASS and FAIL by
+/// Verdict of a run: the worst of its base, of every lift joint and of the state after the earthquake. PASS and FAIL come from
 /// judge(), with the total error of each slip. @param allowable  slip [m]; none: no criterion
 Verdict verdict_of(const ContactRun& run, const std::optional<double>& allowable);
 /// Of all runs: FAIL if one fails, none if one has no verdict, undecided if one is, else PASS.
 Verdict verdict_of(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
 
-/// The run with the largest slip; dams that fall or run away before all others, runs without slip after them. Of equals the first.
-/// @param runs  not empty
+/// Whether `a` comes before `b`: the smaller slip; runs without slip before all others, dams that fall or run away after them.
+bool milder(const ContactRun& a, const ContactRun& b);
+/// The run that no other is worse than; of equals the first. @param runs  not empty
 const ContactRun& worst_of(const std::vector<ContactRun>& runs);
 
 /// By the statuses of the runs, and of the states after the earthquake.

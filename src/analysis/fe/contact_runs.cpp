@@ -40,13 +40,14 @@ int shown_polarity(const Scene& scene, int polarity)
 
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
     : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(options, ready.scene)),
-      options_(ready.run_options(watch)), coarser_(
-                                              ready, options.mesh_error && !options.start,
-                                              [this](const fe2d::RunProgress& p) {
-                                                  meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
-                                                  return answer(watch_);
-                                              },
-                                              watch)
+      jobs_(options.jobs), options_(ready.run_options(watch)),
+      coarser_(
+          ready, options.mesh_error && !options.start,
+          [this](const fe2d::RunProgress& p) {
+              meter_.reached(share_of_run + (1.0 - share_of_run) * share_of(p));
+              return answer(watch_);
+          },
+          watch)
 {
     watch.begin("fe", static_cast<double>(whole()));
     watch.phase("set-up");
@@ -95,7 +96,7 @@ std::vector<ContactRun> ContactRuns::run(const RecordPair& pair, std::vector<Gro
 {
     std::vector<ContactRun> runs(polarities_.size());
     motions.resize(polarities_.size());
-    parallel_for(polarities_.size(), 0, [&](std::size_t i) {
+    parallel_for(polarities_.size(), jobs_, [&](std::size_t i) {
         motions[i] = ready_.motion(pair, 1.0, polarities_[i]);
         ContactRun& r = runs[i];
         r.record = pair.files.name;
@@ -119,7 +120,7 @@ void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 }
 
 ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)),
+    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)), jobs_(options.jobs),
       options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
       coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
 {
@@ -144,7 +145,7 @@ std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
     for (const RecordPair& pair : ready_.records()) {
         if (watch_.stop_asked()) break;
         std::vector<ReducedRecord> both(polarities_.size());
-        parallel_for(polarities_.size(), 0, [&](std::size_t i) {
+        parallel_for(polarities_.size(), jobs_, [&](std::size_t i) {
             ReducedRecord& run = both[i];
             run.record = pair.files.name;
             run.motion = ready_.motion(pair, 1.0, polarities_[i]);

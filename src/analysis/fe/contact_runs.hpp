@@ -18,6 +18,7 @@ struct FeOptions {
     int frames = 0;                   ///< kept over the record, for pictures; 0: none
     std::optional<int> modes = {};    ///< elastic modes of reduced runs; none: their own choice
     std::optional<fe2d::RunState> start = {}; ///< of the joints, from a run before; no mesh error then
+    int jobs = 0;                             ///< threads, for polarities side by side; 0: all cores
 };
 
 /// What is run of each record: +1 and -1, or the one that scene or options ask for. On top of motion.polarity.
@@ -43,7 +44,7 @@ public:
     bool gives_way() const { return exact_.has_value(); } ///< is each run compared with exact contact?
     std::size_t whole() const;                            ///< runs of all records and polarities
 
-    /// Told each run as soon as it is there, in their order, on the calling thread. It may take the large parts.
+    /// Called with each run as soon as it is finished, in order, on the calling thread. It may move the large parts out.
     using TakeRun = std::function<void(ContactRun& run, const GroundMotion& motion)>;
 
     /// All records, the polarities of each beside each other. Ends early when the watch asks. Results do not depend on
@@ -58,6 +59,7 @@ private:
     Watch& watch_;
     FeMeter meter_;
     std::vector<int> polarities_;
+    int jobs_;
     fe2d::RunOptions options_;
     CoarserMesh coarser_;
     std::optional<fe2d::EarthquakeRun> model_, exact_;
@@ -84,6 +86,7 @@ private:
     const Ready& ready_;
     Watch& watch_;
     std::vector<int> polarities_;
+    int jobs_;
     fe2d::RunOptions options_;
     int modes_;
     std::optional<fe2d::EarthquakeRun> full_;

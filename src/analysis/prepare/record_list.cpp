@@ -4,7 +4,9 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/generate/seed_list.hpp"
+#include "scene/read.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -102,10 +104,6 @@ RecordList paired(const std::vector<std::filesystem::path>& files)
         const Station& station = stations[key];
         for (const std::filesystem::path& file : station.horizontal) {
             RecordFiles record = record_of(file);
-            const auto taken = std::count_if(list.records.begin(), list.records.end(), [&](const RecordFiles& other) {
-                return other.horizontal.stem() == file.stem();
-            });
-            if (taken > 0) record.name += fmt::format(" ({})", taken + 1);
             if (station.vertical.size() == 1) record.vertical = station.vertical.front();
             if (station.horizontal.size() == 2)
                 record.other_horizontal = station.horizontal[&file == &station.horizontal.front() ? 1 : 0];
@@ -151,6 +149,9 @@ RecordList records_of_pattern(const std::string& pattern, bool folder)
                 !(folder && is_something_else(found.gl_pathv[i])))
                 files.emplace_back(found.gl_pathv[i]);
     ::globfree(&found);
+    for (const std::filesystem::path& file : files)
+        if (!is_utf8(file.native()))
+            refuse(utf8_text(file.string()), "its name is not UTF-8.", "a name in UTF-8", "rename the file");
     RecordList list = paired(files);
     list.folder = folder_of(pattern);
     return list;
@@ -233,7 +234,9 @@ ComponentName component_of_name(const std::filesystem::path& file)
     return {kind, without_separator(stem.substr(0, separator))};
 }
 
-RecordList record_list(const std::string& pattern)
+namespace {
+
+RecordList found_records(const std::string& pattern)
 {
     const std::filesystem::path path = pattern;
     if (std::filesystem::is_directory(path)) return records_of_pattern((path / "*").string(), true);
@@ -243,6 +246,15 @@ RecordList record_list(const std::string& pattern)
         if (text.find("horizontal") != std::string::npos) return records_of_list(path, text);
     }
     return records_of_pattern(pattern, false);
+}
+
+} // namespace
+
+RecordList record_list(const std::string& pattern)
+{
+    RecordList list = found_records(pattern);
+    number_names(list.records);
+    return list;
 }
 
 } // namespace damslip

@@ -221,6 +221,13 @@ sliding::RegressionInputs regression_inputs(const RecordPair& pair, const Ground
     return inputs;
 }
 
+std::string RigidModel::why_it_fails() const
+{
+    return state == sliding::StaticState::lifts_off || !std::isfinite(critical_friction)
+               ? "the uplift carries more than the weight, no friction would hold it"
+               : fmt::format("friction {:.4g} is below the {:.4g} that holds it", block.friction, critical_friction);
+}
+
 GroundMotion horizontal_only(GroundMotion motion)
 {
     motion.accel_v.clear();

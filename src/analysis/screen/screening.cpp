@@ -252,9 +252,7 @@ void add_warnings(const Scene& scene, const Screening& s, std::vector<std::strin
                         100.0 * s.bond_share));
     const RigidModel& model = s.bases.front().model;
     if (model.state == sliding::StaticState::slides_downstream || model.state == sliding::StaticState::slides_upstream)
-        warnings.push_back(fmt::format(
-            "The block slides without any earthquake: friction {:.4g} is below the {:.4g} that would hold it.",
-            model.block.friction, model.critical_friction));
+        warnings.push_back("The block slides without any earthquake: " + model.why_it_fails() + ".");
     if (model.state != sliding::StaticState::at_rest &&
         std::any_of(model.anchors.begin(), model.anchors.end(),
                     [](const AnchorBar& bar) { return bar.prestress < bar.yield_force; }))

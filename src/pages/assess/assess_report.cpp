@@ -5,6 +5,7 @@
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
@@ -239,14 +240,12 @@ Page assess_page(const Assessment& a, const Scene& given)
             page.sections.back().parts.push_back(rows_part(assumption_table(a)));
         }
     }
-    page.sections.push_back(
-        {"Limit equilibrium",
-         {TablePart{sliding::equilibrium_table(a.screening.combinations), Layout::columns, 3, Fold::open}},
-         Fold::open});
+    page.sections.push_back(equilibrium_section(a.screening.combinations));
     if (a.spectrum) page.sections.push_back(spectrum_section(*a.spectrum));
     page.sections.push_back(sentences_section("What was not considered", {}));
     page.sections.back().parts.push_back(rows_part(off_table("The scene does not name", not_named(a))));
     page.sections.back().parts.push_back(rows_part(off_table("A choice of scene or method leaves off", taken_off(a))));
+    page.sections.push_back(limits_section(a.ready.scene, a.fe ? Method::finite_elements : Method::rigid_block));
     page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
     page.provenance = scene_provenance(given);
     add_record_provenance(a.ready.records(), page.provenance);

@@ -2,6 +2,7 @@
 #include "pages/assess/assess_report.hpp"
 
 #include "analysis/ablation/ablation_rows.hpp"
+#include "core/number.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -152,8 +153,8 @@ std::vector<std::string> after_sentences(const Assessment& a)
     std::vector<std::string> list;
     for (const sliding::Equilibrium& e : a.screening.combinations)
         if (e.kind == CombinationKind::post_seismic)
-            list.push_back(fmt::format("Limit equilibrium, {} (crack rule {}): sliding factor {:.3g} with μ = {:.3g}.",
-                                       e.name, sliding::word(e.crack_rule), e.sliding_factor, e.friction));
+            list.push_back(fmt::format("Limit equilibrium, {} (crack rule {}): sliding factor {} with μ = {:.3g}.",
+                                       e.name, sliding::word(e.crack_rule), factor_text(e.sliding_factor), e.friction));
     if (!a.runs.empty()) {
         const fe2d::StageResult& after = governing_run(a).fe.after;
         if (after.sliding_factor > 0.0 && std::isfinite(after.sliding_factor))

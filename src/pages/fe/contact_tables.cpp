@@ -204,27 +204,27 @@ std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allo
         const std::optional<double> slip = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
         return slip ? Cell(1e3 * *slip) : Cell();
     };
-    return {
-        record_column,
-        polarity_column,
-        {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
-        {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
-        {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
-        {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
-        {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
-        {{"error_parts", "error holds"}, [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
-        {{"max_slip_m", "largest slip on the way", "m", 5},
-         [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
-        {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
-        {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
-        {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
-        {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
-        {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
-        {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
-        {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
-        {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
-        {{"walked_at_least_m", "walked ≥", "m", 5},
-         [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
+    return {record_column,
+            polarity_column,
+            {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
+            {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+            {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
+            {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
+            {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
+            {{"error_parts", "error includes"},
+             [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
+            {{"max_slip_m", "largest slip on the way", "m", 5},
+             [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
+            {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
+            {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
+            {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
+            {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
+            {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
+            {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
+            {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
+            {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
+            {{"walked_at_least_m", "slid at least", "m", 5},
+             [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
 }
 
 void write_walked_slips(Table& t)
@@ -237,7 +237,7 @@ void write_walked_slips(Table& t)
     const std::size_t walked = place("walked_at_least_m"), slip = place("slip_mm");
     for (std::vector<Cell>& row : t.rows)
         if (const double* metres = std::get_if<double>(&row[walked]))
-            row[slip] = fmt::format("walked ≥ {:.4g}", 1e3 * *metres);
+            row[slip] = fmt::format("at least {:.4g}", 1e3 * *metres);
 }
 
 Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
@@ -472,15 +472,16 @@ Table run_out_table(const std::vector<ContactRun>& runs)
          {{"end_rate_mm_s", "rate at end", "mm/s", 3}, figure(&F::rate, 1e3)},
          {{"thrust_over_friction", "χ", "–", 3}, figure(&F::thrust_over_friction)},
          {{"energy_kept_J_m", "ΔE", "J/m", 3}, figure(&F::energy_kept)},
-         {{"hops", "hops"}, [](const R& r) { return r.fe.run_out.hops; }},
-         {{"hop_frequency_Hz", "of them", "Hz", 3}, figure(&F::hop_frequency)},
+         {{"hops", "lift-offs"}, [](const R& r) { return r.fe.run_out.hops; }},
+         {{"hop_frequency_Hz", "lift-offs", "Hz", 3}, figure(&F::hop_frequency)},
          {{"unloaded_share", "unloaded", "–", 3}, figure(&F::unloaded_share)},
          {{"sliding_factor", "FS at rest", "–", 4}, figure(&F::sliding_factor)}},
         runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
         {"slip while the ground moved, and with it at rest; χ: work of the static thrust on the slip over that of "
          "friction (1/FS where N' stays as it is; 1 or more with FS > 1: it slides by itself); ΔE: what the dam kept "
          "of "
-         "it; hops: times that the whole base was open; unloaded: share of the time with N' below 5 % of its static "
+         "it; lift-offs: times that the whole base was open; unloaded: share of the time with N' below 5 % of its "
+         "static "
          "value. Of the run-out; where sliding is self-excited χ, ΔE and unloaded of its last three windows."});
 }
 

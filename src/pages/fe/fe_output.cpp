@@ -111,6 +111,13 @@ void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer)
     for (const std::string& message : messages) answer.text += "note: " + message + "\n";
 }
 
+std::string run_file(const std::string& kind, const Scene& scene, const std::string& record, const std::string& suffix)
+{
+    std::vector<std::string> names;
+    for (const RecordFiles& files : scene.motion.records) names.push_back(files.name);
+    return kind + "_" + file_word(record, names) + suffix;
+}
+
 void FieldSeries::add(const std::string& name, double time, const Eigen::VectorXd& displacement,
                       const Eigen::VectorXd& elastic, std::vector<fe2d::VtuArray> more)
 {

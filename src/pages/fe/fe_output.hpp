@@ -41,6 +41,10 @@ void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, 
 /// Messages last; in the text as notes.
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
 
+/// Name of a file of one run, without its ending: "history_El_Centro_NS_+1"; records whose names would give the same file are told apart.
+std::string run_file(const std::string& kind, const Scene& scene, const std::string& record,
+                     const std::string& suffix = "");
+
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {
 public:

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace damslip::pages {
 
@@ -19,6 +20,7 @@ namespace {
 
 using units::mm;
 constexpr std::size_t stress_records = 4; ///< whose stresses are shown
+constexpr double no_slip = 1e-7;          ///< less is none [m]
 
 const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
 {
@@ -91,12 +93,12 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                                ? fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm)
                                : "");
     std::string out =
-        slip < 1e-7 ? fmt::format("The {} does not slide in {}", sliding_body(scene),
-                                  over.empty() ? record_of(worst) : "any of " + over)
-                    : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
-                                  slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
+        slip < no_slip ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                     over.empty() ? record_of(worst) : "any of " + over)
+                       : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
+                                     slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
     out += error_text(slip_error(worst), step);
-    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
+    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > no_slip)
         out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
                            std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
     if (worst.rigid)
@@ -149,7 +151,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
     };
     const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
-    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("walked ≥ {:.4g} mm", *walked / mm)
+    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("at least {:.4g} mm", *walked / mm)
                                                             : millimetres(worst.fe.status, worst.fe.max_slip));
     list.emplace_back("Rock", rock_words(scene));
     list.emplace_back("Worst run", worst.label());
@@ -159,8 +161,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
     list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
     if (!worst.fe.stages.empty())
-        list.emplace_back("Stands without earthquake from μ",
-                          fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
+        list.emplace_back("Needs statically μ ≥", fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
     double open = 0.0;
     for (const ContactRun& r : runs)
         for (const double length : r.fe.history.open_length) open = std::max(open, length);
@@ -199,7 +200,7 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {
     if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
     const std::size_t number = sections_.size() + 1;
-    Section section{"Record " + run.label(), {}, number <= open_records ? Fold::open : Fold::folded};
+    Section section{"Record " + run.label(), {}, Fold::open};
     if (!run.fe.message.empty()) section.parts.push_back(Paragraph{run.fe.message});
     if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
         sections_.push_back(std::move(section));
@@ -259,21 +260,24 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
         slip.parts.push_back(rows_part(std::move(water)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
+    const bool slides = find(runs, [](const ContactRun& r) { return std::abs(r.fe.max_slip) >= no_slip; });
+    if (!slides) page.sections.push_back(statics_section(runs));
     page.sections.push_back(std::move(slip));
-    page.sections.push_back(statics_section(runs));
+    if (slides) page.sections.push_back(statics_section(runs));
     if (!stresses_.empty()) {
         MeshView view = stresses_.view();
         if (sections_.size() > stress_records_)
             view.note += fmt::format(" The first {} of {} runs.", stress_records_, sections_.size());
         page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
     }
-    for (const Section& section : sections_) page.sections.push_back(section);
+    std::vector<Section> appendix = add_worse_polarities(runs, sections_, page);
     std::vector<Table> how{without_seconds(solution_part(table))};
     if (with_exact_contact(in_.scene)) how.push_back(contact_law_table(runs));
     if (Table flow = joint_flow_table(runs); !flow.rows.empty()) how.push_back(std::move(flow));
     how.push_back(contact_energy_table(runs));
     how.push_back(contact_count_table(runs));
     end_fe_page(frame, motions_, how, page);
+    std::move(appendix.begin(), appendix.end(), std::back_inserter(page.sections));
     return page;
 }
 

@@ -32,9 +32,8 @@ std::string status_words(const FragilityView& view)
 std::vector<Table> tables_of(const FragilityView& view)
 {
     std::vector<Table> tables;
-    for (Table table :
-         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view),
-          rate_table(view), rate_part_table(view), cause_table(view), needed_yield_table(view)})
+    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view), rate_table(view),
+                        rate_part_table(view), cause_table(view), needed_yield_table(view)})
         if (!table.rows.empty()) tables.push_back(std::move(table));
     return tables;
 }
@@ -129,10 +128,16 @@ Chart rate_chart(const FragilityView& view)
     return chart;
 }
 
-/// Both bounds. @pre limit.rate
-std::string rates_per_year(const LimitEstimate& limit)
+/// "9.17e-06 to 0.016 per year by earthquakes above 0.01 g". @pre limit.rate
+std::string rates_per_year(const FragilityView& view, const LimitEstimate& limit)
 {
-    return fmt::format("{:.3g} to {:.3g} per year", limit.rate->raw_low.lower, limit.rate->raw_high.upper);
+    const probability::Interval bounds = limit.rate->bounds();
+    const std::string from = fmt::format("{:.3g}", bounds.lower), to = fmt::format("{:.3g}", bounds.upper);
+    const probability::AnnualRate& upper = limit.rate->raw_high;
+    return (from == to ? from : from + " to " + to) + " per year" +
+           (upper.all_events
+                ? ""
+                : fmt::format(" by earthquakes above {:.3g} {}", upper.x_first / view.unit, view.unit_text));
 }
 
 /// "slip > 50 mm: P = 0.5 at PGA = 0.31 g; 1.1e-4 to 1.3e-4 per year"
@@ -148,9 +153,7 @@ std::string answer_sentence(const FragilityView& view, const LimitEstimate& limi
         sentence += "a cloud of unscaled records";
     else
         sentence += "no curve, " + (limit.cloud ? limit.cloud->why : limit.fit.why);
-    if (limit.rate) {
-        sentence += "; " + rates_per_year(limit);
-    }
+    if (limit.rate) sentence += "; " + rates_per_year(view, limit);
     return sentence;
 }
 
@@ -185,9 +188,7 @@ nlohmann::ordered_json fragility_json(const FragilityView& view)
     j["probabilities"] = json_of(fragility_table(view));
     j["curves"] = json_of(curve_table(view));
     j["rates"] = json_of(rate_table(view));
-    if (view.two_level) j["two_models"] = json_of(two_level_table(view));
     if (view.conditioned) j["conditioned_on_friction"] = json_of(conditioned_table(view));
-    if (view.mfmc) j["multi_fidelity"] = json_of(mfmc_table(view));
     if (view.causes) j["causes"] = json_of(cause_table(view));
     j["needed_yield"] = json_of(needed_yield_table(view));
     j["notes"] = view.notes;
@@ -214,12 +215,11 @@ Page fragility_page(const FragilityView& view)
                         {"Does not stand", fmt::format("{:.3g}", view.estimate.p_static)}};
     for (const LimitEstimate& limit : view.estimate.limits)
         if (limit.rate && page.key_figures.size() < 6)
-            page.key_figures.emplace_back(limit.limit.text, rates_per_year(limit));
+            page.key_figures.emplace_back(limit.limit.text, rates_per_year(view, limit));
     page.warnings = view.notes;
     Section curves{"Fragility", {curve_chart(view)}, Fold::open};
     Section rates{"Rates", {}, Fold::open}, causes{"What it comes from", {}, Fold::open};
-    for (Table table :
-         {fragility_table(view), conditioned_table(view), two_level_table(view), mfmc_table(view), curve_table(view)})
+    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view)})
         if (!table.rows.empty()) curves.parts.push_back(rows_part(std::move(table)));
     page.sections.push_back(std::move(curves));
     if (const Table table = rate_table(view); !table.rows.empty()) {

@@ -219,8 +219,8 @@ Table rate_table(const FragilityView& view)
     using L = LimitEstimate;
     std::vector<ColumnOf<L>> columns = {
         {{"limit", "limit"}, [](const L& l) { return l.limit.text; }},
-        {{"rate_lower", "rate, stripes", "1/year"}, [](const L& l) { return l.rate->raw_low.lower; }},
-        {{"rate_upper", "to", "1/year"}, [](const L& l) { return l.rate->raw_high.upper; }},
+        {{"rate_lower", "rate, stripes", "1/year"}, [](const L& l) { return l.rate->bounds().lower; }},
+        {{"rate_upper", "to", "1/year"}, [](const L& l) { return l.rate->bounds().upper; }},
         {{"sampling_lower", "draws 2.5 %", "1/year", 3}, [](const L& l) { return l.rate->sampling.lower; }},
         {{"sampling_upper", "97.5 %", "1/year", 3}, [](const L& l) { return l.rate->sampling.upper; }},
         {{"records_lower", "records 2.5 %", "1/year", 3},
@@ -233,7 +233,9 @@ Table rate_table(const FragilityView& view)
          [](const L& l) { return l.rate->fitted ? Cell(l.rate->fitted->upper) : Cell(); }},
         {{"outside_share", "outside the levels", "–", 2}, [](const L& l) { return l.rate->raw.outside_share; }},
         {{"in_50_years", "P in 50 years", "–", 3},
-         [](const L& l) { return probability::probability_in(l.rate->raw.lower, 50.0); }}};
+         [](const L& l) { return probability::probability_in(l.rate->bounds().lower, 50.0); }},
+        {{"in_50_years_upper", "to", "–", 3},
+         [](const L& l) { return probability::probability_in(l.rate->bounds().upper, 50.0); }}};
     if (view.plan.epistemic)
         for (std::size_t q = 0; q < probability::band_levels.size(); ++q)
             columns.push_back({{fmt::format("band_{:02.0f}", 100.0 * probability::band_levels[q]),
@@ -245,11 +247,16 @@ Table rate_table(const FragilityView& view)
             t.notes.push_back(
                 fmt::format("{}: {:.0f} % of the upper bound stem from intensities outside the tested levels.",
                             l.limit.text, 100.0 * l.rate->raw.outside_share));
-        if (!l.rate->raw.below_upper)
-            t.notes.push_back(fmt::format("{}: below the lowest intensity the rate has no bound, P = {:.3g} there; the "
-                                          "rate of all earthquakes gives one.",
-                                          l.limit.text, l.rate->raw.p_first));
+        if (!l.rate->raw_high.all_events)
+            t.notes.push_back(
+                fmt::format("{}: earthquakes weaker than {:.3g} {}, where the hazard curve begins, are not "
+                            "in the rate; P is {:.3g} at most there. hazard.all_events, the rate of all "
+                            "earthquakes, counts them.",
+                            l.limit.text, l.rate->raw.x_first / view.unit, view.unit_text, l.rate->raw_high.p_first));
     }
+    if (!rated.empty())
+        t.notes.push_back("from … to: below the lowest level P is between 0 and P there, above the highest between P "
+                          "there and 1; draws and records: of the lower end.");
     if (!rated.empty())
         t.notes.push_back(view.plan.input.probability.static_failure == StaticFailure::infinite
                               ? "A dam that does not stand without an earthquake counts at every intensity."

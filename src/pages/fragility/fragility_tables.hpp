@@ -23,12 +23,8 @@ std::string levels_apart_from_median(const FragilityView& view, const LimitEstim
 Table rate_table(const FragilityView& view);
 /// One row for each limit and part of the intensities: its share of the rate.
 Table rate_part_table(const FragilityView& view);
-/// One row for each limit and level of the estimate by two models.
-Table two_level_table(const FragilityView& view);
 /// One row for each limit and level where friction was conditioned on: P, its error, the runs, what that gained.
 Table conditioned_table(const FragilityView& view);
-/// One row for each limit and level of multifidelity Monte Carlo.
-Table mfmc_table(const FragilityView& view);
 /// One row a variable: shares of the variance of P, and P at its ends.
 Table cause_table(const FragilityView& view);
 /// One row for each limit and level: the yield that a slip needs.
