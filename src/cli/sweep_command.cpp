@@ -380,7 +380,10 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
         say_base(scene, streams);
-    scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
+    const std::vector<Diagnostic> left_out = not_honoured(scene, methods_of(axes.method));
+    say(left_out, false, streams);
+    for (const auto* notes : {&axes.notes, &left_out})
+        scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
                      "add  --record FILE");

@@ -137,7 +137,7 @@ std::vector<KeyGroup> water_groups()
                                      number("pressure_coefficient", none, Range::between(0, 3), "required", "K_s",
                                             "0.5", at(&Silt::pressure_coefficient))}));
     groups.push_back(optional_group(
-        "ice", "Ice thrust; acts in the sliding computations and in the load combinations that name it.", &Scene::ice,
+        "ice", "Ice thrust; acts in the sliding computations, in the response-spectrum level and in the load combinations that name it.", &Scene::ice,
         {number("force", line_force, Range::any(), "required", "thrust, positive downstream", "100", at(&Ice::force)),
          number("level", length, Range::at_least(0), "reservoir level", "where it acts above the heel", "62",
                 at(&Ice::level))}));

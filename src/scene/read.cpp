@@ -2,7 +2,6 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
-#include "core/units.hpp"
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/fragility_input.hpp"
@@ -39,11 +38,6 @@ std::string value_text(const toml::node& node)
 std::string full_name(const std::string& group, const std::string& key)
 {
     return group.empty() ? key : group + "." + key;
-}
-
-double to_si(double value, const UnitSuffix& unit)
-{
-    return unit.tangent ? std::tan(value * units::degree) : value * unit.factor;
 }
 
 std::string allowed_text(const Key& key, const Range& range, const Units& units)

@@ -106,6 +106,7 @@ Verdict verdict_of(const ContactRun& r, const std::optional<double>& allowable)
     Verdict verdict = judge(r.fe.status, r.fe.max_slip, slip_error(r).total, allowable);
     for (std::size_t k = 0; k < r.fe.lifts.size(); ++k)
         verdict = worse(verdict, judge(r.fe.status, r.fe.lifts[k].largest_slip, lift_error(r, k).total, allowable));
+    if (r.leaves_out) verdict = worse(verdict, Verdict::undecided);
     return open_after(r) ? worse(verdict, Verdict::none) : verdict;
 }
 
@@ -146,6 +147,7 @@ ContactRun as_contact_run(const ReducedRecord& r)
     run.both = r.both;
     run.mesh = r.mesh;
     run.rigid = r.rigid;
+    run.leaves_out = r.leaves_out;
     run.fe.status = r.result.status;
     run.fe.message = r.result.message;
     run.fe.stages = r.result.stages;

@@ -22,6 +22,7 @@ struct ContactRun {
     int polarity = 1;                          ///< -1: the record's horizontal component is flipped
     bool both = false;                         ///< the other polarity was run, too
     MeshError mesh;
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
 
     std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
     std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
@@ -76,6 +77,7 @@ struct ReducedRecord {
     bool both = false; ///< the other polarity was run, too
     MeshError mesh;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    bool leaves_out = false;                   ///< as ContactRun::leaves_out
 };
 
 /// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.

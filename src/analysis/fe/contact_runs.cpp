@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/key_methods.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -101,6 +102,7 @@ std::vector<ContactRun> ContactRuns::run(const RecordPair& pair, std::vector<Gro
         r.record = pair.files.name;
         r.polarity = shown_polarity(ready_.scene, polarities_[i]);
         r.both = polarities_.size() > 1;
+        r.leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
         run(motions[i], r);
     });
     return runs;
@@ -149,6 +151,7 @@ std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
             run.motion = ready_.motion(pair, 1.0, polarities_[i]);
             run.polarity = shown_polarity(ready_.scene, polarities_[i]);
             run.both = polarities_.size() > 1;
+            run.leaves_out = !not_honoured(ready_.scene, methods::reduced).empty();
             run.result = model_->run(run.motion);
             watch_.results_at_hand();
             run.mesh = coarser_.error_of(run.result, run.motion);

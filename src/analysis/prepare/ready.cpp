@@ -7,6 +7,7 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/frequency_content.hpp"
+#include "scene/key_methods.hpp"
 #include "scene/opening_water.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
@@ -67,6 +68,15 @@ std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
         if (pair.vertical && !pair.files.vertical) files.back().vertical = pair.vertical->source.file;
     }
     return files;
+}
+
+/// Beside what else is said of the scene, once.
+void note_not_honoured(Scene& scene, Methods set)
+{
+    for (Diagnostic& note : not_honoured(scene, set))
+        if (std::none_of(scene.notes.begin(), scene.notes.end(),
+                         [&](const Diagnostic& n) { return n.problem == note.problem; }))
+            scene.notes.push_back(std::move(note));
 }
 
 } // namespace
@@ -158,6 +168,9 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     if (records) given.motion.records = files_of(*records);
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
+    note_not_honoured(given, method == Method::finite_elements
+                                 ? methods::fe | methods::reduced
+                                 : methods::rigid | methods::flexible | methods::regressions);
     ready.plan = make_effect_plan(given, method);
     ready.scene = called_for(ready.plan, given);
     if (method == Method::finite_elements) {

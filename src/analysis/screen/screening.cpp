@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "scene/key_methods.hpp"
 #include "scene/water.hpp"
 #include "sliding/equilibrium/lift_block.hpp"
 
@@ -335,6 +336,7 @@ Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
 {
     const GoverningSlip g = row.governing();
     const Verdict verdict = judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    if (verdict == Verdict::pass && row.leaves_out) return Verdict::undecided;
     if (g.method == "rocking") return verdict; // it has no such premise
     return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
 }
@@ -536,6 +538,9 @@ Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking)
     const RowsOf rows{scene, s.bases.front(), s.flexible, rocking, jobs};
     add_slips(rows, records, s);
     add_slips_without_bond(scene, seepage, records, rows, s);
+    const bool leaves_out = !not_honoured(ready.given, methods::rigid | methods::flexible).empty();
+    for (std::vector<SlipRow>* slips : {&s.slips, &s.slips_without_bond})
+        for (SlipRow& row : *slips) row.leaves_out = leaves_out;
     add_equilibrium(scene, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);

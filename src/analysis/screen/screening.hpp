@@ -54,6 +54,7 @@ struct SlipRow {
 
     std::vector<std::string> broken_premises =
         {}; ///< why the sliding block does not hold for the dam in this motion: no PASS rests on it
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on it either
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }

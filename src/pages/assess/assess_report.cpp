@@ -151,6 +151,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> answers(const Asse
 std::vector<std::string> assess_notes(const Assessment& a)
 {
     std::vector<std::string> notes = note_texts(a.ready.given.notes);
+    if (a.fe)
+        for (std::string& note : note_texts(a.fe->given.notes))
+            if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
     for (const std::string& s : left_out_sentences(a)) notes.push_back(s);
     return notes;
 }

@@ -188,6 +188,8 @@ Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, co
     if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
     if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
     if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS"};
+    if (find(runs, [](const ContactRun& run) { return run.leaves_out; }))
+        return {sentence, Outcome::unresolved, "undecided: they leave out what the scene asks for, see the notes"};
     const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
     return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
 }

@@ -57,10 +57,6 @@ std::vector<std::string> screen_notes(const Ready& ready)
 {
     std::vector<std::string> notes = note_texts(ready.given.notes);
     if (!ready.flexible_modes.empty()) notes.push_back(ready.flexible_modes);
-    if (!ready.given.lift_joints.empty())
-        notes.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
-                                    "[[lift_joint]] is left to `damslip fe`.",
-                                    ready.given.lift_joints.size()));
     return notes;
 }
 

@@ -309,6 +309,8 @@ Headline screen_headline(const Scene& scene, const Screening& s)
         return !row.broken_premises.empty() && row.governing().method != "rocking";
     });
     if (broken) return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
+    if (any(Verdict::undecided) && s.slips.front().leaves_out)
+        return {sentence, Outcome::unresolved, "Undecided: it leaves out what the scene asks for, see the notes."};
     if (any(Verdict::undecided))
         return {sentence, Outcome::unresolved,
                 s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
