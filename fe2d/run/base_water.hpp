@@ -8,9 +8,6 @@
 /// Water under the dam that follows the opening of the base.
 namespace damslip::fe2d {
 
-/// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
-using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
-
 /// The law of uplift.opening; null: the water does not follow, and nothing asks for the crack afterwards.
 /// @param uplift  before the earthquake @param cracked  the same with cracks
 std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, const PressureProfile& uplift,

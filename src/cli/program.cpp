@@ -73,7 +73,11 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
-        const int code = invocation.run(streams);
+        int code = invocation.run(streams);
+        if (interrupt.interrupted() && code == exit_ok) {
+            talk << "Interrupted: the answer is of what was finished.\n";
+            code = exit_no_answer;
+        }
         out.flush();
         if (!out) {
             talk << "error: standard output could not be written: the disk is full, or its reader went away.\n";

@@ -9,8 +9,10 @@
 #include "records/measure/frequency_content.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "sliding/equilibrium/combinations.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace damslip {
 
@@ -40,6 +42,21 @@ fe2d::CrackedUplift cracked_uplift(const Scene& scene, const UpliftState& state,
         for (const ProfilePoint& point : part(of_toe, from, length)) both.points.push_back(point);
         return both;
     };
+}
+
+/// That of the post-seismic combination (sliding::after_earthquake()), in which a crack takes water where uplift.crack lets it; with
+/// uplift.after = "full" in every case, and the drains then work where it has not reached them.
+fe2d::CrackedUplift uplift_after(const Scene& scene, const std::shared_ptr<SeepageSource>& seepage)
+{
+    if (!scene.uplift) return {};
+    const Combination after = sliding::after_earthquake(scene);
+    const bool full = scene.uplift->water.after == WaterAfter::full;
+    UpliftState water = scene_uplift_state(scene);
+    water.drains = full || after.drains_effective ? DrainState::effective : DrainState::ineffective;
+    water.curtain = !full && after.curtain_intact ? CurtainState::intact : CurtainState::damaged;
+    fe2d::CrackedUplift cracked = cracked_uplift(scene, water, seepage);
+    if (full || after.crack.value_or(scene.uplift->crack) != CrackRule::none) return cracked;
+    return [cracked](double, double) { return cracked(0.0, 0.0); };
 }
 
 fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
@@ -81,6 +98,17 @@ RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
     return make_rigid_model(scene, seepage->profile_of(scene), crack, crack ? nullptr : statics.get());
 }
 
+std::vector<sliding::Equilibrium> Ready::combinations() const
+{
+    sliding::PeakGround peak;
+    for (const RecordPair& pair : records()) {
+        const GroundMotion shaking = motion(pair);
+        for (const double a : shaking.accel_h) peak.a_h = std::max(peak.a_h, std::abs(a));
+        for (const double a : shaking.accel_v) peak.a_v = std::max(peak.a_v, std::abs(a));
+    }
+    return sliding::evaluate_combinations(scene, peak, seepage->profile_of(scene));
+}
+
 double Ready::wave_frequency() const
 {
     constexpr double least = 25.0, share = 0.99;
@@ -104,19 +132,13 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
 {
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
-    UpliftState water = scene_uplift_state(scene);
-    options.uplift = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift = uplift_of(scene, scene_uplift_state(scene), seepage->profile_of(scene));
     if (has_water_in_rock(scene))
         options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
-    water.drains = DrainState::ineffective; // after the earthquake
-    water.curtain = CurtainState::damaged;
-    options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift_after = uplift_after(scene, seepage);
     if (scene.uplift && scene.uplift->water.follows()) {
         options.cracked_uplift = cracked_uplift(scene, scene_uplift_state(scene), seepage);
-        if (scene.uplift->water.after == WaterAfter::full) {
-            water.drains = DrainState::effective; // where the crack has not reached them
-            options.cracked_uplift_after = cracked_uplift(scene, water, seepage);
-        }
+        if (scene.uplift->water.after == WaterAfter::full) options.cracked_uplift_after = options.uplift_after;
     }
     if (scene.damping.method == DampingMethod::modified_rayleigh && !records().empty())
         options.damping = damping_by_record(scene, model_options(), motion(records().front()));

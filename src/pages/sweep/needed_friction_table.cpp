@@ -1,5 +1,6 @@
 #include "pages/sweep/needed_friction_table.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
 
 #include <cmath>
@@ -106,7 +107,8 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
         {{"record", "governed by"}, &Needed::record},
         {{"polarity", "polarity"}, [](const Needed& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
     if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &Needed::variant});
-    Table table = table_of(fmt::format("Friction for a slip of {:.4g} mm at most", allowable.value_or(0.0) / units::mm),
+    Table table = table_of(fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
+                                       rows.empty() ? "" : ", " + polarity_words(view.polarities)),
                            columns, rows);
     table.notes.push_back(
         "all motions together: at \"holds from\" and every friction of the grid above it the largest slip, with its "
