@@ -152,7 +152,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
                 slips = contact_slip_table(runs), run_out = run_out_table(runs),
                 lifts = contact_lift_table(runs, allowable), law = contact_law_table(runs);
     const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
-    const Headline headline = fe_headline(in.scene, runs);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations);
 
     FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
     auto& j = answer.json;
