@@ -56,6 +56,24 @@ std::optional<AccelerationUnit> acceleration_unit(std::string_view text)
     return std::nullopt;
 }
 
+std::optional<std::string> take_unit(std::string& heading, const std::function<bool(std::string_view)>& known)
+{
+    const std::string_view whole = heading;
+    const auto taken = [&](std::size_t name, std::size_t from, std::size_t length) {
+        std::optional<std::string> unit(std::string(trimmed(whole.substr(from, length))));
+        heading = std::string(trimmed(whole.substr(0, name)));
+        return unit;
+    };
+    const std::size_t open = whole.find_last_of("[(");
+    if (open != std::string_view::npos && (whole.back() == ']' || whole.back() == ')') &&
+        known(whole.substr(open + 1, whole.size() - open - 2)))
+        return taken(open, open + 1, whole.size() - open - 2);
+    for (std::size_t at = whole.find_first_of("_ "); at != std::string_view::npos;
+         at = whole.find_first_of("_ ", at + 1))
+        if (known(whole.substr(at + 1))) return taken(at, at + 1, std::string_view::npos);
+    return std::nullopt;
+}
+
 std::optional<std::string> unit_in_words(std::string_view line)
 {
     static constexpr std::array<std::string_view, 11> keys{"sec and ", "seconds and ", "accel is ",  "acceleration is ",

@@ -262,7 +262,7 @@ int slide_on_yield(const SlideArguments& a, const Streams& streams)
 Command slide_command()
 {
     return {"slide", "slip on a yield acceleration that is given, of records; without a scene",
-            "damslip slide --yield-g 0.1 --record ns.at2 --period-s 0.3",
+            "damslip slide --yield-g 0.1 --record records/data/rock_1.0_h.csv --period-s 0.3",
             with_flags<SlideArguments>(slide_flags, slide_on_yield)};
 }
 

@@ -4,8 +4,10 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/generate/seed_list.hpp"
 #include "records/read/read_record.hpp"
+#include "scene/read.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -342,6 +344,9 @@ RecordList records_of_pattern(const std::string& pattern, bool folder, bool stat
                 !(folder && is_something_else(found.gl_pathv[i])))
                 files.emplace_back(found.gl_pathv[i]);
     ::globfree(&found);
+    for (const std::filesystem::path& file : files)
+        if (!is_utf8(file.native()))
+            refuse(utf8_text(file.string()), "its name is not UTF-8.", "a name in UTF-8", "rename the file");
     RecordList list = paired(files, stations);
     list.folder = folder_of(pattern);
     return list;
@@ -466,7 +471,9 @@ ComponentName component_of_name(const std::filesystem::path& file)
     return *std::find_if(names.begin(), names.end(), [](const ComponentName& name) { return name.alone; });
 }
 
-RecordList record_list(const std::string& pattern, bool stations)
+namespace {
+
+RecordList found_records(const std::string& pattern, bool stations)
 {
     const std::filesystem::path path = pattern;
     if (std::filesystem::is_directory(path)) return records_of_pattern((path / "*").string(), true, stations);
@@ -476,6 +483,15 @@ RecordList record_list(const std::string& pattern, bool stations)
         if (text.find("horizontal") != std::string::npos) return records_of_list(path, text, stations);
     }
     return records_of_pattern(pattern, false, stations);
+}
+
+} // namespace
+
+RecordList record_list(const std::string& pattern, bool stations)
+{
+    RecordList list = found_records(pattern, stations);
+    number_names(list.records);
+    return list;
 }
 
 } // namespace damslip

@@ -1,7 +1,9 @@
 #include "analysis/suite/record_suite.hpp"
 
+#include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
@@ -33,9 +35,9 @@ std::string listed_path(const std::filesystem::path& file, const std::filesystem
 {
     const std::filesystem::path folder = std::filesystem::absolute(list).parent_path();
     const std::string path = std::filesystem::absolute(file).lexically_normal().lexically_relative(folder).string();
-    if (path.find_first_of(",\n\r\"") != std::string::npos)
-        refuse(file, "a list cannot hold this path.", "a path without commas and quotes", "rename the file");
-    return path;
+    if (visible(path, LineEnds::replaced) != path)
+        refuse(file, "a list cannot hold this path.", "a path without control characters", "rename the file");
+    return csv_cell(path);
 }
 
 } // namespace
@@ -114,7 +116,7 @@ std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::file
                             const std::vector<std::string>& comments)
 {
     std::string text;
-    for (const std::string& comment : comments) text += "# " + comment + "\n";
+    for (const std::string& comment : comments) text += "# " + visible(comment, LineEnds::replaced) + "\n";
     const bool others =
         std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) { return line.other_horizontal; });
     const bool columns = std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) {
@@ -128,7 +130,7 @@ std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::file
     for (const SuiteLine& line : lines)
         text += fmt::format("{},{},{}{}{},{},{}\n", path(line.horizontal), path(line.vertical),
                             others ? path(line.other_horizontal) + "," : "",
-                            columns ? line.column + "," + line.vertical_column + "," : "", line.event,
+                            columns ? csv_cell(line.column) + "," + csv_cell(line.vertical_column) + "," : "", csv_cell(line.event),
                             shortest(line.weight), shortest(line.scale));
     return text;
 }

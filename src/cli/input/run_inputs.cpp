@@ -32,14 +32,11 @@ std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
     for (std::size_t i = 0; i < inputs.records.size(); ++i) {
         RecordFiles f;
         f.name = inputs.records[i].stem().string();
-        const auto taken = std::count_if(files.begin(), files.end(), [&](const RecordFiles& o) {
-            return o.horizontal.stem() == inputs.records[i].stem();
-        });
-        if (taken > 0) f.name += fmt::format(" ({})", taken + 1);
         f.horizontal = inputs.records[i];
         if (!inputs.verticals.empty() && inputs.verticals[i] != no_vertical) f.vertical = inputs.verticals[i];
         files.push_back(std::move(f));
     }
+    number_names(files);
     return files;
 }
 
