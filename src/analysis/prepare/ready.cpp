@@ -11,6 +11,7 @@
 #include "scene/opening_water.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "scene/write.hpp"
 
 #include <algorithm>
 
@@ -165,7 +166,10 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     Ready ready;
     ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
     ready.statics = options.statics;
+    const bool names_records = !given.motion.records.empty();
+    std::string hash = names_records ? scene_hash(given) : "";
     if (records) given.motion.records = files_of(*records);
+    if (!names_records) hash = scene_hash(given);
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
     note_not_honoured(given, method == Method::finite_elements
@@ -181,6 +185,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
         }
         ready.dam_period = resolve_dam_period(ready.scene, options.stop);
     }
+    ready.plan.scene_hash = std::move(hash);
     ready.given = std::move(given);
     return ready;
 }

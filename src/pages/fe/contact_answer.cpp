@@ -24,13 +24,13 @@ namespace damslip::pages {
 namespace {
 
 /// CSV files of one run, and its fields.
-void write_run(const std::filesystem::path& folder, const Scene& scene, const ContactRun& r)
+void write_run(const std::filesystem::path& folder, const FeReport::Input& in, const ContactRun& r)
 {
     const auto write = [&](const std::string& kind, const Table& table, const std::string& legend = {}) {
-        std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
+        std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + in.plan.scene_hash,
                                           "record " + r.label(), "status " + word(r.fe.status)};
         if (!legend.empty()) comments.push_back(legend);
-        write_file(folder / (run_file(kind, scene, r.record, r.suffix()) + ".csv"), csv(table, comments));
+        write_file(folder / (run_file(kind, in.scene, r.record, r.suffix()) + ".csv"), csv(table, comments));
     };
     const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
                       signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
@@ -59,7 +59,7 @@ std::vector<fe2d::VtuArray> contact_arrays(const fe2d::Mesh& mesh, const fe2d::R
 void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input& in, const ContactRun& r,
                       FieldSeries& fields)
 {
-    if (!folder.empty()) write_run(folder, in.scene, r);
+    if (!folder.empty()) write_run(folder, in, r);
     if (r.fe.displacement.size() == 0) return;
     Eigen::VectorXd elastic = r.fe.displacement; // gravity's part carries stress where it does not count as motion
     if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
