@@ -17,7 +17,7 @@ namespace damslip::records {
 
 namespace {
 
-/// `component`: a name of a component without a quantity ("NS", "U-D"): an acceleration where no other column is named as one.
+/// `component`: a name of a component without a quantity ("NS", "U-D"), taken as an acceleration.
 enum class ColumnKind { time, acceleration, component, motion, other };
 
 /// What a heading such as "time_s", "acc [cm/s2]", "a_h (g)", "NS" says.
@@ -221,6 +221,10 @@ AccelerationUnit unit_of(const File& f, const ColumnHeading& heading)
                    "one unit", "correct one of them");
         return unit;
     }
+    // "UD NS EW (gal)": the one unit of the headings is that of all.
+    for (const std::string& name : f.table.headings)
+        if (const auto unit = read_heading(name).unit; unit && !stated && acceleration_unit(*unit))
+            stated = Stated<std::string>{*unit, f.table.heading_line};
     return settle_unit(f.text, stated, f.options);
 }
 
@@ -228,18 +232,14 @@ std::vector<Record> read_headed(const File& f)
 {
     const auto& names = f.table.headings;
     std::optional<std::size_t> time;
-    std::vector<std::size_t> accelerations, components, others;
+    std::vector<std::size_t> accelerations, others;
     for (std::size_t k = 0; k < names.size(); ++k) {
         const ColumnKind kind = read_heading(names[k]).kind;
         if (kind == ColumnKind::time && !time)
             time = k;
         else
-            (kind == ColumnKind::acceleration ? accelerations
-             : kind == ColumnKind::component  ? components
-                                              : others)
-                .push_back(k);
+            (kind == ColumnKind::acceleration || kind == ColumnKind::component ? accelerations : others).push_back(k);
     }
-    if (accelerations.empty()) accelerations = components;
     if (!f.options.column.empty()) accelerations = {chosen_column(f)};
     // A lone unnamed column beside the time can be nothing else; its unit must still be stated.
     if (accelerations.empty() && others.size() == 1 && read_heading(names[others[0]]).kind == ColumnKind::other)
@@ -290,21 +290,19 @@ Record read_column(const File& f, bool first_is_time, std::size_t column, bool a
                             source_of(f, alone ? "two columns" : "columns", unit, name));
 }
 
-constexpr std::string_view say_columns = "name the columns in a heading line (time_s, accel_g), or choose one by "
-                                         "--column (in a scene: motion.record.column)";
+constexpr std::string_view say_columns =
+    "choose by --column (motion.record.column), or name them in a heading line (time_s, accel_g)";
 
 /// Rows that have other numbers of values than the first ones: a header of numbers, or a file that was changed.
 [[noreturn]] void refuse_ragged(const File& f)
 {
     std::size_t row = 1;
     while (f.table.width(row) == f.table.width(0)) ++row;
-    refuse(
-        f.text, {f.table.row_line[row], 0},
-        fmt::format("lines of different numbers of values: {} in line {}, {} here.", f.table.width(0),
-                    f.table.row_line.front(), f.table.width(row)),
-        "as many numbers in all lines but the last: time and acceleration, columns with a heading line, or samples",
-        "put # before the lines that are no samples (a header); if every number is a sample, say how many there are: "
-        "\"# n: 400\"");
+    refuse(f.text, {f.table.row_line[row], 0},
+           fmt::format("lines of different numbers of values: {} in line {}, {} here.", f.table.width(0),
+                       f.table.row_line.front(), f.table.width(row)),
+           "as many numbers in every line but the last",
+           "put # before header lines; if every number is a sample, state how many there are: \"# n: 400\"");
 }
 
 /// Whole numbers above numbers with decimals: a header, not samples. Zeros may be written either way.
@@ -366,17 +364,13 @@ std::vector<Record> read_unheaded(const File& f)
                fmt::format("{} numbers a line without headings, and the first rises like a time.", f.width),
                fmt::format("a choice: the columns 2 to {}", f.width), std::string(say_columns));
     const bool columns_counted = f.width > 1 && !counted && f.header.samples && f.header.samples->value == rows;
+    const std::string one_record = fmt::format("\"# n: {}\" if they are one record in reading order", total);
+    if (!f.stated_dt && f.width == 1)
+        refuse(f.text, {line, 0}, "one number a line and no time step.", "a time step", std::string(say_dt));
     if (!f.stated_dt)
         refuse(f.text, {line, 0},
-               f.width == 1
-                   ? std::string("one number a line and no time step.")
-                   : fmt::format("{} numbers a line, without headings and without a time step.", f.table.width(0)),
-               "a time step; of columns side by side also a choice or a heading line",
-               f.width == 1 ? std::string(say_dt)
-                            : std::string(say_columns) +
-                                  "; if all numbers are samples in reading order, say how many "
-                                  "there are (\"# n: 400\") and " +
-                                  std::string(say_dt));
+               fmt::format("{} numbers a line, without headings and without a time step.", f.table.width(0)),
+               "a time step, and a choice of a column; or " + one_record, std::string(say_columns));
     if (columns_counted) {
         std::vector<Record> records;
         for (std::size_t k = 0; k < f.width; ++k) records.push_back(read_column(f, false, k, false));
@@ -385,9 +379,7 @@ std::vector<Record> read_unheaded(const File& f)
     if (!counted && looks_side_by_side(f))
         refuse(f.text, {line, 0},
                fmt::format("{} numbers a line look like {} components side by side.", f.width, f.width),
-               fmt::format("a choice: the columns 1 to {}", f.width),
-               std::string(say_columns) +
-                   fmt::format("; if they are one record in reading order, say  \"# n: {}\"", total));
+               fmt::format("a choice: the columns 1 to {}; or {}", f.width, one_record), std::string(say_columns));
     return {read_stream(f)};
 }
 

@@ -45,9 +45,10 @@ std::optional<std::size_t> first_number_line(const RecordText& text)
             if (run++ == 0) first = k + 1;
             if (run > most_in_header) return first;
         } else {
-            const auto numbers_below =
-                std::count_if(text.lines.begin() + static_cast<std::ptrdiff_t>(k), text.lines.end(), is_number_line);
-            if (run > 0 && static_cast<std::size_t>(numbers_below) < least_of_record) return first;
+            std::size_t below = 0; // lines of numbers, as far as they count
+            for (std::size_t next = k; run > 0 && next < text.lines.size() && below < least_of_record; ++next)
+                below += is_number_line(text.lines[next]);
+            if (run > 0 && below < least_of_record) return first;
             run = 0, ++words;
         }
     }

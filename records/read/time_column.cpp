@@ -89,7 +89,7 @@ std::optional<double> rounded_step(const RecordText& text, const TimeColumn& col
                        fmt::format("the times are rounded: their step lies between {:.6g} and {:.6g} s.",
                                    dt - half_width, dt + half_width),
                        fmt::format("a step that is known within {:.1f} %", 100.0 * even_tolerance),
-                       fmt::format("state it (motion.record.dt_s, or  --dt {:.4g}  if that is the step)", candidate));
+                       fmt::format("state it (motion.record.dt_s, or  --dt {:.8g}  if that is the step)", candidate));
             return candidate;
         }
     return std::nullopt;
@@ -140,10 +140,8 @@ std::optional<double> step_of(const RecordText& text, const TimeColumn& column, 
         refuse(text, column.place(row),
                fmt::format("the time step is uneven: {:.6g} s here, {:.6g} s on average ({}).",
                            time[row] - time[row - 1], dt, per_cent_off(deviation)),
-               fmt::format(
-                   "steps equal within {:.1f} %, or times rounded to their printed digits; film that was digitised "
-                   "is uneven",
-                   100.0 * even_tolerance),
+               fmt::format("steps equal within {:.1f} % or rounded to the printed digits (digitised film is uneven)",
+                           100.0 * even_tolerance),
                "correct the times, or have the record resampled (`damslip record convert --resample --dt 0.005`)");
     }
     if (!as_stated)

@@ -409,8 +409,7 @@ std::vector<Layout> corpus()
     add({"smc", smc(0, "    360"), {}, {{"360", 0}}, "cm/s2"});
     add({"smc_uncorrected_up", smc(2, "     UP", "1 UNCORRECTED ACCELEROGRAM"), {}, {{"UP", 2}}, "cm/s2"});
     add({"smc_nul_padding", smc(0, "    360") + std::string(80, '\0'), {}, {{"360", 0}}, "cm/s2"});
-    add(refused("smc_film_uneven", smc_film(0.003),
-                "or times rounded to their printed digits; film that was digitised is uneven"));
+    add(refused("smc_film_uneven", smc_film(0.003), "or rounded to the printed digits (digitised film is uneven)"));
     add({"smc_film_resampled", smc_film(0.003), resampled(0.01), {{"45", 0}}, "cm/s2", 0.03});
     add({"smc_film_even", smc_film(0.0), {}, {{"45", 0}}, "cm/s2", 6e-4});
     agency_files::Smc impossible;
@@ -515,6 +514,10 @@ std::vector<Layout> corpus()
          {{"", 0}},
          "mg"});
     add({"csv_per_cent_of_g", "time_s,accel [%g]\n" + two_columns("{:.2f},{:.5f}", 0.01 * one_g), {}, {{"", 0}}, "%g"});
+    add({"one_unit_for_all_headings",
+         "NS EW UD (g)\n" + three_bare,
+         given("", 0.01),
+         {{"NS", 0}, {"EW", 1}, {"UD (g)", 2}}});
     add({"labels_rate",
          "% Sampling Frequency (Hz): 100\n% Unit: mm/s^2\n% Component: HNZ\n" + block(samples(2, 0.001), "{:.3f}"),
          {},
