@@ -1,6 +1,5 @@
 #include "fe2d/contact/released_system.hpp"
 
-#include "core/defect.hpp"
 #include "fe2d/contact/two_levels.hpp"
 
 #include <Eigen/Core>
@@ -167,7 +166,7 @@ std::pair<ReleasedSystem::Row, ReleasedSystem::Row> ReleasedSystem::rows_of(Cont
     case ContactState::open:
         return {{true, 0.0}, {true, 0.0}};
     case ContactState::pulled:
-        return {{}, {true, defect(Defect::friction_on_pulled_pairs) ? friction : 0.0}};
+        return {{}, {true, 0.0}};
     }
     return {};
 }

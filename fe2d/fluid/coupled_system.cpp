@@ -1,7 +1,5 @@
 #include "fe2d/fluid/coupled_system.hpp"
 
-#include "core/defect.hpp"
-
 #include <cassert>
 
 namespace damslip::fe2d {
@@ -70,7 +68,7 @@ CoupledSystem couple(const SparseMatrix& mass, const SparseMatrix& damping, cons
     system.stiffness = block_diagonal(stiffness, water.stiffness, -s2);
     Triplets across;
     place(coupling, 0, n, -s, across);
-    place(coupling.transpose(), n, 0, defect(Defect::fluid_rows_unscaled) ? -1.0 : -s, across);
+    place(coupling.transpose(), n, 0, -s, across);
     system.damping = block_diagonal(damping, water.damping, -s2, std::move(across));
     system.velocity_x = water_rows(n, water.flux_x, s);
     system.velocity_y = water_rows(n, water.flux_y, s);

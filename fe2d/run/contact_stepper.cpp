@@ -1,6 +1,5 @@
 #include "fe2d/run/contact_stepper.hpp"
 
-#include "core/defect.hpp"
 #include "core/stopwatch.hpp"
 #include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"
@@ -45,9 +44,7 @@ void ContactStepper::begin(const StepState& state, const GroundAcceleration& gro
     const StepConstants& c = op_->constants();
     const double alpha = c.scheme.alpha, w = 1.0 + alpha, cv = alpha + w * c.a4, ca = w * c.a5;
     dam.right_hand_side(c, state, ground, free_.dam);
-    known_ = (defect(Defect::lambda_unweighted) ? 0.0 : alpha) * state.contact.force;
-    if (defect(Defect::stiffness_damping_in_contact))
-        known_ -= operators_.damping().constants.stiffness / c.dt * (state.contact.force - state.force_before);
+    known_ = alpha * state.contact.force;
     if (slip_damping_.active()) {
         on_pairs_ = cv * state.rate_t + ca * state.accel_t;
         slip_.noalias() = slip_damping_.weights.transpose() * on_pairs_;

@@ -1,6 +1,5 @@
 #include "fe2d/run/dynamic_operator.hpp"
 
-#include "core/defect.hpp"
 #include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
@@ -38,7 +37,6 @@ SlipDamping::SlipDamping(const ContactStructure& structure, const RunDamping& da
     : weights(structure.planes().weights())
 {
     if (damping.mass != MassDamping::deformation_only || damping.constants.mass == 0.0) return;
-    if (defect(Defect::drag_on_rigid_slip)) return;
     const MatrixXd motions = sliding_motions(structure.planes());
     MatrixXd ordered(structure.dam_unknowns(), motions.cols());
     for (Index k = 0; k < motions.cols(); ++k) ordered.col(k) = structure.to_order(motions.col(k));

@@ -1,6 +1,5 @@
 #include "fe2d/run/ground_input.hpp"
 
-#include "core/defect.hpp"
 #include "core/input_error.hpp"
 
 #include <algorithm>
@@ -41,8 +40,7 @@ GroundAcceleration GroundInput::at(double time) const
     const auto k = std::min(static_cast<std::size_t>(clamped), motion_.accel_h.size() - 2);
     const double share = clamped - static_cast<double>(k);
     const auto value = [&](const std::vector<double>& a) { return a.empty() ? 0.0 : a[k] + share * (a[k + 1] - a[k]); };
-    const double upstream = defect(Defect::polarity) ? -1.0 : 1.0;
-    return {upstream * value(motion_.accel_h),
+    return {value(motion_.accel_h),
             value(motion_.accel_v),
             ground.velocity_h,
             ground.velocity_v,

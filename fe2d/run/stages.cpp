@@ -1,6 +1,5 @@
 #include "fe2d/run/stages.hpp"
 
-#include "core/defect.hpp"
 #include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/model/lift_water.hpp"
 #include "fe2d/run/static_path.hpp"
@@ -70,8 +69,7 @@ VectorXd load_with(const LoadStages& stages, const Model& model, const PressureP
     if (uplift.empty()) return stages.last();
     VectorXd sum = stages.before_uplift;
     for (const ContactSide side : {ContactSide::dam, ContactSide::rock})
-        if (side == ContactSide::dam || !defect(Defect::uplift_on_one_face))
-            sum += uplift_load(model.mesh, model.dofs, uplift, side);
+        sum += uplift_load(model.mesh, model.dofs, uplift, side);
     return sum;
 }
 
@@ -169,16 +167,23 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
     return result;
 }
 
-void read_state(const ContactPlanes& planes, Index index, const ContactMemory& memory, PlaneBalance& result)
+/// Where the solver has opened the joint there is no cohesion.
+void read_state(const ContactPlanes& planes, Index index, const ContactMemory& memory, const ContactLaw& law,
+                PlaneBalance& result)
 {
     const Index first = planes.first(index);
     const Plane& plane = planes[index];
     result.slip = planes.mean(index, memory.slip);
+    double without = 0.0;
     for (Index i = 0; i < plane.pairs(); ++i) {
         const ContactState state = memory.states[static_cast<std::size_t>(first + i)];
-        if (state == ContactState::open) result.open_length += plane.area[i];
+        if (state == ContactState::open) {
+            result.open_length += plane.area[i];
+            without += law.cohesion[first + i];
+        }
         if (is_slip(state)) result.slipping_length += plane.area[i];
     }
+    if (std::isfinite(result.sliding_factor)) result.sliding_factor -= without / std::abs(result.resultant.shear_force);
 }
 
 } // namespace
@@ -315,11 +320,39 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
         return result;
     }
     memory = std::move(trial);
-    strength.follow(memory);
-    read_state(planes, 0, memory, result);
+    read_state(planes, 0, memory, law, result);
     for (Index k = 1; k < planes.count(); ++k)
-        read_state(planes, k, memory, result.lifts[static_cast<std::size_t>(k - 1)]);
+        read_state(planes, k, memory, law, result.lifts[static_cast<std::size_t>(k - 1)]);
+    strength.follow(memory);
     return result;
+}
+
+StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
+                        const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
+                        Strength strength, const ContactMemory& memory, const SplitLoad* before, const LetGo& let_go)
+{
+    const auto uplift_of = [&](const CrackLengths& crack) {
+        return uplift ? uplift(crack.upstream, crack.downstream) : PressureProfile();
+    };
+    strength.lose_broken();
+    CrackLengths crack = cracked;
+    PressureProfile profile = uplift_of(crack);
+    for (Index round = 0;; ++round) { // a crack that takes water may open further under it
+        Strength left = strength;
+        ContactMemory at_rest = memory;
+        StageResult result = solve_stage(statics, structure, "after the earthquake", load(profile), left, at_rest,
+                                         before, let_go);
+        if (profile.points != uplift_of({}).points)
+            result.water = fmt::format("full head on {:.4g} m of the base", crack.upstream + crack.downstream);
+        const CrackLengths &was = strength.opened(), &now = left.opened();
+        if (now.upstream > was.upstream) crack.upstream = std::max(crack.upstream, now.upstream);
+        if (now.downstream > was.downstream) crack.downstream = std::max(crack.downstream, now.downstream);
+        PressureProfile next = uplift_of(crack);
+        if (result.status != StageStatus::ok || round == structure.plane().pairs() ||
+            next.points == profile.points)
+            return result;
+        profile = std::move(next);
+    }
 }
 
 Status status_of(StageStatus stage)

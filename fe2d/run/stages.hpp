@@ -106,4 +106,13 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
                         const SplitLoad& load, Strength& strength, ContactMemory& memory,
                         const SplitLoad* before = nullptr, const LetGo& let_go = {});
 
+/// The static state after an earthquake: cohesion is lost where the joint has opened or slipped, friction is that of the path,
+/// and the uplift has its crack where the base has opened, in the earthquake or under these loads.
+/// @param uplift  under a base with cracks from heel and toe; empty: as before the earthquake @param cracked  at least
+/// @param strength, memory  at the end of the earthquake; @param load  of all but the uplift's change: load_with() another uplift
+StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
+                        const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
+                        Strength strength, const ContactMemory& memory, const SplitLoad* before = nullptr,
+                        const LetGo& let_go = {});
+
 } // namespace damslip::fe2d

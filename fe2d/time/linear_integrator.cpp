@@ -1,7 +1,5 @@
 #include "fe2d/time/linear_integrator.hpp"
 
-#include "core/defect.hpp"
-
 #include <algorithm>
 #include <cassert>
 
@@ -122,7 +120,6 @@ void LinearIntegrator::update(const StepOperator& step, const State& before, Sta
     const StepConstants& c = step.constants();
     after.time = before.time + c.dt;
     after.acceleration = c.a0 * after.displacement - c.a2 * before.velocity - c.a3 * before.acceleration;
-    if (defect(Defect::total_for_increment)) after.acceleration += c.a0 * before.displacement;
     after.velocity = c.a1 * after.displacement - c.a4 * before.velocity - c.a5 * before.acceleration;
     after.displacement += before.displacement;
     after.unbalanced_before = before.unbalanced;

@@ -1,6 +1,5 @@
 #include "fe2d/time/scheme.hpp"
 
-#include "core/defect.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
 
@@ -86,7 +85,7 @@ StepConstants step_constants(const Scheme& scheme, double dt)
     c.scheme = scheme;
     c.dt = dt;
     c.a0 = 1.0 / (beta * dt * dt);
-    c.a1 = (defect(Defect::gamma_missing_in_c) ? 1.0 : gamma) / (beta * dt);
+    c.a1 = gamma / (beta * dt);
     c.a2 = 1.0 / (beta * dt);
     c.a3 = 0.5 / beta - 1.0;
     c.a4 = gamma / beta - 1.0;

@@ -1,6 +1,5 @@
 #include "sliding/block/base_equations.hpp"
 
-#include "core/defect.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
 
@@ -52,7 +51,6 @@ BaseEquations base_equations(const RigidBlock& block)
     BaseEquations e;
     e.drive = {c * block.horizontal_force + s * weight, tAx, -tAy};
     e.normal = {c * weight - s * block.horizontal_force - block.uplift, -nAx, nAy};
-    if (defect(Defect::sign_of_a_v)) e.drive.per_a_v *= -1.0, e.normal.per_a_v *= -1.0;
     // t.t = 1, t.n = 0 and n.n = 1 are put in by hand: the block's own mass leaves no round-off in the products.
     e.mass_tt = block.mass + c * c * w.xx - 2.0 * c * s * w.xy + s * s * w.yy;
     e.mass_tn = c * s * (w.xx - w.yy) + (c * c - s * s) * w.xy;

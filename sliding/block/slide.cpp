@@ -1,6 +1,5 @@
 #include "sliding/block/slide.hpp"
 
-#include "core/defect.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
 #include "sliding/block/slammer.hpp"
@@ -190,7 +189,7 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (!motion.is_sequence()) break;
         result.events.back().end = now();
         const bool rests_then =
-            e + 1 < events && stands && !defect(Defect::run_out_off) &&
+            e + 1 < events && stands &&
             pause(block, motion, options.sliding.run_out_max, {a_h(last), 0.0}, {a_v(last), 0.0}, cross);
         result.events.back().slip = block.slip();
         if (!rests_then || !static_rests.take(block, result)) break;
@@ -248,7 +247,7 @@ void check_anchors(const SlideOptions& options)
 void run_out(SlipMotion& block, const SlipStages& stages, double start, double dt, double longest,
              SlideHistory* history)
 {
-    if (static_state(stages.front().block) != StaticState::at_rest || defect(Defect::run_out_off)) return;
+    if (static_state(stages.front().block) != StaticState::at_rest) return;
     for (double elapsed = 0.0; elapsed < longest && !block.unresolved(); elapsed += dt) {
         const double step = std::min(dt, longest - elapsed);
         block.cross(start + elapsed, step, {}, {});

@@ -31,8 +31,8 @@ public:
     std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before,
                      const SkippingMotion* blocks = nullptr);
 
-    /// Through a whole horizontal motion with blocks that rest at its begin, side by side: what pass() would do with each of
-    /// them, bit by bit. @returns false where their case is another one; nothing is done then
+    /// Carries four blocks, at rest at first, through a whole horizontal motion side by side, with the bits pass() gives for
+    /// each of them. @returns false where their case is another one; the blocks are unchanged then
     static bool pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks);
 
     /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.

@@ -1,7 +1,5 @@
 #include "sliding/empirical/regression_rows.hpp"
 
-#include "core/defect.hpp"
-
 #include <cmath>
 
 namespace damslip::sliding {
@@ -92,8 +90,7 @@ std::vector<Regression> rigid_block_rows()
          Logarithm::decimal,
          [](const Inputs& x) {
              const double a_c = x.yield_coefficient;
-             return 1.521 * std::log10(*x.arias_m_s) -
-                    1.993 * (defect(Defect::log_missing_in_jibson) ? a_c : std::log10(a_c)) - 1.546;
+             return 1.521 * std::log10(*x.arias_m_s) - 1.993 * std::log10(a_c) - 1.546;
          },
          constant_sigma<375>,
          {Input::yield_coefficient, Input::arias_intensity},

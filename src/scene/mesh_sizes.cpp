@@ -1,6 +1,7 @@
 #include "scene/mesh_sizes.hpp"
 
 #include "scene/joint_bond.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 
@@ -47,7 +48,7 @@ double water_mesh_size(const Reservoir& water)
     return water.mesh_size.value_or(water.level / rows_over_depth);
 }
 
-Scene with_mesh_sizes(Scene scene)
+Scene with_own_choices(Scene scene)
 {
     if (scene.wedge) return scene;
     if (!scene.mesh.file) {
@@ -56,6 +57,7 @@ Scene with_mesh_sizes(Scene scene)
         scene.mesh.contact_size = sizes.contact;
         if (scene.foundation) scene.mesh.rock_size = sizes.rock;
     }
+    if (rock_radiates(scene)) scene.foundation->material.density = radiating_density(*scene.foundation);
     if (has_water(scene)) scene.reservoir->mesh_size = water_mesh_size(*scene.reservoir);
     return scene;
 }

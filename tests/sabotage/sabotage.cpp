@@ -1,4 +1,4 @@
-// A program with one defect of core/defect.hpp: the named verification case must see it.
+// A program with one defect (CMakeLists.txt): the named verification case must see it.
 //
 // exit codes: 0 some check of the case fails (what is wanted), 1 all pass, 2 no such case, 3 the case throws
 #include "verification/cases/registry.hpp"

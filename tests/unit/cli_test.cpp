@@ -428,7 +428,7 @@ TEST(Cli, NoFlagTakesWhatIsNoNumber)
                 for (std::string word; names >> word;) words.push_back(word);
                 words.push_back(option.name + "=" + value);
                 try {
-                    cli::parse_arguments(words);
+                    cli::parse_arguments(words, cli::commands());
                     ADD_FAILURE() << command.name << " takes " << words.back();
                 } catch (const UsageError& error) {
                     const std::string said = error.what();
@@ -443,14 +443,14 @@ TEST(Cli, NoFlagTakesWhatIsNoNumber)
 TEST(Cli, BoundsOfADecimalFlagAreSaid)
 {
     for (const std::string value : {"0.9", "1001", "tall"}) try {
-            cli::parse_arguments({"init", "dam.toml", "--height", value});
+            cli::parse_arguments({"init", "dam.toml", "--height", value}, cli::commands());
             ADD_FAILURE() << value;
         } catch (const UsageError& error) {
             EXPECT_NE(std::string(error.what()).find("--height: " + value + " is not allowed: a number from 1 to 1000"),
                       std::string::npos)
                 << error.what();
         }
-    EXPECT_NO_THROW(cli::parse_arguments({"init", "dam.toml", "--height", "1000"}));
+    EXPECT_NO_THROW(cli::parse_arguments({"init", "dam.toml", "--height", "1000"}, cli::commands()));
 }
 
 TEST(Cli, PercentilesInterpolateBetweenOrderStatistics)

@@ -205,6 +205,7 @@ sliding::Equilibrium static_equilibrium(const Ready& ready)
 {
     Combination usual;
     usual.name = "static";
+    usual.ice = true; // where there is any, as in the slips
     usual.crack = CrackRule::none;
     sliding::EquilibriumOptions options;
     options.seepage = ready.seepage->profile_of(ready.scene);

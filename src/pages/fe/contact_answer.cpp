@@ -30,7 +30,7 @@ void write_run(const std::filesystem::path& folder, const Scene& scene, const Co
         std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
                                           "record " + r.label(), "status " + word(r.fe.status)};
         if (!legend.empty()) comments.push_back(legend);
-        write_file(folder / (kind + "_" + file_word(r.record) + r.suffix() + ".csv"), csv(table, comments));
+        write_file(folder / (run_file(kind, scene, r.record, r.suffix()) + ".csv"), csv(table, comments));
     };
     const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
                       signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
@@ -83,7 +83,7 @@ std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs)
     std::vector<std::string> sentences;
     for (const ContactRun& r : runs)
         sentences.push_back(by_itself(r) && &r != told
-                                ? fmt::format("Self-excited, too: walked >= {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
+                                ? fmt::format("Self-excited, too: slid at least {:.4g} mm.", 1e3 * std::abs(r.fe.slip))
                                 : r.fe.message);
     return sentences;
 }
@@ -154,7 +154,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
                 slips = contact_slip_table(runs), run_out = run_out_table(runs),
                 lifts = contact_lift_table(runs, allowable), law = contact_law_table(runs);
     const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
-    const Headline headline = fe_headline(in.scene, runs);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations);
 
     FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
     auto& j = answer.json;

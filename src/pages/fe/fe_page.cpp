@@ -42,6 +42,27 @@ void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions
     add_record_provenance(in.records, page.provenance);
 }
 
+std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, std::vector<Section> sections,
+                                          Page& page)
+{
+    std::vector<Section> others;
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        const bool worst = std::none_of(runs.begin(), runs.end(), [&](const ContactRun& r) {
+            return r.record == runs[i].record && (milder(runs[i], r) || (!milder(r, runs[i]) && &r < &runs[i]));
+        });
+        if (worst) {
+            sections[i].fold = shown++ < open_records ? Fold::open : Fold::folded;
+            page.sections.push_back(std::move(sections[i]));
+            continue;
+        }
+        sections[i].title = "Appendix: " + sections[i].title;
+        sections[i].fold = Fold::folded;
+        others.push_back(std::move(sections[i]));
+    }
+    return others;
+}
+
 Table without_seconds(Table table)
 {
     const auto at = std::find_if(table.columns.begin(), table.columns.end(),

@@ -1,5 +1,6 @@
 #include "pages/sweep/sweep_parts.hpp"
 
+#include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/number.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <regex>
 #include <utility>
@@ -32,6 +34,8 @@ struct SweepPart {
     refuse(file, "this is not a part of a sweep.", "a file written by  damslip sweep ... --shard i/n",
            "name the part files, or a folder that holds them");
 }
+
+constexpr std::uintmax_t largest_part = std::uintmax_t{2} << 30; ///< bytes, some ten million rows
 
 /// The end of a line that starts with `start`; its text without the newline goes to `line`.
 std::size_t next_line(const fs::path& file, const std::string& content, std::size_t start, std::string& line)
@@ -62,17 +66,22 @@ SweepPart read_part(const fs::path& file)
     static const std::regex sweep_line("# sweep [0-9a-f]{64}, ([0-9]{1,12}) rows"),
         part_line("# part ([0-9]{1,7})/([0-9]{1,7}), ([0-9]{1,12}) rows, ([0-9]{1,12}) not converged, sha256 "
                   "([0-9a-f]{64})");
-    const std::string content = read_file(file, std::uintmax_t{1} << 40);
+    std::smatch of_sweep, of_part;
+    std::string first, scene, sweep, own;
+    const auto head_of = [&](const std::string& text, SweepPart& part) { // @returns where the rows begin
+        std::size_t at = next_line(file, text, 0, first);
+        at = next_line(file, text, at, scene);
+        at = next_line(file, text, at, sweep);
+        part.comments = text.substr(0, at);
+        at = next_line(file, text, at, own);
+        if (!std::regex_match(sweep, of_sweep, sweep_line) || !std::regex_match(own, of_part, part_line))
+            not_a_part(file);
+        return at;
+    };
     SweepPart part;
     part.file = file;
-    std::string first, scene, sweep, own;
-    std::size_t at = next_line(file, content, 0, first);
-    at = next_line(file, content, at, scene);
-    at = next_line(file, content, at, sweep);
-    part.comments = content.substr(0, at);
-    at = next_line(file, content, at, own);
-    std::smatch of_sweep, of_part;
-    if (!std::regex_match(sweep, of_sweep, sweep_line) || !std::regex_match(own, of_part, part_line)) not_a_part(file);
+    const std::string content = read_file(file, largest_part, [&](const std::string& start) { head_of(start, part); });
+    const std::size_t at = head_of(content, part);
     part.rows_of_sweep = std::stoull(of_sweep[1]);
     part.shard = {std::stoull(of_part[1]), std::stoull(of_part[2])};
     part.rows = std::stoull(of_part[3]);
@@ -140,39 +149,10 @@ void check_parts(const std::vector<SweepPart>& parts)
                "all parts of the sweep", "run them:  " + flags);
 }
 
-/// Fields of a line of csv().
-std::vector<std::string> fields_of(const std::string& line)
-{
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == '"') {
-            const bool escaped = quoted && i + 1 < line.size() && line[i + 1] == '"';
-            if (escaped)
-                fields.back() += line[++i];
-            else
-                quoted = !quoted;
-        } else if (c == ',' && !quoted)
-            fields.emplace_back();
-        else
-            fields.back() += c;
-    }
-    return fields;
-}
-
-/// A name that begins like a formula has an apostrophe in front in the file (csv()).
-std::string without_apostrophe(const std::string& field)
-{
-    const bool put =
-        field.size() > 1 && field[0] == '\'' && std::string_view("=+-@").find(field[1]) != std::string_view::npos;
-    return put ? field.substr(1) : field;
-}
-
 Cell cell_of(const std::string& key, const std::string& field)
 {
     for (const char* word : {"uplift", "opening_water", "reservoir", "record", "method", "status"})
-        if (key == word) return without_apostrophe(field);
+        if (key == word) return field;
     if (field.empty()) return {};
     const std::optional<double> number = parse_number(field);
     if (!number) return field;
@@ -184,35 +164,30 @@ Cell cell_of(const std::string& key, const std::string& field)
 
 Table sweep_rows_of(const std::string& csv)
 {
-    Table table{"", sweep_columns(), {}, {}};
-    bool header = true;
-    for (std::size_t at = 0; at < csv.size();) {
-        const std::size_t end = std::min(csv.find('\n', at), csv.size());
-        const std::string line = csv.substr(at, end - at);
-        at = end + 1;
-        if (line.starts_with("#")) continue;
-        const std::vector<std::string> fields = fields_of(line);
-        const auto has = [&](const char* key) { return std::find(fields.begin(), fields.end(), key) != fields.end(); };
-        if (header) {
-            AxisColumns with{has("opening_water"), has("period_s"), has("damping"), {}, {}, has("mean_slip_m")};
-            const auto numbered = [&](const char* key, const char* what, std::vector<std::string>& names) {
-                while (has(fmt::format(fmt::runtime(key), names.size() + 1).c_str()))
-                    names.push_back(fmt::format("{} {}", what, names.size() + 1));
-            };
-            numbered("slip_after_event_{}_m", "event", with.events);
-            numbered("anchor_{}_state", "anchor", with.anchors);
-            table.columns = sweep_columns(with);
-        }
-        bool fits = fields.size() == table.columns.size();
-        for (std::size_t i = 0; fits && header && i < fields.size(); ++i) fits = fields[i] == table.columns[i].key;
+    const CsvTable read = parse_csv(csv);
+    const std::vector<std::string>& keys = read.heading.cells;
+    const auto has = [&](const std::string& key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+    AxisColumns with{has("opening_water"), has("period_s"), has("damping"), {}, {}, has("mean_slip_m")};
+    const auto numbered = [&](const char* key, const char* what, std::vector<std::string>& names) {
+        while (has(fmt::format(fmt::runtime(key), names.size() + 1)))
+            names.push_back(fmt::format("{} {}", what, names.size() + 1));
+    };
+    numbered("slip_after_event_{}_m", "event", with.events);
+    numbered("anchor_{}_state", "anchor", with.anchors);
+    Table table{"", sweep_columns(with), {}, {}};
+    const auto check = [&](const CsvLine& line, bool fits) {
         if (!fits)
-            refuse({}, fmt::format("the line \"{}\" is not one of a sweep of this version.", line.substr(0, 60)),
+            refuse({},
+                   fmt::format("line {}, \"{:.60}\", is not one of a sweep of this version.", line.number,
+                               fmt::format("{}", fmt::join(line.cells, ","))),
                    "the columns of this version", "run the parts again");
-        if (!std::exchange(header, false)) {
-            table.rows.emplace_back();
-            for (std::size_t i = 0; i < fields.size(); ++i)
-                table.rows.back().push_back(cell_of(table.columns[i].key, fields[i]));
-        }
+    };
+    check(read.heading, std::equal(keys.begin(), keys.end(), table.columns.begin(), table.columns.end(),
+                                   [](const std::string& key, const Column& column) { return key == column.key; }));
+    for (const CsvLine& line : read.rows) {
+        check(line, line.cells.size() == keys.size());
+        std::vector<Cell>& row = table.rows.emplace_back();
+        for (std::size_t i = 0; i < keys.size(); ++i) row.push_back(cell_of(keys[i], line.cells[i]));
     }
     return table;
 }

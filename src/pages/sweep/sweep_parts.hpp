@@ -24,7 +24,7 @@ struct MergedSweep {
 };
 
 /// @param paths  part files, or folders: all files named *.i-of-n.csv in them
-/// @throws InputError naming the parts that are missing, given twice, damaged or of another sweep
+/// @throws InputError naming the parts that are missing, given twice, damaged, of another sweep or larger than 2 GiB
 MergedSweep merge_parts(const std::vector<std::filesystem::path>& paths);
 
 /// The rows of a sweep's CSV as they were before it was written. @throws InputError for other columns than sweep_table()
