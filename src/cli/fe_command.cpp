@@ -113,6 +113,8 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Spectrum
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
+    if (!streams.quiet) // before the time is spent
+        for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.talk << note << "\n";
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
