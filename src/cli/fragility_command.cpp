@@ -43,6 +43,11 @@ void check_fragility_flags(const FragilityArguments& a)
             refuse_usage(fmt::format("--budget together with {}.", flag),
                          "a number of runs that does not depend on the machine's pace",
                          "write the  --samples  that the run with --budget prints");
+    for (const auto& [flag, given] :
+         {std::pair{"--shard", !a.shard.empty()}, {"--slurm-array", !a.slurm_array.empty()}})
+        if (!a.pdf.empty() && given)
+            refuse_usage(fmt::format("--pdf together with {}.", flag), "a report of all runs",
+                         "leave it out here, and add it to the  --merge  of all parts");
     need_scene_file(a.inputs, "fragility");
 }
 
@@ -179,6 +184,10 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     else
         streams.out << fragility_text(view);
     if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
+    if (!a.pdf.empty()) {
+        print_pdf(page_html(fragility_page(view)), a.pdf);
+        name_report(a.pdf, streams);
+    }
     return answer.answered ? exit_ok : exit_no_answer;
 }
 

@@ -38,6 +38,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
             "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
             "(OpenQuake) and a journal for --resume",
             "-o,--out");
+    add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
     sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);

@@ -218,8 +218,9 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
         if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
             !job.shard && !needed.rows.empty())
             streams.talk << text(needed) << "\n";
-        streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
-                                    job.out.empty() ? "" : " in " + job.out.string());
+        streams.talk << fmt::format("{} rows{}, {}\n", outcome.rows.size(),
+                                    job.out.empty() ? "" : " in " + job.out.string(),
+                                    polarity_words(job.axes.polarity));
     }
     talk_of_answers(table, outcome, streams);
     put_report(job, records, compared, table, wanted, outcome, streams);
@@ -325,7 +326,8 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     if (!totals.complete() && journal) return stopped(totals.rows, totals.wanted, streams);
     rows.finish(totals.bad);
     if (!streams.quiet)
-        streams.talk << fmt::format("{} rows{}\n", totals.rows, job.out.empty() ? "" : " in " + job.out.string());
+        streams.talk << fmt::format("{} rows{}, {}\n", totals.rows, job.out.empty() ? "" : " in " + job.out.string(),
+                                    polarity_words(job.axes.polarity));
     if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
         const SweepView view = all.view();

@@ -58,7 +58,7 @@ TEST_F(AccuracyInput, OptionsOutsideTheirRange)
     run({scene, "--repeats", "0"}, 2, "--repeats 0 is not allowed");
     run({scene, "--budget", "0"}, 2, "--budget 0 is not allowed");
     run({scene, "--rung", "fe:dt"}, 2, "--rung fe:dt is not known");
-    run({scene, "--rung", "fe-acoustic:dt/3"}, 2, "a rung as the table names it");
+    run({scene, "--rung", "fe-acoustic:dt/3"}, 2, "a model level as the table names it");
     run({path("still.toml")}, 3, "the scene has no record");
 }
 

@@ -2,7 +2,7 @@
 # check_report.sh CHROMIUM LEAST_CHARTS LARGEST_BYTES DAMSLIP COMMAND SCENE [OPTION ...]: makes the report of `damslip COMMAND SCENE
 # OPTION ...` and opens it in a headless browser. Fails when the page's script reports an error, a chart or picture is not drawn or
 # empty, a slider, choice or key has no effect (interact.html), there are fewer charts than LEAST_CHARTS, the file is too large, or the console says anything.
-# Labels that cover each other or are cut off, and a section that does not fit the screen, fail too. WIDTH: of the window [px].
+# Labels that cover each other or are cut off, and a section that does not fit the screen, fail too. WIDTH: of the page, a window's where it is not given [px].
 # With "#check" in its address the page unfolds all parts and looks for the colour of a curve in each chart (page.js).
 set -euo pipefail
 chromium=$1 least=$2 largest=$3 damslip=$4 command=$5
@@ -18,8 +18,16 @@ else out="$work/out" page="$work/out/report.html"; fi
 [ "$(tail -n 1 "$work/talk")" = "report: $page" ] || { echo "the last line of the talk does not name the report:"; cat "$work/talk"; exit 1; }
 
 cat "$page" "$(dirname "$0")/interact.html" >"$work/copy.html"
+opened="$work/copy.html#check"
+if [ -n "${WIDTH:-}" ]; then # no window is as narrow as a telephone: a frame is
+    cat >"$work/frame.html" <<FRAME
+<iframe src="copy.html#check" style="width: ${WIDTH}px; height: 900px"></iframe>
+<script>setTimeout(() => document.body.append(document.querySelector("iframe").contentDocument.getElementById("drawn").cloneNode()), 3000)</script>
+FRAME
+    opened="$work/frame.html"
+fi
 timeout 90 "$chromium" --headless --no-sandbox --disable-gpu --disable-background-networking --user-data-dir="$work/profile" \
-    --enable-logging=stderr --window-size="${WIDTH:-1100},900" --virtual-time-budget=4000 --dump-dom "file://$work/copy.html#check" >"$work/dom" 2>"$work/log" ||
+    --allow-file-access-from-files --enable-logging=stderr --window-size=1100,900 --virtual-time-budget=5000 --dump-dom "file://$opened" >"$work/dom" 2>"$work/log" ||
     { echo "the browser failed:"; tail -n 5 "$work/log"; exit 1; }
 
 mark=$(grep -o '<div id="drawn"[^>]*>' "$work/dom" || true)

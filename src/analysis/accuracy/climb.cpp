@@ -59,7 +59,11 @@ std::vector<RungResult> climb(const LadderFacts& facts, const ClimbOptions& opti
         else {
             if (calls.begins) calls.begins(*rung);
             RungResult result = run_repeatedly(*rung, options.repeats, calls);
-            if (result.outcome == RungOutcome::stopped) break;
+            if (result.outcome == RungOutcome::stopped) {
+                if (!options.budget || (calls.interrupted && calls.interrupted())) break;
+                result.outcome = RungOutcome::skipped;
+                result.remark = fmt::format("ended after {:.3g} s, when the budget was spent", result.seconds);
+            }
             results.push_back(std::move(result));
         }
         if (calls.ends) calls.ends(results);

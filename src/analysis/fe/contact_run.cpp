@@ -41,6 +41,23 @@ bool has_slip(const ContactRun& r)
     return reported(r.fe.status, r.fe.max_slip).has_value();
 }
 
+bool all_answered(const std::vector<ContactRun>& runs)
+{
+    return std::all_of(runs.begin(), runs.end(), [](const ContactRun& r) { return is_answer(r.fe.status); });
+}
+
+std::string unanswered_words(const std::vector<ContactRun>& runs)
+{
+    std::string words;
+    for (const ContactRun& r : runs) {
+        if (is_answer(r.fe.status)) continue;
+        const std::optional<double> walked = walked_at_least(r.fe.status, r.fe.slip);
+        words += fmt::format("{}{}, polarity {:+d} {}{}", words.empty() ? "" : "; ", r.record, r.polarity,
+                             word(r.fe.status), walked ? fmt::format(", walked ≥ {:.4g} mm", 1e3 * *walked) : "");
+    }
+    return words;
+}
+
 std::optional<double> walked_at_least(Status status, double slip)
 {
     return status == Status::self_excited ? std::optional(std::abs(slip)) : std::nullopt;

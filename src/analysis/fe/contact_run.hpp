@@ -43,6 +43,11 @@ SlipError lift_error(const ContactRun& run, std::size_t lift);
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);
 
+/// Has every run an answer, one that fails included?
+bool all_answered(const std::vector<ContactRun>& runs);
+/// "EC8, polarity -1 self-excited, walked ≥ 409 mm": the runs without an answer; empty where all have one.
+std::string unanswered_words(const std::vector<ContactRun>& runs);
+
 /// How far a dam that goes on by itself had come when the run ended [m]; none for all others.
 std::optional<double> walked_at_least(Status status, double slip);
 

@@ -125,10 +125,7 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
 
 void allow_any_scaling(FragilityInput& input)
 {
-    if (!input.suite) {
-        input.suite.emplace();
-        input.suite->polarity = SuitePolarity::as_recorded;
-    }
+    if (!input.suite) input.suite.emplace();
     input.suite->allow_scaling = true;
 }
 

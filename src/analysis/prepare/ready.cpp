@@ -12,8 +12,10 @@
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
+#include "sliding/equilibrium/combinations.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace damslip {
 
@@ -43,6 +45,22 @@ fe2d::CrackedUplift cracked_uplift(const Scene& scene, const UpliftState& state,
         for (const ProfilePoint& point : part(of_toe, from, length)) both.points.push_back(point);
         return both;
     };
+}
+
+/// That of the post-seismic combination (sliding::after_earthquake()), in which a crack takes water where uplift.crack lets it; with
+/// uplift.after = "full" in every case, and the drains then work where it has not reached them.
+fe2d::CrackedUplift uplift_after(const Scene& scene, const std::shared_ptr<SeepageSource>& seepage, bool drains_lost = false)
+{
+    if (!scene.uplift) return {};
+    const Combination after = sliding::after_earthquake(scene);
+    const bool full = scene.uplift->water.after == WaterAfter::full;
+    UpliftState water = scene_uplift_state(scene);
+    water.drains = full || after.drains_effective ? DrainState::effective : DrainState::ineffective;
+    if (drains_lost) water.drains = DrainState::ineffective;
+    water.curtain = !full && after.curtain_intact ? CurtainState::intact : CurtainState::damaged;
+    fe2d::CrackedUplift cracked = cracked_uplift(scene, water, seepage);
+    if (full || after.crack.value_or(scene.uplift->crack) != CrackRule::none) return cracked;
+    return [cracked](double, double) { return cracked(0.0, 0.0); };
 }
 
 fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
@@ -93,6 +111,17 @@ RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
     return make_rigid_model(scene, seepage->profile_of(scene), crack, crack ? nullptr : statics.get());
 }
 
+std::vector<sliding::Equilibrium> Ready::combinations() const
+{
+    sliding::PeakGround peak;
+    for (const RecordPair& pair : records()) {
+        const GroundMotion shaking = motion(pair);
+        for (const double a : shaking.accel_h) peak.a_h = std::max(peak.a_h, std::abs(a));
+        for (const double a : shaking.accel_v) peak.a_v = std::max(peak.a_v, std::abs(a));
+    }
+    return sliding::evaluate_combinations(scene, peak, seepage->profile_of(scene));
+}
+
 double Ready::wave_frequency() const
 {
     constexpr double least = 25.0, share = 0.99;
@@ -116,28 +145,23 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
 {
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
-    UpliftState water = scene_uplift_state(scene);
-    options.uplift = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift = uplift_of(scene, scene_uplift_state(scene), seepage->profile_of(scene));
     if (has_water_in_rock(scene))
         options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
-    water.drains = DrainState::ineffective; // after the earthquake
-    water.curtain = CurtainState::damaged;
-    options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift_after = uplift_after(scene, seepage);
     if (scene.uplift && scene.uplift->water.follows()) {
         options.cracked_uplift = cracked_uplift(scene, scene_uplift_state(scene), seepage);
-        if (scene.uplift->water.after == WaterAfter::full) {
-            water.drains = DrainState::effective; // where the crack has not reached them
-            options.cracked_uplift_after = cracked_uplift(scene, water, seepage);
-        }
+        if (scene.uplift->water.after == WaterAfter::full) options.cracked_uplift_after = options.uplift_after;
     }
     if (drains_shear_off(scene)) {
-        water = scene_uplift_state(scene);
+        UpliftState water = scene_uplift_state(scene);
         water.drains = DrainState::ineffective;
         // A dam that yields has slipped a little before it slides.
         options.drain_loss = fe2d::DrainLoss{std::max(*scene.drains->lost_at_slip, options.smallest_slip),
                                              uplift_of(scene, water, seepage->profile_of(scene)),
                                              cracked_uplift(scene, water, seepage),
-                                             {}};
+                                             {},
+                                             uplift_after(scene, seepage, true)};
         water.curtain = CurtainState::damaged;
         if (options.cracked_uplift_after) options.drain_loss->cracked_after = cracked_uplift(scene, water, seepage);
     }
@@ -166,10 +190,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     Ready ready;
     ready.seepage = options.seepage ? options.seepage : std::make_shared<SeepageSource>();
     ready.statics = options.statics;
-    const bool names_records = !given.motion.records.empty();
-    std::string hash = names_records ? scene_hash(given) : "";
     if (records) given.motion.records = files_of(*records);
-    if (!names_records) hash = scene_hash(given);
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
     note_not_honoured(given, method == Method::finite_elements
@@ -185,15 +206,17 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
         }
         ready.dam_period = resolve_dam_period(ready.scene, options.stop);
     }
-    ready.plan.scene_hash = std::move(hash);
     ready.given = std::move(given);
     return ready;
 }
 
 Ready prepare(Scene given, Method method, const PrepareOptions& options)
 {
+    std::string hash = scene_hash(given);
     Records records = load_records(given, method);
-    return prepare(std::move(given), method, std::move(records), options);
+    Ready ready = prepare(std::move(given), method, std::move(records), options);
+    ready.plan.scene_hash = std::move(hash);
+    return ready;
 }
 
 Records load_records(const Scene& given, Method method)

@@ -97,11 +97,17 @@ FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
     return answer;
 }
 
+Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
+                       const std::optional<double>& allowable)
+{
+    return headline.outcome == Outcome::fail ? Verdict::fail : verdict_of(runs, allowable);
+}
+
 void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
                  FeAnswer& answer)
 {
     answer.json["headline"] = headline.sentence;
-    answer.json["verdict"] = word(verdict_of(runs, allowable));
+    answer.json["verdict"] = word(joined_verdict(headline, runs, allowable));
     answer.json["worst"] = worst_json(runs, allowable);
 }
 

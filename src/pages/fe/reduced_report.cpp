@@ -132,7 +132,7 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
 {
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     const std::vector<ContactRun> runs = as_contact_runs(in.runs);
-    const Headline headline = fe_headline(in.scene, runs, error_source);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations, error_source);
     const Table stages = contact_stage_table(runs), table = reduced_table(in.runs, allowable);
     FeAnswer answer = begin_fe_answer(FeKind::reduced, reduced_frame(in));
     answer.json["contact_pairs"] = in.full.structure().plane().pairs();
@@ -173,7 +173,7 @@ Page reduced_page(const ReducedReportInput& in)
             for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
         sections.push_back(std::move(section));
     }
-    page.headline = fe_headline(in.scene, runs, error_source);
+    page.headline = fe_headline(in.scene, runs, in.combinations, error_source);
     page.key_figures = fe_key_figures(in.scene, runs);
     std::erase_if(page.key_figures,
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept

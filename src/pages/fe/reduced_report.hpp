@@ -3,6 +3,7 @@
 #include "analysis/fe/contact_run.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "pages/fe/fe_output.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 namespace damslip::pages {
 
@@ -16,6 +17,7 @@ struct ReducedReportInput {
     const PressureProfile& uplift; ///< under the base before the earthquake
     const std::vector<ReducedRecord>& runs;
     const std::vector<std::string>& messages;
+    std::vector<sliding::Equilibrium> combinations = {}; ///< Ready::combinations()
 };
 
 /// What has to be said of scene and runs beside the tables.

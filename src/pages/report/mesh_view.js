@@ -212,13 +212,13 @@ function damslip_mesh_view(figure, view, page) {
         const shown = s !== envelope ? [[high, "max"], [low, "min"]] : view.fields[f].least ? [[low, "min"]] : [[high, "max"]];
         ctx.font = "12px system-ui, sans-serif"; ctx.textBaseline = "middle"; ctx.textAlign = "left";
         ctx.fillStyle = page.css("--ink");
-        ctx.fillText(state_name(s), frame.from + 6, 10);
+        ctx.fillText(state_name(s), frame.from + 6, 10, frame.width - 12);
         let last = null;
         shown.forEach(([i, word], k) => {
             const time = s === envelope ? ", " + page.number(s.of[f][i].time, 4) + " s" : "";
             ctx.textAlign = "left"; ctx.fillStyle = page.css("--ink");
             ctx.fillText(word + " " + page.number(values[i], 3) + " " + view.fields[f].unit + " at x " + page.number(view.x[i], 3) + ", y " + page.number(view.y[i], 3) + " m" + time,
-                         frame.from + 6, 26 + 16 * k);
+                         frame.from + 6, 26 + 16 * k, frame.width - 12);
             ctx.beginPath(); ctx.arc(px[i], py[i], 3, 0, 7); ctx.fill();
             const right = view.x[i] > middle(view.y[i]), close = last && Math.abs(py[i] - last.y) < 14 && right === last.right;
             const y = close ? last.y - 14 : py[i] - 6;

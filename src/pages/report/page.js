@@ -133,18 +133,23 @@
                     return at > place.y && at < place.y + place.h;
                 }).length : 0), 0);
             const label = (words, places) => {
-                const w = ctx.measureText(words).width, inside = p => p.y >= box.top && p.y + high <= box.top + box.height;
-                const free = places.map(([x, y]) => ({x: Math.max(box.left + gap, Math.min(box.left + box.width - w - gap, x(w))), y, w, h: high})).filter(inside);
+                const w = ctx.measureText(words).width, inside = p => p.y >= box.top && p.y + p.h <= box.top + box.height;
+                const free = places.map(([x, y, turned]) => turned ? {x: x(high), y, w: high, h: w, turned}
+                    : {x: Math.max(box.left + gap, Math.min(box.left + box.width - w - gap, x(w))), y, w, h: high}).filter(inside);
                 const cost = p => 100 * placed.filter(o => meets(p, o)).length + covered(p);
                 const best = free.reduce((a, p) => a && cost(a) <= cost(p) ? a : p, null);
                 if (!best || cost(best) >= 100) crowded.add(chart.title + ": " + words);
                 if (!best) return;
                 placed.push(best);
+                ctx.save();
+                ctx.translate(best.x + (best.turned ? high / 2 : 0), best.y + (best.turned ? w : high / 2));
+                if (best.turned) ctx.rotate(-Math.PI / 2);
                 ctx.setLineDash([]);
                 ctx.lineWidth = 4 * r; ctx.strokeStyle = css("--paper");
-                ctx.strokeText(words, best.x, best.y + high / 2);
+                ctx.strokeText(words, 0, 0);
                 ctx.fillStyle = css("--mark");
-                ctx.fillText(words, best.x, best.y + high / 2);
+                ctx.fillText(words, 0, 0);
+                ctx.restore();
             };
             const line = (x0, y0, x1, y1) => {
                 ctx.lineWidth = 1.3 * r; ctx.strokeStyle = css("--mark"); ctx.setLineDash([6 * r, 4 * r]);
@@ -160,8 +165,8 @@
             for (const l of horizontal)
                 label(l.label, [0.98, 0.02, 0.75, 0.5, 0.25].flatMap(q => [l.y - high - 2 * r, l.y + 2 * r].map(y => [w => box.left + q * (box.width - w), y])));
             for (const l of vertical)
-                label(l.label, [...Array(Math.floor(box.height / high)).keys()].flatMap(k =>
-                    [w => l.x + gap, w => l.x - w - gap].map(x => [x, box.top + 3 * r + k * high])));
+                label(l.label, [false, true].flatMap(turned => [...Array(Math.floor(box.height / high)).keys()].flatMap(k =>
+                    [w => l.x + gap, w => l.x - w - gap].map(x => [x, box.top + 3 * r + k * high, turned]))));
         });
     }
 
@@ -314,6 +319,8 @@
             size: (u, values) => 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length)),
         };
         if (text_width(with_unit(chart.yaxis)) * along > 12 * (height - 56)) crowded.add(chart.title + ": " + chart.yaxis.label);
+        const x = data[0], span = x[x.length - 1] - x[0], scatter = chart.curves.every(c => c.mark === "points"); // points at the ends are whole
+        const padded = (v, side) => !scatter || x_distr === 4 ? v : x_distr === 3 ? v * Math.pow(x[x.length - 1] / x[0], side * 0.03) : v + side * 0.03 * span;
         return {
             width, height: height + (tilted ? x_axis.size - 32 : 0),
             scales: {
@@ -321,7 +328,7 @@
                     range: (u, low, high) => names.length ? [Math.max(-0.5, low - 0.5), Math.min(names.length - 0.5, high + 0.5)]
                                            : low == null ? [x_low ?? 0, x_high ?? 1]
                                            : low === high ? [low - Math.abs(low || 1) / 2, high + Math.abs(high || 1) / 2]
-                                           : low === data[0][0] && high === data[0][data[0].length - 1] ? [x_low ?? low, x_high ?? high] : [low, high]},
+                                           : low === data[0][0] && high === data[0][data[0].length - 1] ? [x_low ?? padded(low, -1), x_high ?? padded(high, 1)] : [low, high]},
                 y: {distr: y_distr, asinh: chart.yaxis.linear_below, range: value_range(chart.yaxis, chart.horizontal.map(l => l.at))},
             },
             series, bands, axes: [x_axis, y_axis],

@@ -92,6 +92,9 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s.regressions));
     if (in.spectrum) j["response_spectrum"] = spectrum_json(*in.spectrum);
+    const Headline headline = screen_headline(in.scene, s);
+    j["headline"] = headline.sentence;
+    j["verdict"] = headline.verdict;
     j["warnings"] = s.warnings;
     return j;
 }
@@ -134,6 +137,8 @@ std::string screen_text(const ScreenReportInput& in)
     if (s.flexible) show(flexible_table(s, allowable));
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
+    const Headline headline = screen_headline(in.scene, s);
+    out += headline.sentence + "\n" + headline.verdict + "\n";
     for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
     return out;
 }

@@ -103,6 +103,10 @@ std::string slip_sentence(const Scene& scene, const Screening& s)
     if (n > 1 && slip > 0 && without.empty())
         out += fmt::format(", median {:.4g} mm", percentile(worse_slips(s), 0.5) / mm);
     out += without;
+    if (!s.bases.front().model.wedge && !scene.section.rock_slope)
+        out += worst && worst->governing().method != "rigid" && worst->governing().method != "rocking"
+                   ? ", by a flexible block: no bound for a dam that opens and rocks"
+                   : ", by the rigid block: no bound for an elastic dam";
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
     return out + ".";
@@ -259,7 +263,10 @@ std::vector<std::string> all_warnings(const ScreenReportInput& in)
 
 } // namespace
 
-Headline screen_headline(const Scene& scene, const Screening& s)
+namespace {
+
+/// Without the load combinations whose checks fail.
+Headline slip_headline(const Scene& scene, const Screening& s)
 {
     const RigidModel& model = s.bases.front().model;
     const CheckCount checks = count_checks(s);
@@ -291,7 +298,9 @@ Headline screen_headline(const Scene& scene, const Screening& s)
                         sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
             checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
-        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : pass};
+        if (checks.failed)
+            return {sentence, Outcome::fail, "Load combinations: FAIL " + sliding::failed_checks(s.combinations)};
+        return {sentence, Outcome::pass, pass};
     }
     const std::string standing = standing_sentence(s);
     const std::vector<std::string> premises = broken_premises(s);
@@ -303,7 +312,7 @@ Headline screen_headline(const Scene& scene, const Screening& s)
         return std::any_of(s.slips.begin(), s.slips.end(),
                            [&](const SlipRow& row) { return judge(row, scene.criteria.allowable_slip) == verdict; });
     };
-    if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
+    if (any(Verdict::fail)) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
     const bool broken = std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& row) {
         return !row.broken_premises.empty() && row.governing().method != "rocking";
@@ -321,6 +330,14 @@ Headline screen_headline(const Scene& scene, const Screening& s)
     if (by_bond) return {sentence, Outcome::unresolved, "PASS with its bond only: not for c = 0."};
     if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
     return {sentence, Outcome::pass, pass};
+}
+
+} // namespace
+
+Headline screen_headline(const Scene& scene, const Screening& s)
+{
+    const Headline slip = slip_headline(scene, s);
+    return s.slips.empty() ? slip : with_failed_checks(slip, sliding::failed_checks(s.combinations));
 }
 
 Page screen_page(const ScreenReportInput& in)

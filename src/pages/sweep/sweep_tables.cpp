@@ -3,6 +3,7 @@
 #include "pages/sweep/opening_water_table.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "scene/plausible.hpp"
@@ -229,7 +230,7 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
         all.insert(all.begin() + 3,
                    {{"opening_water", "opening water"}, [&](const C& c) { return axes.opening[c.at.opening]; }});
     return table_of<C>(
-        "Slip by finite elements against the rigid block", all, compared,
+        "Slip by finite elements against the rigid block, " + polarity_words(axes.polarity), all, compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
          "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
 }
