@@ -2,7 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
-#include "core/xml_text.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 

@@ -154,7 +154,7 @@ double EarthquakeRun::frame_interval(double record_end) const
 /// The steps of a pass over the lane's motion.
 PassSteps EarthquakeRun::pass_steps(const Lane& lane, int parts) const
 {
-    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, options_.rest_time};
+    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, rest_time()};
 }
 
 bool EarthquakeRun::adapts_steps(const Lane& lane) const

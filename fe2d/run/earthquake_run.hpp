@@ -42,7 +42,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
-    double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
+    std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
     PairSeries pair_series = PairSeries::none;
@@ -150,6 +150,7 @@ public:
     double seconds() const { return seconds_; }             ///< that making it ready took
     /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
     double window() const;
+    double rest_time() const { return options_.rest_time ? *options_.rest_time : window(); } ///< [s]
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
     /// @param contact  strength; default: the scene's

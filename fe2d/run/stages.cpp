@@ -223,6 +223,30 @@ SplitLoad between(const SplitLoad& before, const SplitLoad& load, double t)
     return {mean(before.dam, load.dam), mean(before.rock, load.rock), mean(before.joint, load.joint)};
 }
 
+constexpr int tried_shares = 16; ///< of a load that is not carried, each brought on at once
+
+/// Largest share of the load that the bond carries when it comes at once; 0: none of those tried.
+/// @param memory  before the load @param least  shares below are of no interest
+double carried_at_once(StaticContact& statics, const SplitLoad& before, const SplitLoad& load, const ContactLaw& law,
+                       const ContactMemory& memory, double least)
+{
+    const auto stands = [&](double t) {
+        ContactMemory trial = memory;
+        return statics.solve(between(before, load, t), law, trial).resolved();
+    };
+    constexpr double part = 1.0 / tried_shares;
+    double low = 0.0;
+    for (int k = tried_shares - 1; k > 0 && low == 0.0 && k * part > least; --k)
+        if (stands(k * part)) low = k * part;
+    if (low == 0.0) return 0.0;
+    double high = low + part;
+    while (high - low > 1e-3 * high) {
+        const double middle = 0.5 * (low + high);
+        (stands(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
 constexpr double first_jump = 1e-3; ///< load beyond the limit point with which the dam is let go; doubled each time [-]
 
 /// From the limit point the dam is let go under a little more load. Where it comes to rest the load goes on.
@@ -285,8 +309,12 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
         if (!follow_bond(statics, structure, *before, load, law, trial, result) &&
             !(let_go && jump(statics, *before, load, law, let_go, trial, *result.bond, result.contact))) {
             result.status = StageStatus::progressive;
+            BondLoad& bond = *result.bond;
+            bond.largest = std::max(bond.largest, bond.carried);
+            bond.largest = std::max(bond.largest, carried_at_once(statics, *before, load, law, memory, bond.largest));
             return result;
         }
+        result.bond->largest = 1.0;
     } else if (!result.contact.resolved()) {
         result.status = StageStatus::not_resolved;
         return result;
@@ -374,8 +402,8 @@ std::string StageResult::text() const
                            body, forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
     case StageStatus::progressive:
         return fmt::format(
-            "{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
-            "stage's load is in equilibrium, {:.3g} with all strength at once, and let go {}the dam does not "
+            "{}: the bond breaks progressively and does not carry the load, {}: no state was found "
+            "in equilibrium under more than {:.4g} of the stage's load, {:.3g} with all strength at once, and released {}the dam does not "
             "come to rest; give more strength or fracture energy.",
             stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0,
             bond && bond->jumps > 0 ? fmt::format("at {:.4g}, after {} {}, ", bond->carried, bond->jumps,

@@ -47,7 +47,7 @@ struct PlaneBalance {
 
 /// How much of a stage's load a bond carries.
 struct BondLoad {
-    double largest = 1.0; ///< t_max: largest share of the load on the way in equilibrium, before any jump [-]
+    double largest = 1.0; ///< t_max: largest share of the load found in equilibrium on any path [-]
     double carried = 1.0; ///< share with the equilibria found by jumps; 1: the stage holds [-]
     double limit = 0.0;   ///< t_LP: upper bound with all of the bond's strength at once (limit_load()) [-]
     int events = 0;       ///< damage updates on the way; 0: found without following the load

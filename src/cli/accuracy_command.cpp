@@ -162,6 +162,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     };
     ClimbCalls calls;
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    calls.least_seconds = [&](const Rung& rung) { return runner.least_seconds(rung); };
     calls.interrupted = [&] { return watch.stop_asked(); };
     calls.begins = [&](const Rung& rung) {
         if (streams.bar)

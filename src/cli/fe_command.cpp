@@ -113,6 +113,8 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Spectrum
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
+    if (!streams.quiet) // before the time is spent
+        for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.talk << note << "\n";
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
@@ -141,7 +143,7 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Spectrum
     TerminalWatch watch(streams);
     ReducedRuns all(ready, fe_options(arguments), watch);
     const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
-        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
+        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, ready.plan.scene_hash, run);
     });
     std::vector<std::string> messages = reduced_messages(ready.scene, runs);
     for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
@@ -165,7 +167,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLev
         if (r.history.displacement.size())
             fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
                        r.history.displacement, r.history.displacement);
-        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, r);
+        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, ready.plan.scene_hash, r);
     });
     for (TiedRun& r : runs) {
         if (all.water()) {

@@ -14,7 +14,8 @@ using namespace methods;
 
 constexpr Methods blocks = rigid | flexible, finite_elements = fe | reduced, slips = blocks | finite_elements,
                   tied = spectrum | modes, model = tied | finite_elements,
-                  statics = slips | equilibrium | regressions | spectrum, all = statics | modes;
+                  statics = slips | equilibrium | regressions | spectrum, all = statics | modes,
+                  moments = rigid | equilibrium | spectrum | finite_elements;
 
 constexpr std::array<const char*, 8> names{"rigid",    "flexible", "equilibrium", "regressions",
                                            "spectrum", "fe",       "reduced",     "modes"};
@@ -66,6 +67,7 @@ constexpr std::array rows{
     Row{"reservoir.bottom_modulus", fe},
     Row{"added_mass", all},
     Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
+    Row{"ice.level", moments}, Row{"force.x", moments}, Row{"force.y", moments},
 
     Row{"motion", statics}, Row{"motion.polarity", slips}, Row{"motion.vertical", slips | spectrum},
     Row{"motion.sequence", rigid | regressions | spectrum | fe}, Row{"motion.sequence_pause", fe},
@@ -80,6 +82,7 @@ constexpr std::array rows{
     Row{"mesh", model}, Row{"mesh.rock_contact_size", fe},
     Row{"stages", finite_elements},
     Row{"damping", finite_elements}, Row{"damping.ratio", model},
+    Row{"damping.first_mode", finite_elements | modes}, Row{"damping.second_mode", finite_elements | modes},
     Row{"time", finite_elements},
     Row{"analysis", finite_elements},
 };

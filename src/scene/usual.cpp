@@ -120,7 +120,7 @@ constexpr std::array rows{
     Row{"foundation.density", 1900, 3100, rock_weight, true},
     Row{"foundation.width", 5, 5000, judgement},
     Row{"foundation.depth", 2, 2000, judgement},
-    Row{"foundation.wave_box", 0.5, 3, judgement},
+    Row{"foundation.wave_box", 1, 3, judgement},
     Row{"foundation.wave_frequency", 5, 100, judgement},
     Row{"foundation.permeability", 1e-12, 1e-2, "Freeze & Cherry 1979"},
 

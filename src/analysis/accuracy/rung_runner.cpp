@@ -211,6 +211,13 @@ bool RungRunner::rocks_first() const
            });
 }
 
+double RungRunner::least_seconds(const Rung& rung) const
+{
+    constexpr double per_operation = 1e-10; // [s], of n³ in dense factors
+    if (rung.family != RungFamily::finite_elements || scene_.mesh.file) return 0.0;
+    return per_operation * std::pow(2.0 * elements_on_base(scene_of(scene_, rung)), 3.0);
+}
+
 LadderFacts RungRunner::facts() const
 {
     LadderFacts facts;

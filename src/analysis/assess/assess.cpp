@@ -197,17 +197,10 @@ bool run_flexible(const Scene& given, const AssessOptions& options, double most,
     return fits;
 }
 
-void run_screenings(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+void run_rigid_block(const Scene& given, const AssessOptions& options, const BudgetWatch& watch, Assessment& a)
 {
     a.ready = prepare(given, Method::rigid_block, {.flexible_modes = true, .stop = watch.stop()});
     a.screening = run_screening(a.ready, options.jobs, RockingRuns::where_sliding_does_not_hold, FlexibleRuns::none);
-    try_in_time("response spectrum", watch, a.left_out, [&] {
-        a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
-    });
-    try_in_time("effects in turn, rigid block", watch, a.left_out, [&] {
-        a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
-        a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
-    });
 }
 
 /// Those first that move the block furthest, so that a time too short leaves out the harmless ones. As they are where the
@@ -292,6 +285,18 @@ void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
     if (!a.runs.empty()) name_missing_runs(watch, a);
 }
 
+/// What tells the levels apart, beside the finite elements.
+void run_checks(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+{
+    try_in_time("response spectrum", watch, a.left_out, [&] {
+        a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
+    });
+    try_in_time("effects in turn, rigid block", watch, a.left_out, [&] {
+        a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
+        a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
+    });
+}
+
 /// Variants on the worst record, each if its time, judged by those before it, is there.
 void run_variants(BudgetWatch& watch, Assessment& a)
 {
@@ -334,11 +339,12 @@ Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch
 {
     BudgetWatch budget(watch, options.budget);
     Assessment a;
-    run_screenings(given, options, budget, a);
+    run_rigid_block(given, options, budget, a);
     const bool before = run_flexible(given, options, cheap * options.budget, budget, a);
     run_finite_elements(given, budget, a);
     if (!before && !run_flexible(given, options, budget.left(), budget, a))
         a.left_out.push_back({"flexible block", "the budget does not hold it"});
+    run_checks(given, options, budget, a);
     run_variants(budget, a);
     a.interrupted = watch.stop_asked();
     a.seconds = budget.spent();

@@ -11,6 +11,7 @@
 #include "scene/opening_water.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "scene/write.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 
 #include <algorithm>
@@ -211,8 +212,11 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
 
 Ready prepare(Scene given, Method method, const PrepareOptions& options)
 {
+    std::string hash = scene_hash(given);
     Records records = load_records(given, method);
-    return prepare(std::move(given), method, std::move(records), options);
+    Ready ready = prepare(std::move(given), method, std::move(records), options);
+    ready.plan.scene_hash = std::move(hash);
+    return ready;
 }
 
 Records load_records(const Scene& given, Method method)

@@ -325,7 +325,7 @@ GoverningSlip SlipRow::governing() const
 
 double slip_error(const sliding::SlideResult& slide)
 {
-    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : 0.0;
+    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : slide.slip_error;
 }
 
 Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable)

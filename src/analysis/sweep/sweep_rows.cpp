@@ -58,6 +58,7 @@ RowResults results_of(const sliding::SlideResult& r)
     results.slip = reported(r.status, r.slip);
     results.max_slip = reported(r.status, r.max_slip);
     results.upstream_slip = reported(r.status, r.upstream_slip);
+    if (r.slip_error > 0.0) results.slip_error = reported(r.status, r.slip_error);
     results.status = word(r.status);
     add_events_and_anchors(r.events, r.anchors, results);
     return results;

@@ -76,11 +76,15 @@ std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::En
 {
     using E = fe2d::Energy;
     std::vector<ColumnOf<E>> columns = energy_columns();
-    const auto add = [&](const char* key, const char* heading, double E::*term) {
-        if (std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; }))
-            columns.push_back({{key, heading, "J/m", 6}, term});
+    const auto any = [&](double E::*term) {
+        return std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; });
     };
-    add("joint_stored_J_m", "stored in joints", &E::joint_stored);
+    const auto add = [&](const char* key, const char* heading, double E::*term, bool shown = false) {
+        if (shown || any(term)) columns.push_back({{key, heading, "J/m", 6}, term});
+    };
+    // A bond that is broken, or a bar that has snapped, stores nothing any more.
+    add("joint_stored_J_m", "stored in joints", &E::joint_stored,
+        any(&E::bond_fracture) || any(&E::anchor_plastic) || any(&E::anchor_loss));
     add("bond_fracture_J_m", "bond fracture", &E::bond_fracture);
     add("anchor_plastic_J_m", "anchors plastic", &E::anchor_plastic);
     add("anchor_loss_J_m", "anchors snapped", &E::anchor_loss);

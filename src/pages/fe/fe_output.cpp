@@ -88,7 +88,7 @@ FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
     const Table counts = count_table(frame.model.counts, frame.water);
     const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt;
-    FeAnswer answer{json_header("fe", frame.scene),
+    FeAnswer answer{json_header("fe", frame.scene, frame.plan.scene_hash),
                     (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts)};
     answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
     if (kind == FeKind::reduced) answer.json["reduced"] = true;

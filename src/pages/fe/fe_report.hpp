@@ -71,7 +71,7 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 
 /// Bonds whose strength was lowered because the elements are too long for them, where the scene does not know the elements: a
 /// base on an imported mesh, lift joints.
-std::vector<std::string> bond_messages(const Scene& scene, const fe2d::EarthquakeRun& model);
+std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh);
 
 /// All runs of one call as the answer of `fe`. @param spread  spread_line()
 FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,

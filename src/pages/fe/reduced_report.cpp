@@ -111,12 +111,13 @@ constexpr const char* error_source = "step and modes";
 
 } // namespace
 
-void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run)
+void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const ReducedRecord& run)
 {
     const ContactRun as_full = as_contact_run(run);
     write_file(folder / (run_file("history", scene, run.record, as_full.suffix()) + ".csv"),
                csv(history_table(run.result.history),
-                   {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                   {"damslip " + program_version() + " fe --reduced", "scene " + hash,
                     "record " + as_full.label(), "status " + word(run.result.status)}));
 }
 

@@ -25,8 +25,9 @@ std::vector<std::string> reduced_messages(const Scene& scene, const std::vector<
 
 FeAnswer reduced_answer(const ReducedReportInput& input);
 
-/// The history of one run as a CSV file.
-void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run);
+/// The history of one run as a CSV file. @param hash  of the scene (EffectPlan::scene_hash)
+void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const ReducedRecord& run);
 
 /// Slip beside the rigid block's, crest and forces of each record; errors by modes and step.
 Page reduced_page(const ReducedReportInput& input);

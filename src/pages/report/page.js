@@ -120,7 +120,7 @@
     // Lines across the chart with their labels, below the curves. A label stands where it covers no other label and least of the curves.
     function draw_lines(chart) {
         return u => in_box(u, (ctx, r, box) => {
-            const placed = [], high = 15 * r, gap = 5 * r;
+            const placed = [], drawn = [], high = 15 * r, gap = 5 * r;
             ctx.font = 12 * r + "px system-ui, sans-serif";
             ctx.textAlign = "left"; ctx.textBaseline = "middle";
             const meets = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
@@ -136,7 +136,7 @@
                 const w = ctx.measureText(words).width, inside = p => p.y >= box.top && p.y + p.h <= box.top + box.height;
                 const free = places.map(([x, y, turned]) => turned ? {x: x(high), y, w: high, h: w, turned}
                     : {x: Math.max(box.left + gap, Math.min(box.left + box.width - w - gap, x(w))), y, w, h: high}).filter(inside);
-                const cost = p => 100 * placed.filter(o => meets(p, o)).length + covered(p);
+                const cost = p => 100 * placed.filter(o => meets(p, o)).length + 4 * drawn.filter(o => meets(p, o)).length + 3 * covered(p);
                 const best = free.reduce((a, p) => a && cost(a) <= cost(p) ? a : p, null);
                 if (!best || cost(best) >= 100) crowded.add(chart.title + ": " + words);
                 if (!best) return;
@@ -160,8 +160,8 @@
                 .filter(l => l.x >= box.left && l.x <= box.left + box.width);
             for (const l of horizontal) line(box.left, l.y, box.left + box.width, l.y);
             for (const l of vertical) line(l.x, box.top, l.x, box.top + box.height);
-            for (const l of horizontal) placed.push({x: box.left, y: l.y - r, w: box.width, h: 2 * r});
-            for (const l of vertical) placed.push({x: l.x - r, y: box.top, w: 2 * r, h: box.height});
+            for (const l of horizontal) drawn.push({x: box.left, y: l.y - r, w: box.width, h: 2 * r});
+            for (const l of vertical) drawn.push({x: l.x - r, y: box.top, w: 2 * r, h: box.height});
             for (const l of horizontal)
                 label(l.label, [0.98, 0.02, 0.75, 0.5, 0.25].flatMap(q => [l.y - high - 2 * r, l.y + 2 * r].map(y => [w => box.left + q * (box.width - w), y])));
             for (const l of vertical)

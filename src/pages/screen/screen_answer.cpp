@@ -64,7 +64,7 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    auto j = json_header("screen", in.scene);
+    auto j = json_header("screen", in.scene, s.plan.scene_hash);
     j["records"] = record_provenance(in.records);
     j["effects"] = json_of(effect_table(s.plan));
     if (in.scene.wedge) {
@@ -104,7 +104,7 @@ std::string screen_text(const ScreenReportInput& in)
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     std::string out = in.scene.title + "   (" + in.scene.file.string() + ", scene " +
-                      scene_hash(in.scene).substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
+                      s.plan.scene_hash.substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out += text(table) + "\n";
     };
@@ -145,7 +145,7 @@ std::string screen_text(const ScreenReportInput& in)
 
 void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in)
 {
-    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + scene_hash(in.scene)};
+    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + in.screening.plan.scene_hash};
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));

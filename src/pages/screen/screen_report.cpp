@@ -218,7 +218,7 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
 
 std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
 {
-    std::vector<std::pair<std::string, std::string>> list = scene_provenance(in.scene);
+    std::vector<std::pair<std::string, std::string>> list = scene_provenance(in.scene, in.screening.plan.scene_hash);
     list.emplace_back("method", in.scene.sliding.scheme == SlidingScheme::exact
                                     ? "rigid block, events located exactly, acceleration linear between samples"
                                     : "rigid block, SLAMMER's trapezoid scheme");
@@ -345,7 +345,8 @@ Page screen_page(const ScreenReportInput& in)
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
     const std::string body = in.scene.wedge ? "wedge. " : "block. ";
-    Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body);
+    Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body,
+                           in.screening.plan.scene_hash);
     page.headline = screen_headline(in.scene, in.screening);
     page.key_figures = key_figures(in.scene, in.screening);
     page.warnings = all_warnings(in);

@@ -1,7 +1,7 @@
 #include "probability/export/fragility_files.hpp"
 
 #include "core/number.hpp"
-#include "core/xml_text.hpp"
+#include "core/text.hpp"
 #include "probability/laws/distribution.hpp"
 
 #include <algorithm>
