@@ -71,7 +71,8 @@ CrackLengths crack_lengths(const WetJoint& joint, const VectorXd& opening, const
 }
 
 CrackWater::CrackWater(std::shared_ptr<const WetJoint> joint)
-    : joint_(std::move(joint)), at_rest_(pair_pressure(*joint_, joint_->before))
+    : joint_(std::move(joint)), at_rest_(pair_pressure(*joint_, joint_->before)),
+      lost_(VectorXd::Zero(joint_->pairs()))
 {
     report_.pressure = at_rest_;
     report_.force = VectorXd::Zero(joint_->pairs());
@@ -90,6 +91,27 @@ void CrackWater::look(double dt, const VectorXd& opening, const ContactStates& s
     report_.largest_pressure = std::max(report_.largest_pressure, report_.pressure.maxCoeff());
 }
 
+void CrackWater::shear_drains(double dt, const ContactSolution& solution)
+{
+    time_ += dt;
+    if (!joint_->drain_loss || report_.drains_lost) return;
+    const Index pairs = solution.displacement.size() / 2;
+    path_ += std::abs(joint_->area.dot(solution.displacement.segment(pairs + joint_->first, joint_->pairs()))) /
+             joint_->length();
+    if (path_ >= joint_->drain_loss->path) lose_drains();
+}
+
+void CrackWater::lose_drains()
+{
+    WetJoint joint = *joint_;
+    joint.before = joint.drain_loss->before;
+    joint.cracked = joint.drain_loss->cracked;
+    joint.drain.reset();
+    joint_ = std::make_shared<const WetJoint>(std::move(joint));
+    lost_ = pair_pressure(*joint_, joint_->before) - at_rest_;
+    report_.drains_lost = time_;
+}
+
 /// By the trapezoid, as the ledger of the steps counts all forces. @param before, after  changes of pressure [Pa]
 void CrackWater::add_work(const VectorXd& before, const VectorXd& after, const VectorXd& opened)
 {
@@ -102,6 +124,7 @@ void CrackWater::rest_with(const PressureProfile& pressure)
     joint.before = pressure;
     joint_ = std::make_shared<const WetJoint>(std::move(joint));
     at_rest_ = pair_pressure(*joint_, pressure);
+    lost_.setZero();
     report_.pressure = at_rest_;
 }
 
@@ -123,6 +146,7 @@ void CrackWater::save(JointLawState& state) const
     state["water_work_J_m"] = {energy_.water};
     std::vector<double>& flow = state["water_flow_J_m"];
     for (const FlowTerm term : flow_terms) flow.push_back(report_.flow.*term);
+    if (joint_->drain_loss) state["drain_path_m"] = {path_};
 }
 
 void CrackWater::restore(const JointLawState& state)
@@ -136,11 +160,14 @@ void CrackWater::restore(const JointLawState& state)
     energy_.water = state.at("water_work_J_m").front();
     const std::vector<double>& flow = state.at("water_flow_J_m");
     for (std::size_t k = 0; k < std::size(flow_terms); ++k) report_.flow.*flow_terms[k] = flow[k];
+    if (!joint_->drain_loss) return;
+    path_ = state.at("drain_path_m").front();
+    if (path_ >= joint_->drain_loss->path) lose_drains();
 }
 
 std::unique_ptr<CrackWater> make_joint_water(const JointWaterLaw& law, std::shared_ptr<const WetJoint> joint)
 {
-    if (!law.follows()) return nullptr;
+    if (!law.follows() && !joint->drain_loss) return nullptr;
     if (law.opening == OpeningWater::reynolds) return std::make_unique<ReynoldsWater>(law, std::move(joint));
     return std::make_unique<WaterRule>(law, std::move(joint));
 }

@@ -10,6 +10,18 @@
 
 namespace damslip::fe2d {
 
+/// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
+using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
+
+/// Drains that shear off while the joint slips (drains.lost_at_slip): the pressure without them.
+struct DrainLoss {
+    double path = 0.0;           ///< sum of the joint's mean slips, both ways, at which the drains are lost [m]
+    PressureProfile before;      ///< without a crack
+    CrackedUplift cracked;       ///< as WetJoint::cracked
+    CrackedUplift cracked_after; ///< as RunOptions::cracked_uplift_after; empty: the crack does not matter then
+    CrackedUplift uplift_after;  ///< as RunOptions::uplift_after
+};
+
 /// A joint with water in it, as the laws of that water see it.
 struct WetJoint {
     Eigen::Index first = 0;                                    ///< its first pair among all
@@ -20,7 +32,8 @@ struct WetJoint {
     double fall = 0.0;                                         ///< sin θ of its slope, positive: dips downstream [-]
     /// With cracks of these lengths from the upstream and the downstream end: full head in them, and what that makes of
     /// the pressure beyond.
-    std::function<PressureProfile(double upstream, double downstream)> cracked;
+    CrackedUplift cracked;
+    std::optional<DrainLoss> drain_loss; ///< none: the drains hold
     std::optional<Eigen::Index> drain; ///< pair at the drains
     JointFluid fluid;                  ///< of JointWaterLaw
 
@@ -36,6 +49,8 @@ Eigen::VectorXd pair_pressure(const WetJoint& joint, const PressureProfile& prof
 struct CrackLengths {
     double upstream = 0.0, downstream = 0.0;
 };
+/// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
+using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
 /// @param opening, states  of the joint's pairs
 CrackLengths crack_lengths(const WetJoint& joint, const Eigen::VectorXd& opening, const ContactStates& states);
 
@@ -51,6 +66,7 @@ struct JointWaterReport {
     double reynolds_number = 0.0;  ///< largest so far, opening reynolds [-]
     double cracked_through = 0.0;  ///< time during which a crack went from end to end [s]
     JointFlowWork flow;            ///< opening reynolds, since the start [J/m]
+    std::optional<double> drains_lost; ///< time since the start at which they sheared off [s]; none: they hold
 };
 
 /// Water that follows the opening of a joint: a change of the pressure before the earthquake, on both faces. It acts while
@@ -71,15 +87,23 @@ public:
 protected:
     explicit CrackWater(std::shared_ptr<const WetJoint> joint);
     void look(double dt, const Eigen::VectorXd& opening, const ContactStates& states);
+    /// The step's slip is made: drains that have slipped far enough are lost from the next step on.
+    void shear_drains(double dt, const ContactSolution& solution);
     void add_work(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& opened);
 
     std::shared_ptr<const WetJoint> joint_;
     Eigen::VectorXd at_rest_; ///< pressure before the earthquake by pair [Pa]
+    Eigen::VectorXd lost_;    ///< what the loss of the drains has added to it [Pa]
     JointWaterReport report_;
     JointEnergy energy_;
+
+private:
+    void lose_drains();
+
+    double time_ = 0.0, path_ = 0.0; ///< since the start [s]; of the mean slip, both ways [m]
 };
 
-/// @returns null for water that does not follow (JointWaterLaw::follows())
+/// @returns null for water that stays as it was: it neither follows (JointWaterLaw::follows()) nor loses its drains
 std::unique_ptr<CrackWater> make_joint_water(const JointWaterLaw& law, std::shared_ptr<const WetJoint> joint);
 
 } // namespace damslip::fe2d

@@ -47,7 +47,7 @@ VectorXd WaterRule::by_rule() const
     const CrackLengths& crack = report_.crack;
     const CrackLengths wet_end{joint_->upstream_pressure > 0.0 ? crack.upstream : 0.0,
                                joint_->downstream_pressure > 0.0 ? crack.downstream : 0.0};
-    if (wet_end.upstream == 0.0 && wet_end.downstream == 0.0) return VectorXd::Zero(joint_->pairs());
+    if (wet_end.upstream == 0.0 && wet_end.downstream == 0.0) return lost_;
     CrackLengths wet = wet_end;
     switch (law_.opening) {
     case OpeningWater::zero:
@@ -60,7 +60,7 @@ VectorXd WaterRule::by_rule() const
         break;
     case OpeningWater::unchanged:
     case OpeningWater::reynolds: // ReynoldsWater's
-        return VectorXd::Zero(joint_->pairs());
+        return lost_;
     }
     const bool full_head = law_.opening != OpeningWater::zero && (wet.upstream > 0.0 || wet.downstream > 0.0);
     const PressureProfile full = full_head ? joint_->cracked(wet.upstream, wet.downstream) : joint_->before;
@@ -124,6 +124,7 @@ void WaterRule::end(const ContactSolution& solution)
         std::min(wet_.downstream + way, joint_->downstream_pressure > 0.0 ? report_.crack.downstream : 0.0);
     const bool comes_in = law_.opening == OpeningWater::full || law_.opening == OpeningWater::mouth;
     report_.wet_length = comes_in ? wet_.upstream : 0.0;
+    if (dt_ > 0.0) shear_drains(dt_, solution);
     follow(states);
 }
 

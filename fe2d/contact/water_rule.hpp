@@ -12,6 +12,8 @@ namespace damslip::fe2d {
 /// - mouth: full head to x_w, which follows the tip with the speed v_w at most and is driven back by it; none from
 ///   there to the tip; beyond it as a crack of length x_w has it. v_w → ∞: full; v_w → 0: zero.
 ///
+/// Drains that shear off take the rule on with the pressure without them, from the next step on.
+///
 /// Where a crack shuts at its mouth first, the pairs behind it that are still open keep the pressure they had until they shut:
 /// water that vanished there would give back another work than it took, and the rocking dam would live on it.
 ///

@@ -17,7 +17,7 @@ struct RadiatingRockInput {
     double highest_frequency = 0.0; ///< ω up to which waves are to be right [rad/s]
     double box_size = 1.0;          ///< of the box, over the automatic one: wave_box_shape() [-]
     ReductionOptions reduction;
-    std::function<void(int unknowns)> reducing; ///< told the size of a box before it is reduced; empty: nobody is told
+    std::function<void(int unknowns)> reducing; ///< called with the size of a box before it is reduced; may be empty
 };
 
 enum class RockOrigin {

@@ -24,9 +24,9 @@ Index nearest_pair(const VectorXd& distance, double at)
 } // namespace
 
 std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, const PressureProfile& uplift,
-                                       const CrackedUplift& cracked)
+                                       const CrackedUplift& cracked, const std::optional<DrainLoss>& drain_loss)
 {
-    if (!scene.uplift || !scene.uplift->water.follows() || uplift.empty()) return nullptr;
+    if (!scene.uplift || uplift.empty()) return nullptr;
     const JointWaterLaw& law = scene.uplift->water;
     const double weight = water_unit_weight(scene);
     const auto under = [&](const auto& level, const Point& end) {
@@ -40,6 +40,7 @@ std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, co
     joint->downstream_pressure = under(scene.tailwater, toe(scene.section));
     joint->fall = std::sin(base_inclination(scene.section));
     joint->cracked = cracked;
+    joint->drain_loss = drain_loss;
     if (scene.drains) joint->drain = nearest_pair(base.distance, scene.drains->distance);
     joint->fluid = {law.viscosity, scene.reservoir ? scene.reservoir->bulk_modulus : Reservoir().bulk_modulus,
                     water_density(scene), weight, law.cavitation};

@@ -5,16 +5,13 @@
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/water_body.hpp"
 
-/// Water under the dam that follows the opening of the base.
+/// Water under the dam that follows the opening of the base, or loses its drains.
 namespace damslip::fe2d {
 
-/// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
-using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
-
-/// The law of uplift.opening; null: the water does not follow, and nothing asks for the crack afterwards.
+/// The law of uplift.opening and drains.lost_at_slip; null: the water does not follow, and nothing asks for the crack afterwards.
 /// @param uplift  before the earthquake @param cracked  the same with cracks
 std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, const PressureProfile& uplift,
-                                       const CrackedUplift& cracked);
+                                       const CrackedUplift& cracked, const std::optional<DrainLoss>& drain_loss);
 
 /// Pressure of the reservoir's waves at the heel, beyond that of the water at rest [Pa].
 class HeelWaves {

@@ -5,6 +5,7 @@
 #include "fe2d/run/tied_frequencies.hpp"
 
 #include "core/input_error.hpp"
+#include "core/number.hpp"
 #include "core/stopwatch.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "fe2d/rock/rock_of_scene.hpp"
@@ -335,7 +336,7 @@ std::string friction_gave_back(const RunHistory& history)
     if (!(gave > 0.01 * kinetic)) return "";
     return fmt::format(
         " Friction gave {:.3g} J/m back, which it cannot: its force turns or ends within steps too long for that, "
-        "as where the dam hops. Use a smaller step (time.dt_s or time.substeps).",
+        "as where the whole base opens and closes. Use a smaller step (time.dt_s or time.substeps).",
         gave);
 }
 
@@ -350,6 +351,8 @@ void EarthquakeRun::judge(RunResult& result) const
         result.status = Status::runs_away;
         result.message = away;
     }
+    const std::string event = judge_events(result.status, structure_->planes()[0].length(), result.events);
+    if (!event.empty() && !result.message.empty()) result.message = "In \"" + event + "\": " + result.message;
     switch (result.status) {
     case Status::at_rest:
         result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);
@@ -361,10 +364,9 @@ void EarthquakeRun::judge(RunResult& result) const
         result.message = fmt::format("Slip {:.4g} mm so far: still sliding {:.0f} s after the record's end.",
                                      1e3 * result.slip, scene_.sliding.run_out_max);
         if (result.run_out.sliding_factor > 1.0)
-            result.message +=
-                fmt::format(" At rest it would stand, FS {:.3g}, and three windows of steady sliding, which "
-                            "would make it self-excited, were not seen: lengthen sliding.run_out_max_s.",
-                            result.run_out.sliding_factor);
+            result.message += fmt::format(" At rest it would stand, FS {}, and three windows of steady sliding, which "
+                                          "would make it self-excited, were not seen: lengthen sliding.run_out_max_s.",
+                                          factor_text(result.run_out.sliding_factor));
         break;
     case Status::self_excited:
         result.message = self_excited_sentence(scene_, result.slip, result.run_out);

@@ -29,7 +29,8 @@ std::string hops(const RunOutFigures& figures)
 {
     if (figures.hops == 0) return "";
     const std::string often = figures.hops > 1 ? fmt::format(", {:.3g} a second", figures.hop_frequency) : "";
-    return fmt::format(", {} {} with the whole base open{}", figures.hops, figures.hops == 1 ? "hop" : "hops", often);
+    return fmt::format(", {} {} with the whole base open{}", figures.hops, figures.hops == 1 ? "lift-off" : "lift-offs",
+                       often);
 }
 
 } // namespace
@@ -40,7 +41,7 @@ std::string self_excited_sentence(const Scene& scene, double slip, const RunOutF
                                  ? fmt::format("does {:.3g} times the work that friction takes", f.thrust_over_friction)
                                  : "meets no friction";
     return fmt::format(
-        "Self-excited, walked >= {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
+        "Self-excited, slid at least {:.4g} mm: with the ground at rest it goes on at {:.3g} mm/s although it "
         "would stand, FS {:.3g}; it slips while little presses on the base, so the static thrust {} and pays "
         "for the vibration{}. No slip can be given: {}.",
         1e3 * std::abs(slip), 1e3 * std::abs(f.rate), f.sliding_factor, more, hops(f), remedy(scene));
@@ -49,7 +50,7 @@ std::string self_excited_sentence(const Scene& scene, double slip, const RunOutF
 std::string walked_sentence(double slip, const RunOutFigures& f)
 {
     return fmt::format("{:.3g} mm of the slip of {:.4g} mm came after the record, with the ground at rest{}: it may be "
-                       "the model that walks (docs/fe-contact.md, A dam that goes on sliding).",
+                       "the model that goes on sliding (docs/fe-contact.md, A dam that goes on sliding).",
                        1e3 * std::abs(f.slip_at_rest), 1e3 * std::abs(slip), hops(f));
 }
 

@@ -17,9 +17,9 @@ public:
 
     double static_normal_force() const { return balances_.front().normal_force; } ///< of the base [N/m]
 
-    /// With the work of the run's ledger.
+    /// The instant of a run that keeps an energy ledger: the work of friction is taken from it.
     SlideInstant instant(const ContactMotion& dynamics, const ContactLaw& law) const;
-    /// Of a run without one. @param friction  dissipated since the start [J/m]
+    /// The instant of a run without a ledger. @param friction  dissipated since the start [J/m]
     SlideInstant instant(double time, const ContactMemory& contact, const ContactLaw& law, double friction) const;
 
 private:

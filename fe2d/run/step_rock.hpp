@@ -34,9 +34,9 @@ public:
     const Pairing::Matrix& trace() const { return trace_; } ///< P
     int place() const { return place_; }                    ///< counts the places P was made for; 0: as in the statics
     double slip(const DynamicState& state) const;           ///< of the base, area mean [m]
-    /// What displacements and place make the opening, less what statics leave out (the slip of the static stages) [m].
+    /// Opening of the joint by displacements and place, less the slip of the static stages, which dynamics leave out [m].
     Eigen::VectorXd opening(const DynamicState& state) const;
-    /// P follows where it is too old. @returns its change; nothing: it serves on
+    /// Renews P where the dam has slid too far for it. @returns the change of P; nothing: P still holds
     std::optional<Pairing::Matrix> follow(const DynamicState& state);
     const Eigen::VectorXd& water_in_joint() const { return surface_.joint; } ///< SplitLoad::joint
 

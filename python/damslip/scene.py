@@ -174,7 +174,7 @@ class Scene:
             raise UsageError(f"polarity={polarity!r} is not allowed: 1, -1, or None for both")
         return _whole(_core._fe(self._opened, polarity, mesh_error, spread, progress))
 
-    def modes(self, count=10, transfer=False, progress=None):
+    def modes(self, count=None, transfer=False, progress=None):
         """Natural frequencies and damping, as `damslip modes`."""
         return _whole(_core._modes(self._opened, count, transfer, progress))
 
@@ -192,16 +192,15 @@ class Scene:
         return _whole(_core._accuracy(self._opened, tolerance, quick, progress))
 
     def fragility(self, records=None, levels=None, unit="g", limits_mm=None, method=None, measure=None, design=None,
-                  samples=None, tables=None, cheap_samples=2048, share_rows=128, conditioning="auto",
-                  multi_fidelity="two-level", jobs=0, progress=None):
+                  samples=None, tables=None, share_rows=128, conditioning="auto", jobs=0, progress=None):
         """How likely the dam slides too far, as `damslip fragility`: fragility(records="suite/*.AT2", levels=[0.1, 0.2, 0.4],
         limits_mm=[10, 50]).
 
         records: folder, pattern, or CSV of a suite, or a list of files or of pairs (horizontal, vertical); levels: of the measure, in
         unit ("g", "m/s2", "m/s", "cm/s"); limits_mm: slips; tables: dictionaries of [probability], [suite], [intensity], [[limit]],
         [hazard] with the keys of a file. What is given takes the place of what the scene says; the rest is the scene's. method:
-        "rigid", "rigid-v", "fe", ...; samples, cheap_samples, share_rows: as --samples, --cheap-samples, --share-rows;
-        conditioning, multi_fidelity: as --conditioning and --multi-fidelity. Ctrl-C stops it and
+        "rigid", "rigid-v", "fe", ...; samples, share_rows, conditioning: as
+        --samples, --share-rows, --conditioning. Ctrl-C stops it and
         raises Interrupted, whose result has the runs that are finished; those that are not count as missing.
         """
         listed = records is not None and not isinstance(records, (str, os.PathLike))
@@ -213,8 +212,8 @@ class Scene:
                 with open(records, "w", encoding="utf-8") as out:
                     out.write(rows)
             given = _fragility_tables(tables, records, levels, unit, measure, design, limits_mm)
-            return _whole(_core._fragility(self._opened, _toml(given), method or "", samples, cheap_samples, share_rows, conditioning,
-                                           multi_fidelity, jobs, progress))
+            return _whole(_core._fragility(self._opened, _toml(given), method or "", samples, share_rows, conditioning, jobs,
+                                           progress))
 
     def __repr__(self):
         return f"<damslip.Scene {self.title!r} ({self.file})>"

@@ -9,8 +9,10 @@
 namespace damslip::records {
 
 /// A user's target spectrum: two columns, period [s] and spectral acceleration at 5 % damping in any unit (only its shape counts), the
-/// first row being the PGA; comments (#) and a heading line are skipped. Named after the file.
-/// @throws InputError for anything else than two columns of numbers, and as table_spectrum does
+/// first row being the PGA. A heading line may say so in other words and units, and in another order: "T [ms];Sa [%g]", "frequency_hz,psa_m_s2"; of
+/// frequencies the highest is the PGA. Named after the file.
+/// @throws InputError for anything else than two columns of numbers, headings that are neither, velocities and displacements, and as
+///         table_spectrum does
 TargetSpectrum read_target_spectrum(const std::filesystem::path& path);
 TargetSpectrum parse_target_spectrum(std::string_view content, std::string_view file_name);
 

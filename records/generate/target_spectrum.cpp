@@ -111,7 +111,8 @@ TargetSpectrum table_spectrum(std::span<const SpectrumRow> rows, std::string nam
     constexpr double latest_first = 0.03, earliest_last = 2.0; // [s]
     if (rows.front().period > latest_first)
         fail(fmt::format("the first period is {} s.", rows.front().period),
-             fmt::format("0 to {} s: the first row is the PGA", latest_first), "add a row \"0, PGA\"");
+             fmt::format("0 to {} s: the first row is the PGA", latest_first),
+             "add a row \"0, PGA\", of frequencies \"100, PGA\"");
     if (rows.back().period < earliest_last)
         fail(fmt::format("the last period is {} s.", rows.back().period),
              fmt::format("at least {} s: so far the record is matched", earliest_last), "add rows");

@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
+#include "core/text.hpp"
 #include "records/read/format.hpp"
 
 #include <fmt/format.h>
@@ -10,9 +11,9 @@ namespace damslip::records {
 
 namespace {
 
-constexpr std::string_view read_formats =
-    "PEER AT2, COSMOS, CSMIP, SMC, K-NET, ESM, CSV with a header row, time and acceleration in two columns, or samples "
-    "with \"# dt: 0.01 s\"";
+constexpr std::string_view read_formats = "PEER AT2, COSMOS, CSMIP, BHRC, GeoNet, SMC, K-NET, ESM, CSV with a header "
+                                          "row, time and acceleration in two columns, or samples "
+                                          "with \"# dt: 0.01 s\"";
 
 const RecordFormat& recognise(const RecordText& text)
 {
@@ -34,7 +35,8 @@ const RecordFormat& recognise(const RecordText& text)
 
 std::vector<Record> parse_record(std::string_view content, std::string_view file_name, const ReadOptions& options)
 {
-    const RecordText text = split_lines(content, file_name);
+    const std::string converted = is_utf8(content) ? std::string() : utf8_text(std::string(content));
+    const RecordText text = split_lines(converted.empty() ? content : converted, file_name);
     std::vector<Record> records = recognise(text).read(text, options);
     const std::string digest = sha256(content);
     for (Record& record : records) record.source.sha256 = digest;

@@ -31,8 +31,8 @@ public:
     std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before,
                      const SkippingMotion* blocks = nullptr);
 
-    /// Through a whole horizontal motion with blocks that rest at its begin, side by side: what pass() would do with each of
-    /// them, bit by bit. @returns false where their case is another one; nothing is done then
+    /// Carries four blocks, at rest at first, through a whole horizontal motion side by side, with the bits pass() gives for
+    /// each of them. @returns false where their case is another one; the blocks are unchanged then
     static bool pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks);
 
     /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.
@@ -74,9 +74,13 @@ private:
     };
 
     void take_stages(const SlipStages& stages);
-    void cross_part(double start, double dt, const Line& a_h, const Line& a_v);
+    void cross_part(double start, double dt, const Line& a_h, const Line& a_v, bool up_to_change = false,
+                    bool goes_on = false);
+    void cross_wet(double start, double dt, const Line& a_h, const Line& a_v);
     const SlowWater* slow_water() const;
-    void let_water_flow(const SlowWater& water, double dt, double a_h, double a_v);
+    double wet_after(SlipDirection direction, double wet, double dt, double a_h, double a_v) const;
+    double let_water_flow(double dt, const Line& a_h, const Line& a_v);
+    bool water_stays(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
     void wait();
     void wait_pressed();
     void wait_lagging();

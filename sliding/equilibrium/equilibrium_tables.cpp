@@ -3,6 +3,8 @@
 #include "core/units.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace damslip::sliding {
 
@@ -31,7 +33,7 @@ const std::vector<ColumnOf<Equilibrium>>& equilibrium_columns()
         {{"reservoir_level_m", "reservoir", "m", 4}, [](const E& e) { return optional_cell(e.reservoir_level); }},
         {{"tailwater_level_m", "tailwater", "m", 4}, [](const E& e) { return optional_cell(e.tailwater_level); }},
         {{"k_h", "k_h", "–", 3}, &E::k_h},
-        {{"k_h_of_pga", "k_h of the PGA", "–", 3}, [](const E& e) { return optional_cell(e.of_pga); }},
+        {{"k_h_of_pga", "k_h / PGA", "–", 3}, [](const E& e) { return optional_cell(e.of_pga); }},
         {{"k_v", "k_v", "–", 3}, &E::k_v},
         {{"normal_force_effective_kN_per_m", "N'", "kN/m", 5},
          [](const E& e) { return e.base.effective_normal / kilo; }},
@@ -44,11 +46,13 @@ const std::vector<ColumnOf<Equilibrium>>& equilibrium_columns()
         {{"flotation_factor", "FS flotation", "–", 4}, &E::flotation_factor},
         {{"resultant_from_toe_m", "resultant from toe", "m", 4}, &E::resultant_from_toe},
         {{"eccentricity_m", "eccentricity", "m", 4}, &E::eccentricity},
-        {{"resultant_zone", "zone"}, [](const E& e) { return word(e.zone); }},
+        {{"resultant_zone", "zone"},
+         [](const E& e) { return e.zone == ResultantZone::base ? "within base" : word(e.zone); }},
         {{"heel_stress_kPa", "heel stress", "kPa", 4}, [](const E& e) { return e.heel_stress / kPa; }},
         {{"toe_stress_kPa", "toe stress", "kPa", 4}, [](const E& e) { return e.toe_stress / kPa; }},
         {{"joint", "joint"}, joint},
         {{"crack_m", "crack", "m", 4}, [](const E& e) { return e.base.crack.length; }},
+        {{"compressed_length_m", "compressed length", "m", 4}, [](const E& e) { return e.base.compressed_length; }},
         {{"cohesive_length_m", "bonded length", "m", 4}, &E::cohesive_length},
         {{"critical_friction", "critical μ", "–", 4}, &E::critical_friction},
         {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, &E::yield_acceleration},
@@ -92,10 +96,38 @@ Table equilibrium_table(const std::vector<Equilibrium>& all)
                                        {{"dowel_force_kN_per_m", "dowels", "kN/m", 5},
                                         [](const Equilibrium& e) { return e.dowel_force / kilo; }}});
     Table table = table_of("Limit equilibrium", columns, all);
+    if (std::any_of(all.begin(), all.end(),
+                    [](const Equilibrium& e) { return e.critical_friction == 0.0 && e.cohesion > 0.0; }))
+        table.notes.push_back("critical μ 0: cohesion alone suffices.");
     for (const Equilibrium& e : all)
         for (const std::string& note : e.notes)
             table.notes.push_back(e.name + " (crack rule " + word(e.crack_rule) + "): " + note + ".");
     return table;
+}
+
+std::string unmet_words(double value, double required)
+{
+    const auto text = [](double x, int digits) {
+        std::string s = fmt::format("{:.{}g}", x, digits);
+        return s.find_first_of(".en") == std::string::npos ? s + ".0" : s;
+    };
+    int digits = 3;
+    while (digits < 9 && text(value, digits) == text(required, digits)) ++digits;
+    return fmt::format("{} {} {}", text(value, digits), value < required ? "<" : ">", text(required, digits));
+}
+
+std::string failed_checks(const std::vector<Equilibrium>& all)
+{
+    std::string words;
+    for (const Equilibrium& e : all)
+        for (const Check& check : e.checks) {
+            if (check.verdict != Verdict::fail) continue;
+            const std::string what =
+                check.quantity.starts_with("sliding") ? "" : " " + check.quantity.substr(0, check.quantity.find(','));
+            words += fmt::format("{}{}{} {}", words.empty() ? "" : "; ", e.name, what,
+                                 unmet_words(check.value, check.required.value_or(0.0)));
+        }
+    return words;
 }
 
 Table verdict_table(const std::vector<Equilibrium>& all)
@@ -117,6 +149,42 @@ Table verdict_table(const std::vector<Equilibrium>& all)
          {{"verdict", "verdict"}, [](const Row& r) { return word(r.check.verdict); }},
          {{"source", "source"}, [](const Row& r) { return r.check.source; }}},
         rows);
+}
+
+Table check_matrix(const std::vector<Equilibrium>& all)
+{
+    using E = const Equilibrium*;
+    std::vector<E> judged;
+    std::vector<std::string> quantities, sources; ///< in the order in which they come
+    const auto add_new = [](std::vector<std::string>& list, const std::string& word) {
+        if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+    };
+    for (const Equilibrium& e : all)
+        for (const Check& check : e.checks) {
+            if (check.verdict == Verdict::no_criterion) continue;
+            if (judged.empty() || judged.back() != &e) judged.push_back(&e);
+            add_new(quantities, check.quantity);
+            add_new(sources, check.source);
+        }
+    std::vector<ColumnOf<E>> columns{{{"combination", "combination"}, [](E e) { return e->name; }},
+                                     {{"crack_rule", "crack rule"}, [](E e) { return word(e->crack_rule); }}};
+    for (const std::string& quantity : quantities)
+        columns.push_back({{"check", quantity}, [=](E e) -> Cell {
+                               const auto check = std::find_if(e->checks.begin(), e->checks.end(),
+                                                               [&](const Check& c) { return c.quantity == quantity; });
+                               if (check == e->checks.end() || check->verdict == Verdict::no_criterion) return {};
+                               const std::string value =
+                                   std::isinf(check->value) ? "∞" : fmt::format("{:.4g}", check->value);
+                               return fmt::format("{} {} / {:.4g}", word(check->verdict), value, *check->required);
+                           }});
+    Table table = table_of<E>("Load combinations: value / required", columns, judged);
+    if (quantities.empty()) return table;
+    table.notes.push_back(
+        "Factors are to be at least what is required, the resultant's distance at most; –: no criterion.");
+    std::string by;
+    for (const std::string& source : sources) by += (by.empty() ? "Required by: " : "; ") + source;
+    table.notes.push_back(by + ".");
+    return table;
 }
 
 Table uplift_comparison_table(const std::vector<UpliftComparison>& all)

@@ -3,6 +3,7 @@
 #include "analysis/accuracy/climb.hpp"
 #include "analysis/accuracy/rung_runner.hpp"
 #include "analysis/accuracy/variant.hpp"
+#include "analysis/assess/budget_watch.hpp"
 #include "analysis/prepare/contact_law.hpp"
 #include "cli/print_pdf.hpp"
 #include "cli/terminal/terminal_watch.hpp"
@@ -33,7 +34,7 @@ namespace {
 void check(const AccuracyArguments& a)
 {
     if (!a.pdf.empty() && !a.rung.empty())
-        refuse_usage("--pdf with --rung.", "a report of all rungs", "leave one of them out");
+        refuse_usage("--pdf with --rung.", "a report of all model levels", "leave one of them out");
     if (!(a.tolerance > 0.0 && std::isfinite(a.tolerance)))
         refuse_usage(fmt::format("--tolerance {} is not allowed.", a.tolerance), "a share of the slip > 0",
                      "for 2 % write  --tolerance 0.02");
@@ -43,12 +44,11 @@ void check(const AccuracyArguments& a)
         refuse_usage(fmt::format("--budget {} is not allowed.", a.budget), "seconds > 0", "for example  --budget 60");
     for (const auto& [flag, given] : {std::pair{"--method", !a.method.empty()},
                                       {"--level", a.level.has_value()},
-                                      {"--samples", a.samples.has_value()},
-                                      {"--reduced", a.middle}})
+                                      {"--samples", a.samples.has_value()}})
         if (given && !a.probability)
             refuse_usage(fmt::format("{} without --probability.", flag), "both", "add  --probability");
     if (!a.rung.empty() && !parse_rung(a.rung))
-        refuse_usage("--rung " + a.rung + " is not known.", "a rung as the table names it",
+        refuse_usage("--rung " + a.rung + " is not known.", "a model level as the table names it",
                      "for example  --rung fe-added-mass:dt/4  or  --rung rigid:h");
 }
 
@@ -77,11 +77,11 @@ Loaded load(const AccuracyArguments& a, const Streams& streams)
                  "the slip of a wedge is exact for its record: damslip screen SCENE gives it");
     if (loaded.scene.mesh.file)
         throw UsageError(Diagnostic{loaded.scene.file.string(), 0, 0, "accuracy with mesh.file.",
-                                    "the program's own mesh: the ladder changes the size of its elements",
+                                    "the program's own mesh: the study changes the size of its elements",
                                     "delete mesh.file, or compare meshes of your own with  damslip fe"});
     if (!loaded.scene.motion.sequence.empty())
         throw UsageError(Diagnostic{loaded.scene.file.string(), 0, 0, "accuracy with motion.sequence.",
-                                    "records each alone: the ladder compares methods on one record",
+                                    "records each alone: the study compares methods on one record",
                                     "delete sequence, or give the record with  --record FILE"});
     loaded.in_scene = loaded.scene.motion.records.size();
     if (loaded.in_scene == 0)
@@ -104,11 +104,13 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
                                        "worst counts.",
                                        loaded.in_scene, loaded.records->front().files.name));
+    const std::vector<int> polarities = polarities_of(loaded.scene);
+    messages.push_back(fmt::format("Every rung is run with {}.", polarity_words({polarities.front()})));
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
                                            r.outcome == RungOutcome::skipped ? "skipped" : word(r.status), r.remark));
-    if (interrupted) messages.push_back("Interrupted: the rungs that were finished count.");
+    if (interrupted) messages.push_back("Interrupted: the model levels that were finished count.");
     return messages;
 }
 
@@ -160,6 +162,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     };
     ClimbCalls calls;
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    calls.least_seconds = [&](const Rung& rung) { return runner.least_seconds(rung); };
     calls.interrupted = [&] { return watch.stop_asked(); };
     calls.begins = [&](const Rung& rung) {
         if (streams.bar)
@@ -184,7 +187,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     const Stopwatch start;
     std::vector<RungResult> results = climb(facts, options, calls);
     if (!streams.quiet && !streams.terminal)
-        streams.talk << fmt::format("accuracy: {} rung{}, {:.3g} s\n", results.size(), results.size() == 1 ? "" : "s",
+        streams.talk << fmt::format("accuracy: {} model level{}, {:.3g} s\n", results.size(), results.size() == 1 ? "" : "s",
                                     start.seconds());
     return results;
 }
@@ -198,7 +201,8 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const Loaded loaded = load(a, streams);
     say_base(loaded.scene, streams);
     TerminalWatch watch(streams);
-    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, watch);
+    BudgetWatchOf<ProcessorClock> budget(watch, a.budget);
+    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, budget);
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
 
     const LadderFacts facts = runner.facts();

@@ -21,7 +21,6 @@ struct AccuracyArguments {
     std::string method;           ///< of --probability: as of fragility; empty: rigid-v or rigid
     std::optional<double> level;  ///< of --probability, in the unit of the levels; none: P nearest to 0.1
     std::optional<int> samples; ///< of --probability: runs of the largest estimate; none: 16384, of finite elements 128
-    bool middle = false;        ///< of --probability with finite elements: few modes between them and the block
     int jobs = 0;               ///< of --probability: threads; 0: all cores
 };
 

@@ -12,23 +12,24 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
     sub.add_flag("--all-records", a.all_records, "all records of the scene, the worst counts; else its first")
         ->group("Ground motion");
     add_friction(sub, a.inputs);
-    sub.add_option("--tolerance", a.tolerance, "names the cheapest rung within this share of the finest's slip")
+    sub.add_option("--tolerance", a.tolerance, "names the cheapest model level within this share of the finest's slip")
         ->capture_default_str();
-    sub.add_option("--repeats", a.repeats, "runs of a rung for its median time; fewer of rungs above a second")
+    sub.add_option("--repeats", a.repeats, "runs of a model level for its median time; fewer of those above a second")
         ->capture_default_str();
     sub.add_option("--budget", a.budget,
-                   "processor seconds for all rungs together; what would exceed them is listed as skipped")
+                   "processor seconds for all model levels together; what would exceed them is listed as skipped")
         ->capture_default_str();
     sub.add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
-    sub.add_option("--rung", a.rung, "run this rung alone, named as in the table: fe-acoustic:dt/4,2h");
+    sub.add_option("--rung", a.rung, "run this model level alone, named as in the table: fe-acoustic:dt/4,2h");
     add_out(sub, a.out, OutputPath::folder,
-            "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the rungs' scenes");
+            "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the scenes of all model levels");
     sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
     add_pdf(sub, a.pdf);
     const char* const group = "Probability";
-    sub.add_flag("--probability", a.probability,
-                 "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes, "
-                 "Sobol' points and two models; of a scene for fragility, its first limit")
+    sub.add_flag(
+           "--probability", a.probability,
+           "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes and "
+           "Sobol' points; of a scene for fragility, its first limit")
         ->group(group);
     sub.add_option("--method", a.method, "as of fragility; default: rigid-v or rigid")->group(group);
     sub.add_option("--level", a.level, "intensity in the unit of the levels; default: where P is nearest to 0.1")
@@ -36,8 +37,6 @@ void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
         ->group(group);
     sub.add_option("--samples", a.samples, "runs of the largest estimate; default: 16384, of finite elements 128")
         ->check(CLI::Range(16, 10'000'000))
-        ->group(group);
-    sub.add_flag("--reduced", a.middle, "finite elements on few modes as a third model, between them and the block")
         ->group(group);
     add_jobs(sub, a.jobs)->group(group);
     sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));

@@ -49,8 +49,7 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
     const bool finite_elements = study.finite_elements();
     IntervalCostOptions options;
     options.method = study.method.id;
-    options.cheap = study.rigid().id;
-    if (a.middle) options.middle = {"fe-reduced"};
+    options.rigid = study.rigid().id;
     if (a.level) options.level = *a.level * study.input.intensity.level_unit;
     options.runs = static_cast<std::size_t>(a.samples.value_or(finite_elements ? 128 : 16384));
     options.sizes = finite_elements ? 3 : 5;

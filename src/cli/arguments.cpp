@@ -112,6 +112,10 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
         if (word.size() > 2 && word.starts_with("--")) {
             const std::string flag = word.substr(0, word.find('='));
             const std::vector<std::string> known = flag_names(*app);
+            if (path == "damslip fragility" && (flag == "--multi-fidelity" || flag == "--cheap-samples"))
+                refuse_usage(flag + " is no longer there: cheaper models beside the finite elements gained nothing.",
+                             "finite elements alone, with friction conditioned on where it is drawn",
+                             "leave it out; fewer runs for the same interval:  --conditioning on");
             if (std::find(known.begin(), known.end(), flag) == known.end())
                 unknown("flag", flag, " of " + path, known, path + " --help");
         } else if (const std::vector<std::string> names = command_names(*app);
@@ -122,6 +126,40 @@ void check_spelling(const CLI::App& top, const std::vector<std::string>& argumen
             path += " " + word;
         }
     }
+}
+
+/// What CLI11 refused, with what is expected in its place: the flag that its message names, or the arguments of the command.
+UsageError usage_error(const CLI::App& top, const std::vector<std::string>& arguments, const std::string& message)
+{
+    const CLI::App* app = &top;
+    std::string path = "damslip";
+    for (const std::string& word : arguments) {
+        const std::vector<std::string> names = command_names(*app);
+        if (std::find(names.begin(), names.end(), word) == names.end()) continue;
+        app = app->get_subcommand(word);
+        path += " " + word;
+    }
+    const auto described = [](const CLI::Option& option) {
+        return fmt::format("{} {}: {}", option.get_name(), option.get_type_name(), option.get_description());
+    };
+    std::string expected, positionals;
+    std::size_t first = std::string::npos; // where the message names it
+    for (const CLI::Option* option : app->get_options()) {
+        const std::string name = option->get_single_name();
+        if (option->get_positional()) positionals += fmt::format(" {}", name);
+        const std::string word = option->get_positional() ? name : "--" + name;
+        const std::size_t at = message.find(word), end = at + word.size();
+        if (at >= first ||
+            (end < message.size() && std::string_view(" :=,").find(message[end]) == std::string_view::npos))
+            continue;
+        first = at;
+        expected = described(*option);
+    }
+    const std::vector<std::string> below = command_names(*app);
+    if (expected.empty())
+        expected = below.empty() ? path + positionals + " [OPTIONS]" : fmt::format("one of {}", fmt::join(below, ", "));
+    return UsageError(Diagnostic{"", 0, 0, message + (message.ends_with('.') ? "" : "."), expected,
+                                 fmt::format("run  {} --help", path)});
 }
 
 } // namespace
@@ -141,7 +179,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<
     } catch (const CLI::CallForVersion& version) {
         throw HelpText{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(Diagnostic{"", 0, 0, error.what(), "", "run  damslip --help  or  damslip COMMAND --help"});
+        throw usage_error(parser.app, arguments, error.what());
     }
     return {chosen(parser), parser.json ? Form::json : Form::text, parser.quiet, parser.cache};
 }

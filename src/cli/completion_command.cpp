@@ -1,4 +1,5 @@
 #include "cli/arguments.hpp"
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/usage_error.hpp"
 
@@ -170,15 +171,17 @@ int completion(const std::string& shell, const Streams& streams)
 {
     std::vector<CommandSummary> commands = command_summaries();
     commands.erase(commands.begin()); // the program itself
+    std::string script;
     if (shell == "bash")
-        streams.out << bash(commands);
+        script = bash(commands);
     else if (shell == "zsh")
-        streams.out << zsh(commands);
+        script = zsh(commands);
     else if (shell == "fish")
-        streams.out << fish(commands);
+        script = fish(commands);
     else
         throw UsageError(Diagnostic{"", 0, 0, fmt::format("completion {}: this shell is not known.", shell),
                                     "bash, zsh or fish", "for example  damslip completion bash"});
+    if (!put_json_document(streams, "completion", {{"script", script}})) streams.out << script;
     return exit_ok;
 }
 

@@ -1,3 +1,4 @@
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/status.hpp"
@@ -20,10 +21,12 @@ int draw(const DrawArguments& arguments, const Streams& streams)
     const Scene scene = read_run_scene(arguments.inputs, streams);
     need_section(scene, "damslip draw", "damslip screen SCENE --out DIR draws a wedge in its report");
     const std::string svg = pages::drawn_section(scene);
-    if (arguments.out.empty())
-        streams.out << svg;
-    else
+    if (!arguments.out.empty()) {
         write_file(arguments.out, svg);
+        put_json_document(streams, "draw", {{"out", arguments.out.string()}});
+    } else if (!put_json_document(streams, "draw", {{"svg", svg}})) {
+        streams.out << svg;
+    }
     return exit_ok;
 }
 

@@ -44,6 +44,7 @@ struct FeArguments {
     bool spread = false;         ///< run the other rock and the other water, too, on the worst record
     std::filesystem::path state_in, state_out; ///< files of the joints' state; empty: none
     SpectrumArguments spectrum;                ///< peaks by the modes, too
+    int jobs = 0;                              ///< threads; 0: all cores
     bool mesh_error = true; ///< one more run on elements of twice the size tells what the mesh leaves open
 
     bool reports() const { return !out.empty() || !pdf.empty(); }
@@ -51,8 +52,10 @@ struct FeArguments {
 
 FeOptions fe_options(const FeArguments& arguments)
 {
-    return {arguments.polarity, arguments.mesh_error, arguments.reports(), arguments.frames.value_or(0),
-            arguments.modes};
+    return {arguments.polarity,  arguments.mesh_error,
+            arguments.reports(), arguments.frames.value_or(0),
+            arguments.modes,     {},
+            arguments.jobs};
 }
 
 /// The answer on standard output, and in the folder, if there is one, beside what the runs left there; the report on paper, if asked
@@ -87,7 +90,7 @@ FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
     FeOptions options = fe_options(arguments);
     if (!arguments.state_out.empty()) {
         check_state_file(ready.scene, "--state-out");
-        if (ready.records().size() != 1 || polarities_of(options, ready.scene).size() != 1)
+        if (ready.records().size() != 1 || polarities_of(ready.scene, options.polarity).size() != 1)
             refuse_usage("--state-out with several runs.", "one record, or one sequence, of one polarity",
                          "add  --polarity 1 , and one  --record FILE  where the scene has several");
     }
@@ -104,11 +107,14 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Spectrum
     TerminalWatch watch(streams);
     ContactRuns all(ready, options_with_state(arguments, ready), watch);
     const fe2d::EarthquakeRun& model = all.model();
-    const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift()};
+    const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift(),
+                                 all.combinations()};
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
+    if (!streams.quiet) // before the time is spent
+        for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.talk << note << "\n";
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
@@ -137,12 +143,12 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Spectrum
     TerminalWatch watch(streams);
     ReducedRuns all(ready, fe_options(arguments), watch);
     const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
-        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
+        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, ready.plan.scene_hash, run);
     });
     std::vector<std::string> messages = reduced_messages(ready.scene, runs);
     for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
     const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
-                                all.uplift(), runs,       messages};
+                                all.uplift(), runs,       messages,        all.combinations()};
     const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
     put_answer(
         reduced_answer(in), arguments, ready.scene, spectrum, no_fields, [&] { return reduced_page(in); }, streams);
@@ -161,7 +167,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLev
         if (r.history.displacement.size())
             fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
                        r.history.displacement, r.history.displacement);
-        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, r);
+        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, ready.plan.scene_hash, r);
     });
     for (TiedRun& r : runs) {
         if (all.water()) {
@@ -212,7 +218,8 @@ void fe_flags(CLI::App& sub, FeArguments& a)
     add_scale(sub, a.inputs);
     sub.add_option(
            "--polarity", a.polarity,
-           "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
+           "run 1 or -1 alone, the sign on the horizontal component as filed (default: both, or motion.polarity of the "
+           "scene)")
         ->check(CLI::IsMember({1, -1}))
         ->group("Ground motion");
     add_friction(sub, a.inputs);
@@ -250,6 +257,7 @@ void fe_flags(CLI::App& sub, FeArguments& a)
         ->excludes(reduced);
     add_response_spectrum(sub, a.spectrum);
     add_pdf(sub, a.pdf);
+    add_jobs(sub, a.jobs, "threads, for both polarities side by side; 0: all cores");
 }
 
 } // namespace

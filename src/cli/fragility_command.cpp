@@ -42,6 +42,11 @@ void check_fragility_flags(const FragilityArguments& a)
             refuse_usage(fmt::format("--budget together with {}.", flag),
                          "a number of runs that does not depend on the machine's pace",
                          "write the  --samples  that the run with --budget prints");
+    for (const auto& [flag, given] :
+         {std::pair{"--shard", !a.shard.empty()}, {"--slurm-array", !a.slurm_array.empty()}})
+        if (!a.pdf.empty() && given)
+            refuse_usage(fmt::format("--pdf together with {}.", flag), "a report of all runs",
+                         "leave it out here, and add it to the  --merge  of all parts");
     need_scene_file(a.inputs, "fragility");
 }
 
@@ -133,8 +138,7 @@ int write_slurm(const FragilityArguments& a, const Streams& streams)
     if (a.samples) line += fmt::format(" --samples {}", *a.samples);
     if (a.aim) line += fmt::format(" --aim-at {}", *a.aim);
     if (a.conditioning != "auto") line += " --conditioning " + a.conditioning;
-    line += fmt::format(" --cheap-samples {} --share-rows {}", a.cheap_samples, a.rows);
-    if (a.multi_fidelity != "two-level") line += " --multi-fidelity " + a.multi_fidelity;
+    line += fmt::format(" --share-rows {}", a.rows);
     if (a.allow_scaling) line += " --allow-scaling";
     line += " --out " + shell_quoted(a.out.string());
     const std::string parts =
@@ -170,8 +174,7 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
                      const FragilityRuns& runs, const ConditionedPlan* conditioned, const Streams& streams,
                      Watch& watch)
 {
-    const FragilityExtras extras{static_cast<std::size_t>(a.cheap_samples), static_cast<std::size_t>(a.rows), a.jobs,
-                                 a.multi_fidelity};
+    const FragilityExtras extras{static_cast<std::size_t>(a.rows), a.jobs};
     const FragilityAnswer answer = answer_fragility(study, plan, runs, extras, watch, conditioned);
     const FragilityView view = view_of(study, plan, runs, answer);
     if (streams.form == Form::json)
@@ -179,6 +182,10 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     else
         streams.out << fragility_text(view);
     if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
+    if (!a.pdf.empty()) {
+        print_pdf(page_html(fragility_page(view)), a.pdf);
+        name_report(a.pdf, streams);
+    }
     return answer.answered ? exit_ok : exit_no_answer;
 }
 
@@ -199,9 +206,6 @@ int fragility(const FragilityArguments& a, const Streams& streams)
     }
     const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
     if (!study.suite.made.empty() && !streams.quiet) streams.talk << study.suite.made << "\n";
-    if (a.multi_fidelity == "mfmc" && !study.finite_elements())
-        refuse_usage(fmt::format("--multi-fidelity mfmc with --method {}.", study.method.id),
-                     "finite elements: they are what cheaper models help", "add  --method fe");
     if (!a.out.empty()) make_folder(a.out);
     const std::size_t samples = a.budget    ? samples_by_budget(a, study, streams)
                                 : a.samples ? static_cast<std::size_t>(*a.samples)

@@ -30,15 +30,6 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
                    "a probability, where friction is conditioned on: two thirds of the runs go to the level whose P is "
                    "nearest to it; without it half of the runs make all P equally sure, half the annual rate")
         ->check(in_range(1e-9, 1.0));
-    sub.add_option("--cheap-samples", a.cheap_samples,
-                   "of finite elements: further runs of the rigid block per level; 0: none")
-        ->check(CLI::Range(0, 10'000'000))
-        ->capture_default_str();
-    sub.add_option("--multi-fidelity", a.multi_fidelity,
-                   "of finite elements: two-level (with the rigid block), mfmc (with few modes and the block, as a "
-                   "pilot says they pay), none")
-        ->check(CLI::IsMember({"two-level", "mfmc", "none"}))
-        ->capture_default_str();
     sub.add_option("--share-rows", a.rows, "rows of each of two samples for what P comes from; 0: not asked for")
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();
@@ -47,6 +38,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
             "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
             "(OpenQuake) and a database of the runs for --resume",
             "-o,--out");
+    add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
     sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
@@ -67,7 +59,7 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
 Command fragility_command()
 {
     return {"fragility", "how likely the dam slides too far: P by the strength of the earthquake, rates per year",
-            "damslip fragility examples/fragility.toml --out results/fragility",
+            "damslip fragility examples/fragility/dam.toml --out results/fragility",
             with_flags<FragilityArguments>(fragility_flags, fragility)};
 }
 

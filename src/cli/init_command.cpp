@@ -1,3 +1,4 @@
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
@@ -27,7 +28,7 @@ std::optional<double> asked(const std::string& what, const std::string& otherwis
     for (;;) {
         streams.talk << what << (otherwise.empty() ? ": " : fmt::format(" [{}]: ", otherwise)) << std::flush;
         std::string line;
-        if (!std::getline(std::cin, line)) return std::nullopt;
+        if (!read_line(std::cin, line)) return std::nullopt;
         if (line.find_first_not_of(" \t\r") == std::string::npos) {
             if (!otherwise.empty()) return std::nullopt;
             continue;
@@ -76,8 +77,9 @@ int init(const InitArguments& arguments, const Streams& streams)
     std::filesystem::path drawing = a.out;
     drawing.replace_extension(".svg");
     write_file(drawing, pages::drawn_section(scene));
-    streams.out << fmt::format("{}: the scene, assumptions marked\n{}: its section\nnext:  damslip screen {}\n",
-                               a.out.string(), drawing.string(), a.out.string());
+    if (!put_json_document(streams, "init", {{"scene", a.out.string()}, {"drawing", drawing.string()}}))
+        streams.out << fmt::format("{}: the scene, assumptions marked\n{}: its section\nnext:  damslip screen {}\n",
+                                   a.out.string(), drawing.string(), a.out.string());
     return exit_ok;
 }
 

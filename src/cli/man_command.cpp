@@ -1,4 +1,5 @@
 #include "cli/arguments.hpp"
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
@@ -175,6 +176,7 @@ int man(const ManArguments& arguments, const Streams& streams)
     const std::vector<CommandSummary> all = command_summaries();
     if (!arguments.out.empty()) {
         for (const CommandSummary& c : all) write_file(arguments.out / (page_name(c.name) + ".1"), page(c, all));
+        put_json_document(streams, "man", {{"out", arguments.out.string()}});
         return exit_ok;
     }
     const std::string wanted = fmt::format("{}", fmt::join(arguments.command, " "));
@@ -182,7 +184,8 @@ int man(const ManArguments& arguments, const Streams& streams)
     if (found == all.end())
         throw UsageError(Diagnostic{"", 0, 0, fmt::format("man {}: there is no such command.", wanted),
                                     "a command that damslip --help lists", "for example  damslip man fe"});
-    streams.out << page(*found, all);
+    const std::string text = page(*found, all);
+    if (!put_json_document(streams, "man", {{"page", text}})) streams.out << text;
     return exit_ok;
 }
 

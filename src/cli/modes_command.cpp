@@ -13,7 +13,7 @@ namespace {
 
 struct ModesArguments {
     RunInputs inputs;
-    int count = 10;                  ///< modes
+    std::optional<int> count;        ///< modes; none: ModesOptions::count
     bool frequency_response = false; ///< transfer functions, 0.1 ... 20 Hz
     std::filesystem::path out;       ///< folder for mode shapes (VTU) and transfer functions (CSV); empty: none
 };
@@ -35,7 +35,8 @@ void modes_flags(CLI::App& sub, ModesArguments& a)
 {
     add_run_inputs(sub, a.inputs);
     add_rock(sub, a.inputs);
-    sub.add_option("-n,--count", a.count, "number of modes")->check(CLI::Range(1, 200))->capture_default_str();
+    sub.add_option("-n,--count", a.count, "number of modes (10; with acoustic water all up to 20 Hz)")
+        ->check(CLI::Range(1, 200));
     sub.add_flag("--frf", a.frequency_response,
                  "transfer functions ground to crest and to the water's force, 0.1 ... 20 Hz");
     add_out(sub, a.out, OutputPath::folder,

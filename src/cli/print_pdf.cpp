@@ -1,10 +1,12 @@
 #include "cli/print_pdf.hpp"
 
+#include "cli/terminal/interrupt.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -62,8 +64,22 @@ public:
     std::filesystem::path operator/(const char* name) const { return path_ / name; }
 
 private:
+    Temporary kept_;
     std::filesystem::path path_;
 };
+
+/// Of a file, for a browser: bytes that mean something in a URL, or are not ASCII, by their numbers.
+std::string url_of(const std::filesystem::path& file)
+{
+    std::string url = "file://";
+    for (const char c : file.string()) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                           std::string_view("/-._~").find(c) != std::string_view::npos;
+        url += plain && static_cast<unsigned char>(c) < 0x80 ? std::string(1, c)
+                                                             : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return url;
+}
 
 /// Runs it in a process group of its own, so that its helpers end with it. @returns false: not ended in time, or not well
 bool run_to_end(const std::filesystem::path& program, std::vector<std::string> arguments,
@@ -87,10 +103,13 @@ bool run_to_end(const std::filesystem::path& program, std::vector<std::string> a
     if (failed) return false;
     const auto end = std::chrono::steady_clock::now() + longest_print;
     int status = 0;
+    const InterruptGuard guard;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > end) {
+        const bool stopped = guard.interrupted();
+        if (stopped || std::chrono::steady_clock::now() > end) {
             kill(-child, SIGKILL);
             waitpid(child, &status, 0);
+            if (stopped) throw Interrupted("printing");
             return false;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -139,7 +158,7 @@ void print_pdf(const std::string& html, const std::filesystem::path& target)
                                        "--virtual-time-budget=20000", // the page draws its charts first
                                        "--print-to-pdf=" + printed.string()};
     if (geteuid() == 0) arguments.emplace_back("--no-sandbox"); // Chromium starts as root no other way
-    arguments.push_back("file://" + page.string());
+    arguments.push_back(url_of(page));
     const bool ended = browser && run_to_end(*browser, arguments, said);
     std::error_code missing;
     if (!ended || std::filesystem::file_size(printed, missing) == 0 || missing)

@@ -5,6 +5,7 @@
 #include "cli/terminal/visible_stream.hpp"
 #include "cli/verifier.hpp"
 #include "core/cache_folder.hpp"
+#include "core/text.hpp"
 #include "core/usage_error.hpp"
 
 #include <algorithm>
@@ -53,6 +54,15 @@ void prepare_farewell(Form form)
                                  form == Form::json ? error_json(message, {}, exit_no_answer) : std::string());
 }
 
+/// Names reach JSON, tables and pages, which are UTF-8.
+void check_names(const std::vector<std::string>& arguments)
+{
+    for (const std::string& argument : arguments)
+        if (!is_utf8(argument))
+            refuse(utf8_text(argument), "this name is not UTF-8 (its bytes are shown as Latin-1).", "names in UTF-8",
+                   "rename the file or folder");
+}
+
 } // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out, std::ostream& raw_talk,
@@ -62,6 +72,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     const Form form = json ? Form::json : Form::text;
     try {
+        check_names(arguments);
         const Invocation invocation = parse_arguments(arguments, rows);
         prepare_farewell(form);
         const InterruptGuard interrupt;
@@ -73,7 +84,13 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
-        const int code = invocation.run(streams);
+        int code = invocation.run(streams);
+        if (interrupt.interrupted() && code == exit_ok) {
+            talk << "Interrupted: the answer is of what was finished.\n";
+            code = exit_no_answer;
+        }
+        if (json && !out.used()) // a command whose answer is files
+            out << nlohmann::ordered_json{{"schema", "damslip.done/1"}, {"exit_code", code}}.dump(2) << "\n";
         out.flush();
         if (!out) {
             talk << "error: standard output could not be written: the disk is full, or its reader went away.\n";

@@ -54,7 +54,8 @@ Command info_command()
         return record_info(arguments, streams);
     };
     return {"info", "PGA, PGV, PGD, Arias intensity, CAV, durations, mean period, warnings",
-            "damslip record info ns.at2 up.at2", with_flags<RecordInfoFlags>(flags, run)};
+            "damslip record info records/data/rock_1.0_h.csv records/data/rock_1.0_v.csv",
+            with_flags<RecordInfoFlags>(flags, run)};
 }
 
 /// Command::declare of a command that reads a record and writes one. @param more  its own flags
@@ -152,28 +153,30 @@ int run_generate(const Filter<RecordGenerateArguments>& a, const Streams& stream
 
 Command record_command()
 {
-    return {.name = "record",
-            .description = "accelerograms: info, convert, baseline, scale, spectrum, generate, suite",
-            .example = "damslip record info ns.at2",
-            .below = {info_command(),
-                      {"convert", "another file format or time step", "damslip record convert ns.at2 --out ns.csv",
-                       with_filter_flags(convert_flags, record_convert)},
-                      {"baseline", "remove a polynomial from acceleration or velocity",
-                       "damslip record baseline ns.at2 --degree quadratic --out ns.csv",
-                       with_filter_flags(baseline_flags, record_baseline)},
-                      {"scale", "multiply by a factor or to a peak",
-                       "damslip record scale ns.at2 --pga-m-s2 1.0 --out ns_1.csv",
-                       with_filter_flags(scale_flags, record_scale)},
-                      {"spectrum", "elastic response spectrum, exact for the piecewise-linear record",
-                       "damslip record spectrum ns.at2 --damping 0.05",
-                       with_flags<RecordSpectrumArguments>(spectrum_flags, record_spectrum)},
-                      {"generate", "artificial accelerogram that matches a response spectrum; same seed, same bytes",
-                       "damslip record generate --target rock --pga-m-s2 1.0 --duration 20 --seed 2 --out rock.csv",
-                       with_flags<Filter<RecordGenerateArguments>>(generate_flags, run_generate)},
-                      {"suite", "measures of many records; those that fit a target, each with its factor",
-                       "damslip record suite 'records/*.AT2' --target-spectrum ec8-1 --target-pga-m-s2 2 --select 11 "
-                       "--out suite.csv",
-                       with_flags<RecordSuiteArguments>(suite_flags, record_suite)}}};
+    return {
+        .name = "record",
+        .description = "accelerograms: info, convert, baseline, scale, spectrum, generate, suite",
+        .example = "damslip record info records/data/rock_1.0_h.csv",
+        .below = {info_command(),
+                  {"convert", "another file format or time step",
+                   "damslip record convert records/data/rock_1.0_h.csv --out rock.at2",
+                   with_filter_flags(convert_flags, record_convert)},
+                  {"baseline", "remove a polynomial from acceleration or velocity",
+                   "damslip record baseline records/data/rock_1.0_h.csv --degree quadratic --out rock.csv",
+                   with_filter_flags(baseline_flags, record_baseline)},
+                  {"scale", "multiply by a factor or to a peak",
+                   "damslip record scale records/data/rock_1.0_h.csv --pga-m-s2 2.0 --out rock_2.csv",
+                   with_filter_flags(scale_flags, record_scale)},
+                  {"spectrum", "elastic response spectrum, exact for the piecewise-linear record",
+                   "damslip record spectrum records/data/rock_1.0_h.csv --damping 0.05",
+                   with_flags<RecordSpectrumArguments>(spectrum_flags, record_spectrum)},
+                  {"generate", "artificial accelerogram that matches a response spectrum; same seed, same bytes",
+                   "damslip record generate --target rock --pga-m-s2 1.0 --duration 20 --seed 2 --out rock.csv",
+                   with_flags<Filter<RecordGenerateArguments>>(generate_flags, run_generate)},
+                  {"suite", "measures of many records; those that fit a target, each with its factor",
+                   "damslip record suite 'records/data/*.csv' --target-spectrum ec8-1 --target-pga-m-s2 2 --select 2 "
+                   "--out suite.csv",
+                   with_flags<RecordSuiteArguments>(suite_flags, record_suite)}}};
 }
 
 } // namespace damslip::cli

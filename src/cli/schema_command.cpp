@@ -1,3 +1,4 @@
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/usage_error.hpp"
 #include "scene/document.hpp"
@@ -14,7 +15,8 @@ struct SchemaArguments {
 
 int print_schema(const SchemaArguments& arguments, const Streams& streams)
 {
-    streams.out << (arguments.markdown ? scene_keys_markdown() : scene_schema());
+    const std::string text = arguments.markdown ? scene_keys_markdown() : scene_schema(); // the schema is JSON itself
+    if (!arguments.markdown || !put_json_document(streams, "schema", {{"markdown", text}})) streams.out << text;
     return exit_ok;
 }
 

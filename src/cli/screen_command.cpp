@@ -18,7 +18,7 @@ namespace {
 
 struct ScreenArguments {
     RunInputs inputs;
-    std::filesystem::path out;  ///< folder for summary.json, displacements.csv and the resolved scene; empty: none
+    std::filesystem::path out;  ///< folder for summary.json, tables (CSV) and the resolved scene; empty: none
     std::filesystem::path pdf;  ///< the report on paper; empty: none
     bool rocking = false;       ///< the block that rocks, too, where the sliding one holds
     SpectrumArguments spectrum; ///< peaks by the modes, too
@@ -66,6 +66,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         write_screening(arguments.out, in);
         if (!streams.quiet)
             streams.talk << "written: " << (arguments.out / "summary.json").string() << ", displacements.csv, "
+                         << (!given.wedge ? "equilibrium.csv, verdicts.csv, yield.csv, " : "")
                          << (has_rocking(s) ? "rocking_block.csv, " : "") << (s.flexible ? "flexible_block.csv, " : "")
                          << "scene.resolved.toml\nreport: " << (arguments.out / "report.html").string() << "\n";
     }
@@ -86,7 +87,7 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
                  "the block that rocks and slides, too; without it where the sliding block does not hold");
     sub.add_flag("--mean-polarity", a.mean_polarity, "a table with the mean slip of both polarities of each record");
     add_response_spectrum(sub, a.spectrum);
-    add_out(sub, a.out, OutputPath::folder, "folder for summary.json, displacements.csv and the resolved scene");
+    add_out(sub, a.out, OutputPath::folder, "folder for summary.json, tables (CSV) and the resolved scene");
     add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
 }
@@ -96,7 +97,8 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
 Command screen_command()
 {
     return {"screen", "limit equilibrium, yield accelerations, rigid-block displacement and regressions",
-            "damslip screen examples/reference_dam.toml --record ns.at2 --vertical up.at2",
+            "damslip screen examples/reference_dam.toml --record records/data/rock_1.0_h.csv --vertical "
+            "records/data/rock_1.0_v.csv",
             with_flags<ScreenArguments>(screen_flags, screen)};
 }
 

@@ -1,4 +1,5 @@
 #include "cli/sweep_command.hpp"
+#include "cli/document.hpp"
 
 #include "analysis/sweep/sweep_store.hpp"
 #include "cli/input/make_axes.hpp"
@@ -193,7 +194,8 @@ int print_plan(const SweepArguments& arguments, const TaskList& tasks, const Str
     const std::size_t parts =
         arguments.parts ? static_cast<std::size_t>(*arguments.parts) : tasks.variants() * tasks.motions();
     check_for_scripts(sweep_command_line(arguments));
-    if (arguments.plan) streams.out << plan_text(arguments, parts);
+    if (arguments.plan && !put_json_document(streams, "sweep-plan", {{"plan", plan_text(arguments, parts)}}))
+        streams.out << plan_text(arguments, parts);
     if (!arguments.slurm_array.empty()) write_file(arguments.slurm_array, slurm_script(arguments, parts));
     if (!streams.quiet)
         streams.talk << fmt::format("{} parts, {} rows; afterwards:  {}\n", parts, tasks.rows(),
@@ -259,9 +261,8 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     const Table table = sweep_table(grid, wanted, outcome, job.arguments.mean_polarity);
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
-    if (streams.form == Form::json)
-        put(job.arguments.out, sweep_json(job.scene, table, compared, outcome).dump(2) + "\n", streams);
-    else if (!job.shard)
+    if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
+    if (!job.shard && (streams.form != Form::json || !job.arguments.out.empty()))
         put(job.arguments.out, csv(table, csv_comments(identity)), streams);
     if (!streams.quiet) {
         if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
@@ -269,8 +270,9 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
         if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
             !job.shard && !needed.rows.empty())
             streams.talk << text(needed) << "\n";
-        streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
-                                    job.named().empty() ? "" : " in " + job.named().string());
+        streams.talk << fmt::format("{} rows{}, {}\n", outcome.rows.size(),
+                                    job.named().empty() ? "" : " in " + job.named().string(),
+                                    polarity_words(job.axes.polarity));
     }
     talk_of_answers(table, outcome, streams);
     put_report(job, records, compared, table, wanted, outcome, streams);
@@ -327,7 +329,9 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     if (!totals.complete() && store) return stopped(totals.rows, totals.wanted, streams);
     if (rows) rows->finish();
     if (!streams.quiet)
-        streams.talk << fmt::format("{} rows{}\n", totals.rows, job.named().empty() ? "" : " in " + job.named().string());
+        streams.talk << fmt::format("{} rows{}, {}\n", totals.rows,
+                                    job.named().empty() ? "" : " in " + job.named().string(),
+                                    polarity_words(job.axes.polarity));
     if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
         const SweepView view = all.view();
@@ -382,7 +386,10 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
         say_base(scene, streams);
-    scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
+    const std::vector<Diagnostic> left_out = not_honoured(scene, methods_of(axes.method));
+    say(left_out, false, streams);
+    for (const auto* notes : {&axes.notes, &left_out})
+        scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
                      "add  --record FILE");

@@ -47,7 +47,7 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list("--period", a.period, "periods of the flexible block [s], for decoupled and coupled");
     list("--damping", a.damping, "damping ratios of the flexible block, for decoupled and coupled");
     list("--scale", a.scale, "factors on the records");
-    list("--polarity", a.polarity, "1, -1 or both: 1,-1");
+    list("--polarity", a.polarity, "1, -1 or both (default: both, or motion.polarity of the scene)");
     sub.add_flag("--mean-polarity", a.mean_polarity, "a column with the mean slip of --polarity 1,-1");
     list("--method", a.method,
          "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "

@@ -15,12 +15,15 @@
 #include <fmt/ranges.h>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace damslip::cli {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t longest_line = 16u << 20; ///< bytes
 
 struct Question {
     Json id;
@@ -45,6 +48,7 @@ Json json_of_point(const PointAnswer& answer)
     j["critical_friction"] = r.critical_friction ? Json(*r.critical_friction) : Json();
     j["status"] = r.status.empty() ? "ok" : r.status; // a regression within its range says nothing
     j["record"] = answer.record;
+    j["polarity"] = answer.polarity;
     j["method"] = answer.method;
     j["seconds"] = answer.seconds;
     return j;
@@ -75,6 +79,31 @@ std::string text_member(const Json& j, const char* name)
     if (!j.contains(name)) return {};
     if (!j[name].is_string()) refuse_question(fmt::format("\"{}\" is no text.", name), "write it in quotes");
     return j[name].get<std::string>();
+}
+
+/// One line of the input. @throws InputError for what would take no end to read, and for members that stand twice
+Json parsed(const std::string& line)
+{
+    constexpr std::size_t most_members = 1000;
+    constexpr int deepest = 64;
+    if (line.size() > longest_line)
+        refuse_question(fmt::format("the line is longer than {} MB.", longest_line >> 20), "set the keys of one point");
+    std::vector<std::set<std::string>> open; // members of the objects that are not at their end
+    return Json::parse(line, [&](int depth, Json::parse_event_t event, Json& value) {
+        using Event = Json::parse_event_t;
+        if ((event == Event::object_start || event == Event::array_start) && depth > deepest)
+            refuse_question(fmt::format("the line is nested deeper than {} levels.", deepest), "write it flat");
+        if (event == Event::object_start) open.emplace_back();
+        if (event == Event::object_end) open.pop_back();
+        if (event != Event::key) return true;
+        const std::string name = value.get<std::string>();
+        if (!open.back().insert(name).second)
+            refuse_question(fmt::format("\"{}\" stands twice in one object.", name), "leave one of them out");
+        if (open.back().size() > most_members)
+            refuse_question(fmt::format("an object has more than {} members.", most_members),
+                            "set only the keys that differ from the scene");
+        return true;
+    });
 }
 
 Question question_of(const Json& j)
@@ -144,7 +173,7 @@ public:
         const auto wrong = [&id](Json error) { return Json{{"id", id}, {"error", std::move(error)}}; };
         const auto say = [](const std::string& message) { return Json::array({Json{{"message", message}}}); };
         try {
-            const Json j = Json::parse(line);
+            const Json j = parsed(line);
             if (!j.is_object()) refuse_question("the line is no JSON object.", "write one object on a line");
             if (j.contains("id")) id = j["id"];
             Json out{{"id", id}};
@@ -176,7 +205,7 @@ private:
 Json responses_of(const PointAnswer& answer)
 {
     Json j = json_of_point(answer);
-    for (const char* name : {"status", "record", "method"}) j.erase(name);
+    for (const char* name : {"status", "record", "polarity", "method"}) j.erase(name);
     return j;
 }
 
@@ -231,8 +260,8 @@ int worker(const WorkerArguments& arguments, const Streams& streams, std::istrea
     if (!arguments.quofem.empty()) return answer_quofem(worker, arguments);
     streams.out << line_of(worker.greeting()) << std::flush;
     std::string line;
-    while (std::getline(in, line)) {
-        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    while (read_line(in, line, longest_line + 1)) {
+        if (line.size() <= longest_line && line.find_first_not_of(" \t\r") == std::string::npos) continue;
         streams.out << line_of(worker.answer(line)) << std::flush;
     }
     return exit_ok;

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <climits>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <istream>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -19,27 +22,55 @@ namespace damslip {
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& path, std::uintmax_t max_bytes)
+namespace {
+
+[[noreturn]] void refuse_read(const fs::path& path, std::string problem, std::string fix)
 {
-    const auto fail = [&](std::string problem, std::string fix) {
-        throw InputError(Diagnostic{path.string(), 0, 0, std::move(problem), "a readable file", std::move(fix)});
-    };
+    throw InputError(Diagnostic{path.string(), 0, 0, std::move(problem), "a readable file", std::move(fix)});
+}
+
+} // namespace
+
+std::string read_file(const fs::path& path, std::uintmax_t max_bytes, const LookAtStart& look)
+{
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status))
-        fail("there is no such file.", "check the name; relative names start from the file that mentions them");
-    if (fs::is_directory(status)) fail("this is a folder, not a file.", "name a file inside it");
+    if (!fs::exists(status) || path.native().find('\0') != std::string::npos) // the system reads a name up to a NUL
+        refuse_read(path, "there is no such file.",
+                    "check the name; relative names start from the file that mentions them");
+    if (fs::is_directory(status)) refuse_read(path, "this is a folder, not a file.", "name a file inside it");
     std::ifstream in(path, std::ios::binary);
-    if (!in) fail("the file cannot be opened.", "check its read permission");
+    if (!in) refuse_read(path, "the file cannot be opened.", "check its read permission");
+    const auto check = [&](std::uintmax_t size) {
+        if (size > max_bytes)
+            refuse_read(path, fmt::format("the file is larger than {} MB.", max_bytes >> 20),
+                        "this is not one of the formats read here; cut it down");
+    };
+    if (fs::is_regular_file(status)) check(fs::file_size(path, error));
     std::string content;
     std::array<char, 1 << 16> block;
     while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+        const bool first = content.empty();
         content.append(block.data(), static_cast<std::size_t>(in.gcount()));
-        if (content.size() > max_bytes)
-            fail(fmt::format("the file is larger than {} MB.", max_bytes >> 20),
-                 "this is not one of the formats read here; cut it down");
+        check(content.size());
+        if (first && look) look(content);
     }
     return content;
+}
+
+bool read_line(std::istream& in, std::string& line, std::size_t most)
+{
+    line.clear();
+    if (!in.good()) return false;
+    std::streambuf& bytes = *in.rdbuf();
+    constexpr int end = std::char_traits<char>::eof();
+    int c = bytes.sbumpc();
+    if (c == end) in.setstate(std::ios::eofbit | std::ios::failbit);
+    if (c == end) return false;
+    for (; c != end && c != '\n'; c = bytes.sbumpc())
+        if (line.size() < most) line += static_cast<char>(c);
+    if (c == end) in.setstate(std::ios::eofbit);
+    return true;
 }
 
 namespace {
@@ -93,6 +124,25 @@ namespace {
 }
 
 } // namespace
+
+namespace {
+std::atomic<int> temporaries{0};
+}
+
+Temporary::Temporary()
+{
+    ++temporaries;
+}
+
+Temporary::~Temporary()
+{
+    --temporaries;
+}
+
+bool Temporary::any()
+{
+    return temporaries > 0;
+}
 
 FileWriter::FileWriter(const fs::path& path) : named_(path)
 {
@@ -211,6 +261,17 @@ std::optional<Diagnostic> output_path_problem(const fs::path& path, OutputPath k
     return std::nullopt;
 }
 
+namespace {
+
+/// @param word  made of `name`
+std::string with_hash(std::string word, std::string_view name)
+{
+    constexpr std::size_t digits = 8;
+    return word.substr(0, longest_file_word - digits - 1) + "-" + sha256(name).substr(0, digits);
+}
+
+} // namespace
+
 std::string file_word(std::string_view name)
 {
     std::string word;
@@ -218,9 +279,20 @@ std::string file_word(std::string_view name)
         const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
         word += plain || c == '-' || c == '+' || c == '.' ? c : '_';
     }
-    constexpr std::size_t digits = 8;
-    if (word.size() <= longest_file_word) return word;
-    return word.substr(0, longest_file_word - digits - 1) + "-" + sha256(name).substr(0, digits);
+    return word.size() <= longest_file_word ? word : with_hash(std::move(word), name);
+}
+
+std::string file_word(std::string_view name, const std::vector<std::string>& among)
+{
+    const auto folded = [](std::string_view of) {
+        std::string word = file_word(of);
+        for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return word;
+    };
+    const bool alone = std::none_of(among.begin(), among.end(), [&](const std::string& other) {
+        return other != name && folded(other) == folded(name);
+    });
+    return alone ? file_word(name) : with_hash(file_word(name), name);
 }
 
 std::string sha256(std::string_view bytes)

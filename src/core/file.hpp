@@ -4,14 +4,38 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace damslip {
 
-/// The whole file as bytes. @throws InputError when it is missing, a folder, unreadable or larger than `max_bytes`.
-std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = 256u << 20);
+using LookAtStart = std::function<void(const std::string& first_bytes)>;
+
+/// The whole file as bytes. @throws InputError when it is missing, a folder, unreadable or larger than `max_bytes`, which is seen
+/// before it is read where the file has a size
+/// @param look  at the first bytes (64 KiB, if there are as many) before the rest is read; throws for what is not to be read on
+std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = 256u << 20,
+                      const LookAtStart& look = {});
+
+/// Reads a line without its end, as std::getline does; of one that is longer than `most` bytes what is beyond them is passed over.
+/// @returns false: the stream is at its end
+bool read_line(std::istream& in, std::string& line, std::size_t most = 1u << 20);
+
+/// Something on the disk that is there for the time being, such as a file that is being written: a process that is asked to end waits until
+/// it is gone. Deleting it is its owner's.
+class Temporary {
+public:
+    Temporary();
+    ~Temporary();
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    static bool any(); ///< may be asked in a signal handler
+};
 
 /// Writes beside the target and renames: the file appears whole or not at all. Makes missing parent folders. A link is
 /// kept: what it leads to is written. A device or a pipe (FIFO) takes the bytes as they come and is never replaced.
@@ -31,6 +55,7 @@ public:
     void finish();
 
 private:
+    Temporary kept_;
     std::filesystem::path named_, target_, part_; ///< part_: empty for a device or a pipe
     int descriptor_ = -1;
 };
@@ -55,6 +80,9 @@ std::optional<Diagnostic> output_path_problem(const std::filesystem::path& path,
 /// A name for files made of `name`: letters, digits, "-", "+" and "." stay, others become "_"; what is longer than 80 characters
 /// is cut and told apart by a part of its SHA-256.
 std::string file_word(std::string_view name);
+
+/// The same, told apart by a part of its SHA-256 from another of the names that would have the same word, capitals or not.
+std::string file_word(std::string_view name, const std::vector<std::string>& among);
 
 /// SHA-256 of the bytes, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);

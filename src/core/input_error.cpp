@@ -1,5 +1,7 @@
 #include "core/input_error.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -40,7 +42,7 @@ std::string Diagnostic::text() const
     std::string out = (where.empty() ? "" : where + ": ") + "error: " + problem;
     if (!expected.empty()) out += "\n  expected: " + expected;
     if (!fix.empty()) out += "\n  fix:      " + fix;
-    return out;
+    return visible(out, LineEnds::kept); // what() ends at a NUL
 }
 
 InputError::InputError(Diagnostic diagnostic) : InputError(std::vector<Diagnostic>{std::move(diagnostic)}) {}

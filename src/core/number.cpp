@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -74,6 +75,11 @@ std::string shortest(double value)
     std::array<char, 32> buffer;
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return {buffer.data(), end};
+}
+
+std::string factor_text(double factor)
+{
+    return std::isinf(factor) && factor > 0.0 ? "∞ (no thrust)" : fmt::format("{:.3g}", factor);
 }
 
 } // namespace damslip

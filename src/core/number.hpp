@@ -18,4 +18,7 @@ std::optional<double> parse_whole_number_text(std::string_view text);
 /// Shortest text that reads back as the same double ("0.1", "1e-05"); "nan" and "inf" as such.
 std::string shortest(double value);
 
+/// A factor of safety in a sentence: three digits; "∞ (no thrust)" where nothing drives.
+std::string factor_text(double factor);
+
 } // namespace damslip

@@ -41,8 +41,6 @@ struct FragilityResult final : Result {
                                                         {"needed_yield", needed_yield_table(of)},
                                                         {"samples", sample_table(of)}};
         if (answer.conditioned) list.emplace_back("conditioned_on_friction", conditioned_table(of));
-        if (answer.mfmc) list.emplace_back("multi_fidelity", mfmc_table(of));
-        if (answer.two_level) list.emplace_back("two_models", two_level_table(of));
         if (answer.causes) list.emplace_back("causes", cause_table(of));
         return list;
     }
@@ -84,22 +82,18 @@ void compute(const OpenedScene& opened, const Asked& asked, Watch& watch, Fragil
 
 std::shared_ptr<FragilityResult> fragility(const OpenedScene& opened, const std::string& tables,
                                            const std::string& method, std::optional<std::size_t> samples,
-                                           std::size_t cheap_samples, std::size_t share_rows,
-                                           const std::string& conditioning, const std::string& multi_fidelity, int jobs,
+                                           std::size_t share_rows, const std::string& conditioning, int jobs,
                                            const py::object& progress)
 {
     if (samples && *samples == 0)
         refuse_usage("samples=0 is not allowed.", "runs per level, at least 1", "leave it out: 1024, or 128 of fe");
-    if (multi_fidelity != "two-level" && multi_fidelity != "mfmc" && multi_fidelity != "none")
-        refuse_usage(fmt::format("multi_fidelity=\"{}\" is not allowed.", multi_fidelity), "two-level, mfmc, none",
-                     "leave it out: two-level");
     const std::map<std::string, Conditioning> words{
         {"auto", Conditioning::automatic}, {"on", Conditioning::on}, {"off", Conditioning::off}};
     const auto word = words.find(conditioning);
     if (word == words.end())
         refuse_usage(fmt::format("conditioning=\"{}\" is not allowed.", conditioning), "auto, on, off",
                      "leave it out: auto");
-    const Asked asked{tables, method, samples, word->second, {cheap_samples, share_rows, jobs, multi_fidelity}};
+    const Asked asked{tables, method, samples, word->second, {share_rows, jobs}};
     auto result = std::make_shared<FragilityResult>();
     result->interrupted = run_watched(progress, [&](Watch& watch) { compute(opened, asked, watch, *result); });
     return result;
@@ -185,7 +179,8 @@ void add_fragility(py::module_& module)
         .def_property_readonly("beta", [](const FragilityCurve& c) { return of_fit(c, &Curve::beta); })
         .def_property_readonly("rate", [](const FragilityCurve& c) -> std::optional<std::pair<double, double>> {
             if (!c.limit->rate) return std::nullopt;
-            return std::pair(c.limit->rate->raw_low.lower, c.limit->rate->raw_high.upper);
+            const probability::Interval bounds = c.limit->rate->bounds();
+            return std::pair(bounds.lower, bounds.upper);
         });
 
     py::class_<FragilityResult, Result, std::shared_ptr<FragilityResult>>(module, "FragilityResult")
@@ -228,8 +223,7 @@ void add_fragility(py::module_& module)
                                })
         .def("drawn", &drawn, py::arg("variable"));
     module.def("_fragility", &fragility, py::arg("scene"), py::arg("tables"), py::arg("method"), py::arg("samples"),
-               py::arg("cheap_samples"), py::arg("share_rows"), py::arg("conditioning"), py::arg("multi_fidelity"),
-               py::arg("jobs"), py::arg("progress"));
+               py::arg("share_rows"), py::arg("conditioning"), py::arg("jobs"), py::arg("progress"));
 }
 
 } // namespace damslip::python

@@ -42,11 +42,12 @@ struct ModesAnswer final : Result {
     }
 };
 
-std::shared_ptr<ModesAnswer> modes(const OpenedScene& opened, int count, bool transfer, const py::object& progress)
+std::shared_ptr<ModesAnswer> modes(const OpenedScene& opened, std::optional<int> count, bool transfer,
+                                   const py::object& progress)
 {
     if (opened.scene.wedge)
         refuse_usage("a wedge has no modes: it is rigid.", "a scene with a [section]", "scene.screen() gives its slip");
-    if (count < 1) refuse_usage("modes(count < 1).", "1 or more modes", "leave count out for 10");
+    if (count && *count < 1) refuse_usage("modes(count < 1).", "1 or more modes", "leave count out for 10");
     auto answer = std::make_shared<ModesAnswer>();
     answer->given = opened.scene;
     answer->interrupted = run_watched(progress, [&](Watch& watch) {

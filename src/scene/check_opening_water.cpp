@@ -39,6 +39,10 @@ void check_opening_water(const Scene& s, Findings& f)
     const JointWaterLaw& law = s.uplift->water;
     check_keys_of_rule(law, f);
     if (!law.follows()) return;
+    if (law.opening == OpeningWater::reynolds && drains_shear_off(s))
+        f.wrong("drains.lost_at_slip", "drains.lost_at_slip_m with uplift.opening = \"reynolds\".",
+                "drains that hold, whose pressure the flow along the joint knows; or another rule of the water",
+                "delete lost_at_slip_m in [drains], or write  opening = \"full\"  in [uplift]");
     const bool opens = law.opening != OpeningWater::unchanged;
     const std::string key = opens ? "uplift.opening" : "uplift.after";
     const std::string said =

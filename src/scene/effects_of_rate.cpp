@@ -34,8 +34,8 @@ Decision decide_restitution(const Scene& s, Method method)
     if (method == Method::rigid_block && s.sliding.lift_off != LiftOff::ballistic)
         return {false, "sliding.lift_off = \"no-friction\": no flight to rebound from", ""};
     return {true, fmt::format("contact.restitution = {:g}", s.contact.restitution),
-            method == Method::rigid_block ? "a flight more for each landing"
-                                          : "one more contact problem for each landing"};
+            method == Method::rigid_block ? "a flight more for each impact"
+                                          : "one more contact problem for each impact"};
 }
 
 } // namespace
@@ -54,7 +54,7 @@ std::vector<EffectRow> rate_effects()
          .decide = decide_restitution,
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.contact.restitution = 0.0;
-             return Removal{s, "contact.restitution = 0: landings do not rebound"};
+             return Removal{s, "contact.restitution = 0: impacts do not rebound"};
          },
          .leave_out = [](Scene& s, const EffectPlan&) { s.contact.restitution = 0.0; }},
         {.name = "sequence",

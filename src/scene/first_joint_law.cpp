@@ -1,6 +1,7 @@
 #include "scene/first_joint_law.hpp"
 
 #include "scene/joint_bond.hpp"
+#include "scene/opening_water.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ std::string first_joint_law(const Scene& s)
     if (!s.anchors.empty()) return "[[anchor]]";
     if (s.uplift && s.uplift->water.follows())
         return s.uplift->water.opening != OpeningWater::unchanged ? "uplift.opening" : "uplift.after";
+    if (drains_shear_off(s)) return "drains.lost_at_slip_m";
     return {};
 }
 

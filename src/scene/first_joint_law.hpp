@@ -6,7 +6,7 @@
 
 namespace damslip {
 
-/// The law of a joint beyond Coulomb's that a scene names first, as its key; empty: none.
+/// Key of the first joint law in the scene that goes beyond Coulomb friction; empty where there is none.
 std::string first_joint_law(const Scene& scene);
 
 } // namespace damslip

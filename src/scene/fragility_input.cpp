@@ -489,6 +489,17 @@ private:
         if (!curve) return;
         hazard.curve = file_.parent_path() / *curve;
         hazard.where = {"hazard.curve", table->get("curve")->source().begin.line};
+        if (const toml::node* node = table->get("site")) {
+            const toml::array* place = node->as_array();
+            const auto degrees = [&](std::size_t i) {
+                return place && place->size() == 2 ? finite_number((*place)[i]) : std::nullopt;
+            };
+            const Range& range = fragility_key_table("hazard").key("site").range;
+            if (degrees(0) && degrees(1) && range.contains(*degrees(0)) && std::abs(*degrees(1)) <= 90.0)
+                hazard.site = {*degrees(0), *degrees(1)};
+            else
+                not_allowed(*node, "hazard", "site", "longitude and latitude in degrees", "[14.5, 46.05]");
+        }
         double rate = 0.0;
         number(*table, "hazard", "all_events", rate);
         if (rate > 0.0) hazard.all_events = rate;

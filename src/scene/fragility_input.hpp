@@ -4,6 +4,7 @@
 #include "core/intensity_measure.hpp"
 #include "scene/scene_text.hpp"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -69,7 +70,7 @@ enum class SuitePolarity { as_recorded, reversed, both };
 struct SuiteInput {
     std::string
         files; ///< folder, glob, or CSV with columns horizontal, vertical, event, weight, magnitude, scale; found from where the
-        ///< program runs: the reader has put the scene's folder in front
+    ///< program runs: the reader has put the scene's folder in front
     LineOfFile where;
     SuiteDraw draw = SuiteDraw::balanced;
     SuitePolarity polarity = SuitePolarity::both;
@@ -103,9 +104,9 @@ struct LimitInput {
 
 /// [hazard]
 struct HazardInput {
-    std::filesystem::path
-        curve; ///< CSV: im (unit of the levels key), annual rate; or an OpenQuake export. With the scene's folder
-    std::optional<double> all_events; ///< rate of all events [1/year]
+    std::filesystem::path curve;               ///< a file that read_hazard_file() reads. With the scene's folder
+    std::optional<std::array<double, 2>> site; ///< longitude, latitude [degrees] of the curve among several
+    std::optional<double> all_events;          ///< rate of all events [1/year]
     LineOfFile where;
 };
 

@@ -142,7 +142,8 @@ std::vector<FragilityKeyTable> make_tables()
          Presence::optional,
          "The records of a fragility; without it those of [motion].",
          {text_key("files", Value::text, "those of [motion]",
-                   "folder, pattern, CSV with horizontal, vertical, other_horizontal, event, weight, magnitude, scale, "
+                   "folder, pattern, CSV with horizontal, vertical, other_horizontal, column, vertical_column, event, "
+                   "weight, magnitude, scale, "
                    "or CSV "
                    "of seeds with name, seed, pga_m_s2, target, whose records are made; from the folder of the scene",
                    "\"suite/*.AT2\""),
@@ -166,9 +167,19 @@ std::vector<FragilityKeyTable> make_tables()
         {"hazard",
          Presence::optional,
          "How often the site shakes how strongly: for rates per year.",
-         {text_key("curve", Value::text, "required",
-                   "CSV of intensity, in the unit of the levels, and annual rate of more; or an export of OpenQuake",
-                   "\"hazard.csv\""),
+         {text_key(
+              "curve", Value::text, "required",
+              "CSV whose heading says measure, unit and kind (pga_g,annual_rate; poe_50_years; return_period), or an "
+              "export of OpenQuake or USGS",
+              "\"hazard.csv\""),
+          {"site",
+           Value::numbers,
+           Range::between(-180, 360),
+           {},
+           {},
+           "the only one",
+           "longitude and latitude of the curve, where the file has several",
+           "[14.5, 46.05]"},
           number_key("all_events", positive, "none",
                      "annual rate of all events: bounds what lies below the lowest level", "0.5")}});
     return tables;

@@ -152,7 +152,7 @@ std::vector<KeyGroup> base_groups()
         "uplift",
         "Water pressure in the base. Without this table: seepage where a [curtain] is given, drains where [drains] "
         "are; "
-        "water with none of the three is refused, a dry base is said by name: model = \"none\".",
+        "water with none of the three is refused, a dry base is stated by name: model = \"none\".",
         &Scene::uplift,
         {word("model", "seepage with [curtain], drains with [drains], else linear", uplift_meanings(), "\"points\"",
               choice(&Uplift::model, uplift_models())),

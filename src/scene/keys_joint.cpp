@@ -96,7 +96,7 @@ std::vector<Key> rate_keys()
                "0.001", in(&Contact::rate, &RateFriction::relaxation_slip)),
         only_where<Contact>([](const Contact& c) { return c.restitution != 0.0; },
                             number("restitution", none, Range::between(0, 1), "0",
-                                   "of landings of the whole base: rate after over rate before", "0.3",
+                                   "of impacts of the whole base: rate after over rate before", "0.3",
                                    at(&Contact::restitution)))};
 }
 

@@ -7,7 +7,9 @@ std::vector<KeyGroup> motion_groups()
 {
     std::vector<KeyGroup> groups;
     Key polarity =
-        word("polarity", "1; of `fe` both", "1 or -1: -1 flips the horizontal components; written, `fe` runs it alone",
+        word("polarity", "both",
+             "the one sign on the horizontal components as filed that `fe` and `sweep` run; `screen`, `assess`, "
+             "`fragility` run both",
              "-1", at(&Motion::polarity));
     Key pause =
         number("sequence_pause", seconds, Range::between(0, 600), "0",
@@ -53,7 +55,7 @@ std::vector<KeyGroup> motion_groups()
                      std::vector<std::pair<std::string, SlidingScheme>>{{"exact", SlidingScheme::exact},
                                                                         {"slammer", SlidingScheme::slammer}})),
          word("lift_off", "no-friction",
-              "while the normal force is zero: no resistance (no-friction) or vertical flight and plastic landing "
+              "while the normal force is zero: no resistance (no-friction) or vertical flight and plastic impact "
               "(ballistic)",
               "\"ballistic\"",
               choice(&SlidingOptions::lift_off,
@@ -63,7 +65,7 @@ std::vector<KeyGroup> motion_groups()
          number("run_out_max", seconds, Range::between(0, 600), "60", "integration after the record's end at most",
                 "60", at(&SlidingOptions::run_out_max)),
          number("restitution", none, Range::between(0, 1), "by angular momentum",
-                "block that rocks: angular rate after a landing over that before", "0.8",
+                "block that rocks: angular rate after an impact over that before", "0.8",
                 at(&SlidingOptions::restitution)),
          number(
              "steady_rate_change", none, Range::half_open(0, 1), "0.1",

@@ -1,5 +1,7 @@
 #include "scene/opening_water.hpp"
 
+#include "scene/uplift_row.hpp"
+
 #include <algorithm>
 
 namespace damslip {
@@ -19,6 +21,18 @@ const std::string& word(OpeningWater rule)
     return std::find_if(opening_waters().begin(), opening_waters().end(),
                         [rule](const auto& entry) { return entry.second == rule; })
         ->first;
+}
+
+bool drains_shear_off(const Scene& scene)
+{
+    if (!scene.uplift || !scene.drains || !scene.drains->lost_at_slip) return false;
+    const UpliftModel model = scene.uplift->model;
+    return model == UpliftModel::drains || model == UpliftModel::seepage || uplift_row(model).by_drains;
+}
+
+bool base_water_changes(const Scene& scene)
+{
+    return (scene.uplift && scene.uplift->water.follows()) || drains_shear_off(scene);
 }
 
 } // namespace damslip

@@ -2,7 +2,6 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
-#include "core/units.hpp"
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/fragility_input.hpp"
@@ -39,11 +38,6 @@ std::string value_text(const toml::node& node)
 std::string full_name(const std::string& group, const std::string& key)
 {
     return group.empty() ? key : group + "." + key;
-}
-
-double to_si(double value, const UnitSuffix& unit)
-{
-    return unit.tangent ? std::tan(value * units::degree) : value * unit.factor;
 }
 
 std::string allowed_text(const Key& key, const Range& range, const Units& units)
@@ -143,9 +137,14 @@ private:
 
     void not_allowed(const Key& key, const std::string& spelling, const toml::node& node, const std::string& expected)
     {
+        const double value = node.value<double>().value_or(0.0);
+        const bool degrees = spelling == key.name && value > 1.0 && value < 89.9 &&
+                             std::any_of(key.units.begin(), key.units.end(), [](const UnitSuffix& u) { return u.tangent; });
         findings_.wrong_at(place_of(node.source()),
                            fmt::format("{} = {} is not allowed.", full_name(label_, spelling), value_text(node)),
-                           expected, fmt::format("for example  {} = {}", key.canonical(), key.example));
+                           expected,
+                           degrees ? fmt::format("degrees? write  {}_deg = {}", key.name, value_text(node))
+                                   : fmt::format("for example  {} = {}", key.canonical(), key.example));
     }
 
     /// The number in `node` as SI if it is finite and in range (the range is in canonical units).
@@ -283,7 +282,7 @@ private:
         std::vector<std::string> texts;
         for (const toml::node& item : *list) {
             const auto text = item.value_exact<std::string>();
-            if (!text || text->empty() || text->size() > 4096)
+            if (!text || text->empty() || text->size() > 4096 || text->find('\0') != std::string::npos)
                 return not_allowed(key, spelling, item, "a text in quotes: " + key.meaning);
             texts.push_back(in_one_line(*text));
         }
@@ -447,13 +446,89 @@ void resolve_paths(Scene& scene)
         if (!record.horizontal.empty()) record.horizontal = folder / record.horizontal;
         if (record.vertical) record.vertical = folder / *record.vertical;
     }
+    number_names(scene.motion.records);
     if (scene.mesh.file) scene.mesh.file = folder / *scene.mesh.file;
+}
+
+/// Where a TOML text is as it is read, and how deep: brackets and dotted keys, whether its syntax is right or not.
+class DepthScan {
+public:
+    explicit DepthScan(std::string_view text) : text_(text) {}
+
+    /// @returns the first place that is deeper than `deepest`
+    std::optional<Findings::Place> deeper_than(int deepest)
+    {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '#')
+                pass_until("\n");
+            else if (c == '"' || c == '\'')
+                pass_string(c);
+            else
+                count(c), pass(1);
+            if (depth_ + dots_ > deepest) return place_;
+        }
+        return std::nullopt;
+    }
+
+private:
+    void count(char c)
+    {
+        if (c == '.') ++dots_;
+        if (c == '[' || c == '{') {
+            open_.push_back(dots_ + 1);
+            depth_ += open_.back();
+        }
+        if ((c == ']' || c == '}') && !open_.empty()) {
+            depth_ -= open_.back();
+            open_.pop_back();
+        }
+        if (std::string_view("[]{},\n").find(c) != std::string_view::npos) dots_ = 0; // another key or value begins
+    }
+
+    void pass(std::size_t bytes)
+    {
+        for (const char c : text_.substr(at_, bytes))
+            place_ = c == '\n' ? Findings::Place{place_.line + 1, 1} : Findings::Place{place_.line, place_.column + 1};
+        at_ += bytes;
+    }
+    void pass_until(std::string_view end) { pass(std::min(text_.find(end, at_), text_.size()) - at_); }
+
+    void pass_string(char quote)
+    {
+        const std::string three(3, quote);
+        const bool long_one = text_.substr(at_).starts_with(three);
+        const std::string_view end = long_one ? std::string_view(three) : std::string_view(three).substr(0, 1);
+        for (pass(end.size()); at_ < text_.size() && !text_.substr(at_).starts_with(end);) {
+            if (text_[at_] == '\n' && !long_one) return; // torn
+            pass(text_[at_] == '\\' && quote == '"' && at_ + 1 < text_.size() ? 2 : 1);
+        }
+        pass(std::min(end.size(), text_.size() - at_));
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    Findings::Place place_{1, 1};
+    int depth_ = 0, dots_ = 0;
+    std::vector<int> open_; ///< levels of each open bracket, with those of the key before it
+};
+
+/// Tables are copied and destroyed by recursion: what is nested too deep would overflow the stack.
+void check_depth(std::string_view text, const std::filesystem::path& file)
+{
+    constexpr int deepest = 64;
+    const std::optional<Findings::Place> place = DepthScan(text).deeper_than(deepest);
+    if (!place) return;
+    throw InputError(Diagnostic{file.string(), place->line, place->column,
+                                fmt::format("this is nested deeper than {} levels.", deepest),
+                                "tables and lists of a scene, three levels at most", "correct this line"});
 }
 
 } // namespace
 
 toml::table toml_of(std::string_view text, const std::filesystem::path& file)
 {
+    check_depth(text, file);
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
@@ -516,6 +591,15 @@ Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCh
     findings.throw_if_any();
     scene.notes = findings.notes();
     return scene;
+}
+
+void number_names(std::vector<RecordFiles>& records)
+{
+    std::set<std::string> taken;
+    for (RecordFiles& record : records) {
+        const std::string name = record.name;
+        for (int k = 2; !taken.insert(record.name).second; ++k) record.name = fmt::format("{} ({})", name, k);
+    }
 }
 
 Scene read_scene(const std::filesystem::path& file)

@@ -3,6 +3,7 @@
 #include "scene/scene.hpp"
 
 #include <string_view>
+#include <vector>
 
 namespace damslip {
 
@@ -19,5 +20,8 @@ Scene read_scene(const std::filesystem::path& file);
 /// The same from memory. @param file  name for messages; record files are relative to its folder.
 Scene parse_scene(std::string_view toml_text, const std::filesystem::path& file,
                   FileCheck check = FileCheck::must_exist);
+
+/// "x (2)", "x (3)" for records whose name another one has already: tables and files tell records apart by their names.
+void number_names(std::vector<RecordFiles>& records);
 
 } // namespace damslip

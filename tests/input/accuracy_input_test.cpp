@@ -58,7 +58,7 @@ TEST_F(AccuracyInput, OptionsOutsideTheirRange)
     run({scene, "--repeats", "0"}, 2, "--repeats 0 is not allowed");
     run({scene, "--budget", "0"}, 2, "--budget 0 is not allowed");
     run({scene, "--rung", "fe:dt"}, 2, "--rung fe:dt is not known");
-    run({scene, "--rung", "fe-acoustic:dt/3"}, 2, "a rung as the table names it");
+    run({scene, "--rung", "fe-acoustic:dt/3"}, 2, "a model level as the table names it");
     run({path("still.toml")}, 3, "the scene has no record");
 }
 
@@ -66,9 +66,9 @@ TEST_F(AccuracyInput, ASceneWithoutElasticityHasNoFiniteElementsAndSaysSo)
 {
     const std::string out = run({path("rigid.toml")}, 0);
     EXPECT_NE(out.find("No finite elements: dam.young_modulus_GPa is not given."), std::string::npos);
-    EXPECT_NE(out.find("No rung with vertical motion"), std::string::npos);
+    EXPECT_NE(out.find("No model level with vertical motion"), std::string::npos);
     EXPECT_EQ(out.find("fe-"), std::string::npos);
-    EXPECT_NE(out.find("Cheapest rung within 2 %: rigid:h"), std::string::npos);
+    EXPECT_NE(out.find("Cheapest model level within 2 %: rigid:h"), std::string::npos);
 }
 
 TEST_F(AccuracyInput, ARungThatTheSceneCannotRunIsRefused)

@@ -1,10 +1,11 @@
 """Arrays lie in the results, tables become data frames, notebooks get charts."""
 
 import gc
+import json
 import unittest
 import weakref
 
-from surroundings import EXAMPLES, need
+from surroundings import EXAMPLES, need, program
 
 need("numpy", "pandas")
 import damslip  # noqa: E402
@@ -68,7 +69,9 @@ class Results(unittest.TestCase):
         self.assertNotIn("Scene as TOML", shown)
 
     def test_a_result_says_its_sentence(self):
-        self.assertIn("23.06 mm", repr(self.fe))
+        printed = json.loads(program("fe", PROFILE, "--polarity", "1", "--no-mesh-error", "--json", "--quiet"))
+        self.assertIn(printed["headline"], repr(self.fe))
+        self.assertIn(f"{1e3 * self.fe.worst.slip:.4g} mm", repr(self.fe))
         self.assertEqual(self.fe.verdict, self.fe.json()["verdict"])
 
     def test_accuracy_names_a_rung(self):

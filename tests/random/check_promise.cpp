@@ -1,14 +1,18 @@
 #include "random/check_promise.hpp"
 
 #include "cli/program.hpp"
+#include "cli/worker_command.hpp"
+#include "core/file.hpp"
 #include "core/status.hpp"
 #include "scene/read.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 namespace damslip::random {
@@ -149,9 +153,127 @@ void check_screen(const Parsed& screen, CheckedRuns& runs)
     findings.demand(all_answered || screen.code == 4, "exit code 0 although an answer is missing");
 }
 
+/// Objects anywhere below that have a status: a slip beside it is one that it allows.
+void check_statuses(const json& node, Findings& findings)
+{
+    if (node.is_object()) {
+        const std::optional<Status> status = status_of_word(text(node, "status"));
+        if (status && status_row(*status).slip == SlipMeaning::none)
+            for (const char* key : {"slip_m", "slip_mm", "max_slip_m", "max_slip_mm", "largest_slip_mm"})
+                findings.demand(!number(node, key), fmt::format("{} beside \"{}\"", key, text(node, "status")));
+    }
+    if (node.is_structured())
+        for (const json& below : node) check_statuses(below, findings);
+}
+
+/// Numbers that are none, as words of a text.
+bool has_no_number(const std::string& words)
+{
+    static const std::regex none("(^|[^[:alnum:]_])-?(inf|nan)([^[:alnum:]_]|$)");
+    return std::regex_search(words, none);
+}
+
+/// What holds of every command on every scene.
+void check_command(std::vector<std::string> arguments, bool as_json, CheckedRuns& runs)
+{
+    if (as_json) arguments.push_back("--json");
+    std::ostringstream out, talk;
+    const int code = cli::run_program(arguments, out, talk, false);
+    arguments.erase(arguments.begin() + 1); // the scene
+    Findings findings(fmt::format("{}", fmt::join(arguments, " ")), runs);
+    findings.demand(code == 0 || (code >= 2 && code <= 4), fmt::format("exit code {}: {}", code, talk.str()));
+    for (const std::string& words : {out.str(), talk.str()})
+        if (has_no_number(words)) {
+            std::istringstream lines(words);
+            for (std::string line; std::getline(lines, line);)
+                findings.demand(!has_no_number(line), "no number: " + line.substr(0, 300));
+        }
+    if (code == 2 || code == 3)
+        findings.demand(talk.str().find("fix:") != std::string::npos, "an error without a fix: " + talk.str());
+    if (!as_json) return;
+    const json answer = json::parse(out.str(), nullptr, false);
+    findings.demand(answer.is_object(), "--json prints no object: " + out.str().substr(0, 200));
+    check_statuses(answer, findings);
+}
+
+/// The same scene with a friction that is not known and a hazard, for `fragility`.
+std::string with_probability(const std::filesystem::path& scene)
+{
+    const std::filesystem::path file = scene.parent_path() / "fragility.toml";
+    write_file(scene.parent_path() / "hazard.csv", "pga_g,annual_rate\n0.05,0.02\n0.2,0.002\n0.8,0.0001\n");
+    write_file(file, read_file(scene) +
+                         "[[probability.variable]]\nname = \"mu\"\nkey = \"contact.friction\"\n"
+                         "lognormal = { median = 0.8, beta = 0.2 }\n[intensity]\nmeasure = \"PGA\"\n"
+                         "levels_g = [0.1, 0.3, 0.6]\n[suite]\nmax_scale = 1000\n[[limit]]\nquantity = \"slip\"\n"
+                         "above_mm = 20\n[hazard]\ncurve = \"hazard.csv\"\n");
+    return file.string();
+}
+
+void check_worker(const std::string& scene, CheckedRuns& runs)
+{
+    std::ostringstream out, talk;
+    const cli::Streams streams{out, talk, cli::Form::text, true};
+    std::istringstream in("{\"id\": 1, \"set\": {\"contact.friction\": 0.6}}\n{\"id\": 2, \"method\": \"fe-reduced\"}\n"
+                          "{\"id\": 3, \"set\": {\"contact.friction\": -1}}\nno JSON\n");
+    Findings findings("worker", runs);
+    try {
+        cli::worker({scene, {}, {}, {}, {}}, streams, in);
+    } catch (const InputError&) {
+        return; // the scene itself is refused
+    }
+    std::istringstream lines(out.str());
+    std::vector<json> answers;
+    for (std::string line; std::getline(lines, line);) answers.push_back(json::parse(line, nullptr, false));
+    findings.demand(answers.size() == 5, "not an answer for each line");
+    for (const json& answer : answers) {
+        findings.demand(answer.is_object(), "an answer that is no object");
+        check_statuses(answer, findings);
+    }
+}
+
+/// The commands beside `screen` and `fe`.
+void check_commands(const std::filesystem::path& file, std::uint32_t turn, CheckedRuns& runs)
+{
+    const std::string scene = file.string();
+    const bool as_json = turn % 2 == 0;
+    const auto run = [&](const std::string& command, const std::vector<std::string>& flags = {}) {
+        std::vector<std::string> words{command, scene};
+        words.insert(words.end(), flags.begin(), flags.end());
+        check_command(words, as_json, runs);
+    };
+    check_command({"screen", scene}, false, runs);
+    run("draw");
+    run("mesh");
+    run("explain", {"--method", turn % 4 < 2 ? "fe" : "rigid"});
+    run("sweep", {"--method", "rigid,rigid-v,coupled,jibson-2007-1", "--friction", "0.5,0.9", "--polarity", "1,-1"});
+    switch (turn / 2 % 10) {
+    case 0:
+        return run("fe");
+    case 1:
+        return run("fe", {"--reduced", "--no-mesh-error", "--jobs", "1"});
+    case 2:
+        return run("fe", {"--base", "tied"});
+    case 3:
+        return run("modes", {"--count", "4"});
+    case 4:
+        return run("explain", {"--ablate"});
+    case 5:
+        return run("sweep", {"--method", "fe,fe-reduced", "--friction", "0.7,1"});
+    case 6:
+        return run("accuracy", {"--quick", "--budget", "0.5"});
+    case 7:
+        return run("assess", {"--budget", "0.5"});
+    case 8:
+        return check_command({"fragility", with_probability(file), "--samples", "8", "--share-rows", "0"}, as_json,
+                             runs);
+    default:
+        return check_worker(scene, runs);
+    }
+}
+
 } // namespace
 
-CheckedRuns check_promise(const std::filesystem::path& scene)
+CheckedRuns check_promise(const std::filesystem::path& scene, std::uint32_t turn)
 {
     CheckedRuns runs;
     const Parsed screen = parsed({"screen", scene.string(), "--json"});
@@ -163,6 +285,7 @@ CheckedRuns check_promise(const std::filesystem::path& scene)
         runs.refusal = fe.data["error"]["diagnostics"][0]["message"];
     else if (fe.code != 1 && fe.code != 2)
         check_fe(fe, read_scene(scene), runs);
+    check_commands(scene, turn, runs);
     return runs;
 }
 

@@ -50,7 +50,7 @@ int main(int argc, char** argv)
         const std::filesystem::path scene = write(files, folder / std::to_string(seed));
         ::alarm(limit); // ends the program: the seed is the folder left behind
         const auto start = std::chrono::steady_clock::now();
-        const CheckedRuns runs = mutated ? check_promise(scene) : check_run(scene);
+        const CheckedRuns runs = mutated ? check_promise(scene, seed) : check_run(scene);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         ::alarm(0);
         if (seconds > slowest) {

@@ -2,6 +2,7 @@
 # check_report.sh CHROMIUM LEAST_CHARTS LARGEST_BYTES DAMSLIP COMMAND SCENE [OPTION ...]: makes the report of `damslip COMMAND SCENE
 # OPTION ...` and opens it in a headless browser. Fails when the page's script reports an error, a chart or picture is not drawn or
 # empty, a slider, choice or key has no effect (interact.html), there are fewer charts than LEAST_CHARTS, the file is too large, or the console says anything.
+# Labels that cover each other or are cut off, and a section that does not fit the screen, fail too. WIDTH: of the page, a window's where it is not given [px].
 # With "#check" in its address the page unfolds all parts and looks for the colour of a curve in each chart (page.js).
 set -euo pipefail
 chromium=$1 least=$2 largest=$3 damslip=$4 command=$5
@@ -17,8 +18,16 @@ else out="$work/out" page="$work/out/report.html"; fi
 [ "$(tail -n 1 "$work/talk")" = "report: $page" ] || { echo "the last line of the talk does not name the report:"; cat "$work/talk"; exit 1; }
 
 cat "$page" "$(dirname "$0")/interact.html" >"$work/copy.html"
+opened="$work/copy.html#check" budget=4000
+if [ -n "${WIDTH:-}" ]; then # no window is as narrow as a telephone: a frame is
+    cat >"$work/frame.html" <<FRAME
+<iframe src="copy.html#check" style="width: ${WIDTH}px; height: 900px"></iframe>
+<script>setTimeout(() => document.body.append(document.querySelector("iframe").contentDocument.getElementById("drawn").cloneNode()), 6000)</script>
+FRAME
+    opened="$work/frame.html" budget=9000
+fi
 timeout 90 "$chromium" --headless --no-sandbox --disable-gpu --disable-background-networking --user-data-dir="$work/profile" \
-    --enable-logging=stderr --window-size=1100,900 --virtual-time-budget=4000 --dump-dom "file://$work/copy.html#check" >"$work/dom" 2>"$work/log" ||
+    --allow-file-access-from-files --enable-logging=stderr --window-size=1100,900 --virtual-time-budget="$budget" --dump-dom "file://$opened" >"$work/dom" 2>"$work/log" ||
     { echo "the browser failed:"; tail -n 5 "$work/log"; exit 1; }
 
 mark=$(grep -o '<div id="drawn"[^>]*>' "$work/dom" || true)
@@ -30,7 +39,9 @@ fail() { echo "FAIL: $1"; status=1; }
 [ -n "$(value charts)" ] && [ "$(value charts)" -ge "$least" ] || fail "fewer than $least charts"
 [ "$(value drawn)" = "$(value charts)" ] || fail "charts not drawn"
 grep -q 'data-empty=""' <<<"$mark" || fail "empty charts: $(value empty)"
-grep -q 'data-interactions=""' <<<"$mark" || fail "without effect: $(value interactions)"
+[ -n "${WIDTH:-}" ] || grep -q 'data-interactions=""' <<<"$mark" || fail "without effect: $(value interactions)"
+[ -z "$(value crowded)" ] || fail "labels without room: $(value crowded)"
+[ "$(value wide)" = 0 ] || fail "the section is wider than the screen"
 bytes=$(stat -c %s "$page")
 [ "$bytes" -le "$largest" ] || fail "$bytes bytes, more than $largest"
 if grep CONSOLE "$work/log"; then fail "the console is not silent"; fi

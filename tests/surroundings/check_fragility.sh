@@ -4,7 +4,7 @@
 # A variable more changes no draw of the others.
 #   check_fragility.sh DAMSLIP SOURCE [KILLS]
 set -euo pipefail
-damslip=$(realpath "$1") source=$(realpath "$2") kills=${3:-5}
+damslip=$(realpath "$1") source=$(realpath "$2") kills=${3:-3}
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 fail() { echo "FAIL: $*" >&2; exit 1; }
 sed -e "s|\.\./\.\./records|$source/records|; s/2.0 m\/s2, 90 s/2.0 m\/s2/" "$source/examples/fragility/dam.toml" >"$work/dam.toml"
@@ -52,7 +52,7 @@ spread one "$kills"
 # Finite elements of 8 m; the times of summary.json and report.html are those of the machine.
 sed -e "s|\.\./\.\./\.\./records|$source/records|; s|\.\./\.\./\.\./examples/fragility/||; /^files = /d" "$source/tests/bench/fragility/coarse.toml" >"$work/coarse.toml"
 scene=coarse sizes=(--method fe --samples 64 --share-rows 0) files=(samples.csv fragility.csv hazard.csv fragility.xml)
-spread conditioned $((kills > 5 ? kills : 2))
+spread conditioned $((kills > 3 ? kills : 1))
 grep -q '"conditioned_on_friction"' "$work/conditioned/summary.json" || fail "friction was not conditioned on"
 scene=dam sizes=(--samples 400 --share-rows 32)
 

@@ -54,12 +54,12 @@ TEST(AccuracyFigure, TheSentenceSaysTheRungItsSlipTimeAndDeviation)
 {
     const auto all = results();
     // dt/4: 0.375 mm from the finest, which errs by 0.125 mm: 0.5 mm of 50.125 mm.
-    EXPECT_EQ(
-        choice_sentence(all, judge_rungs(all, 0.02), 0.02),
-        "Cheapest rung within 2 %: fe-dry:dt/4, slip 50.5 mm in 0.4 s, 1 % from the finest (fe-dry:dt/8, 0.8 s).");
+    EXPECT_EQ(choice_sentence(all, judge_rungs(all, 0.02), 0.02),
+              "Cheapest model level within 2 %: fe-dry:dt/4, slip 50.5 mm in 0.4 s, 1 % from the finest (fe-dry:dt/8, "
+              "0.8 s).");
     EXPECT_EQ(choice_sentence(all, judge_rungs(all, 0.001), 0.001),
-              "No rung is within 0.1 %: the finest one, fe-dry:dt/8, itself leaves 0.25 % open.");
-    EXPECT_EQ(choice_sentence({}, judge_rungs({}, 0.02), 0.02), "No rung has a slip to compare.");
+              "No model level is within 0.1 %: the finest one, fe-dry:dt/8, itself leaves 0.25 % open.");
+    EXPECT_EQ(choice_sentence({}, judge_rungs({}, 0.02), 0.02), "No model level has a slip to compare.");
 }
 
 TEST(AccuracyFigure, TheTableKeepsWhatWasSkippedAndWhy)

@@ -374,15 +374,15 @@ TEST(SelfExcited, both_polarities_walk_and_the_remedy_is_said_once)
     std::vector<ContactRun> runs{made_up_run(Status::self_excited, 1.5, 0.0),
                                  made_up_run(Status::self_excited, -2.25, 0.0)};
     EXPECT_EQ(fe_headline(scene, runs).sentence,
-              "made up: what happened. made up: Self-excited, too: walked >= 2250 mm.");
+              "made up: what happened. made up: Self-excited, too: slid at least 2250 mm.");
     std::vector<std::string> messages;
     pages::add_run_messages(runs, messages);
-    EXPECT_EQ(messages,
-              (std::vector<std::string>{"made up: what happened.", "made up: Self-excited, too: walked >= 2250 mm."}));
+    EXPECT_EQ(messages, (std::vector<std::string>{"made up: what happened.",
+                                                  "made up: Self-excited, too: slid at least 2250 mm."}));
     // With a slip beside them the first of those that walk says it.
     runs.insert(runs.begin(), made_up_run(Status::at_rest, 0.02, 0.001));
     const std::string sentence = fe_headline(scene, runs).sentence;
-    EXPECT_NE(sentence.find("made up: what happened. made up: Self-excited, too: walked >= 2250 mm."),
+    EXPECT_NE(sentence.find("made up: what happened. made up: Self-excited, too: slid at least 2250 mm."),
               std::string::npos)
         << sentence;
     EXPECT_EQ(sentence.find("what happened"), sentence.rfind("what happened")) << sentence;

@@ -84,15 +84,14 @@ TEST_F(FragilityCommand, GoingOnGivesTheBytesOfOneRunAndOtherRunsAreRefused)
 // The number that the pilot names gives the same answer without a pilot, whose draws are none of the run's.
 TEST_F(FragilityCommand, ABudgetNamesTheRunsThatRepeatIt)
 {
-    const ProgramAnswer bought =
-        fragility({"--method", "fe", "--budget", "1", "--conditioning", "off", "--cheap-samples", "0", "--json"});
+    const ProgramAnswer bought = fragility({"--method", "fe", "--budget", "1", "--conditioning", "off", "--json"});
     ASSERT_NE(bought.code, 3) << bought.talk;
     const std::size_t at = bought.talk.find("--samples ");
     ASSERT_NE(at, std::string::npos) << bought.talk;
     EXPECT_NE(bought.talk.find("pilot: 6 runs, "), std::string::npos) << bought.talk; // two a level
     const std::string samples = bought.talk.substr(at + 10, bought.talk.find('\n', at) - at - 10);
     const ProgramAnswer repeated =
-        fragility({"--method", "fe", "--samples", samples, "--conditioning", "off", "--cheap-samples", "0", "--json"});
+        fragility({"--method", "fe", "--samples", samples, "--conditioning", "off", "--json"});
     EXPECT_EQ(repeated.code, bought.code);
     EXPECT_EQ(nlohmann::json::parse(repeated.out)["probabilities"], nlohmann::json::parse(bought.out)["probabilities"]);
 }
@@ -101,13 +100,12 @@ TEST_F(FragilityCommand, TheClustersScriptRunsWhatTheCommandWould)
 {
     const std::filesystem::path script = folder / "parts.sh";
     const ProgramAnswer answer =
-        fragility({"--method", "fe", "--samples", "96", "--aim-at", "0.01", "--conditioning", "on", "--cheap-samples",
-                   "512", "--multi-fidelity", "mfmc", "--allow-scaling", "--out", out("parts"), "--parts", "5",
-                   "--slurm-array", script.string()});
+        fragility({"--method", "fe", "--samples", "96", "--aim-at", "0.01", "--conditioning", "on", "--allow-scaling",
+                   "--out", out("parts"), "--parts", "5", "--slurm-array", script.string()});
     ASSERT_EQ(answer.code, 0) << answer.talk;
     const std::string line =
         fmt::format("damslip fragility '{}' --method fe --samples 96 --aim-at 0.01 --conditioning on "
-                    "--cheap-samples 512 --share-rows 0 --multi-fidelity mfmc --allow-scaling --out '{}'",
+                    "--share-rows 0 --allow-scaling --out '{}'",
                     scene.string(), out("parts"));
     EXPECT_NE(answer.talk.find("5 parts; afterwards:  " + line + " --merge"), std::string::npos) << answer.talk;
     const std::string text = read_file(script);
@@ -132,7 +130,6 @@ TEST_F(FragilityCommand, WhatDoesNotGoTogetherIsRefusedBeforeItRuns)
           {{"--out", to, "--budget", "5", "--resume"},
            "--budget together with --resume.",
            "write the  --samples  that the run with --budget prints"},
-          {{"--multi-fidelity", "mfmc"}, "--multi-fidelity mfmc with --method rigid.", "add  --method fe"},
           {{"--method", "jibson2007"}, "--method jibson2007 is not one of a fragility.", "--method rigid-v"}}) {
         const ProgramAnswer answer = fragility(r.flags);
         EXPECT_EQ(answer.code, 2) << r.problem << answer.talk;

@@ -169,7 +169,8 @@ private:
 TEST_F(FragilityCommandRefuses, HazardThatDoesNotFitTheLevelsBeforeAnyRun)
 {
     expect_refuses(answer("", "[0.1]"), "hazard.csv: error: there is no such file.");
-    expect_refuses(answer("# imt='PGV'\n" + curve_, "[0.1]"), "the hazard curve is of PGV, the levels are of PGA.");
+    expect_refuses(answer("# imt='PGV'\nim,annual_rate\n0.02,1e-2\n0.5,1e-5\n", "[0.1]"),
+                   "the hazard curve is of PGV, the levels are of PGA.");
     const std::string apart = "the hazard curve goes from 0.02 to 0.5 g, the levels from ";
     expect_refuses(answer(curve_, "[0.001, 0.01]"), apart + "0.001 to 0.01 g: no rate comes of them.");
     expect_refuses(answer(curve_, "[0.6, 1.2]"), apart + "0.6 to 1.2 g: no rate comes of them.");

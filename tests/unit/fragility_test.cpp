@@ -11,7 +11,6 @@
 
 #include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
-#include "analysis/fragility/two_level_runs.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
@@ -105,29 +104,6 @@ TEST(Fragility, RefusesRecordsScaledTooFar)
     input.suite->polarity = SuitePolarity::as_recorded;
     input.suite->allow_scaling = true;
     EXPECT_EQ(plan_fragility(input, pulse::suite(text), {64}, text.file(), written).scaled_far.size(), 1u);
-}
-
-// The same rigid block as dear and cheap model, draws of their own: the estimate is F_mu(mu*) within four of its standard errors, and a
-// cheap model that knows the answer leaves far less scatter than the dear samples alone.
-TEST(Fragility, TwoModels)
-{
-    const SceneText text = pulse::scene();
-    FragilityInput input = pulse_input(0.2);
-    input.probability.sampling = SamplingInput::random;
-    const double p = lognormal_cdf(pulse::friction(0.2), 0.30, 0.2);
-    const FragilityPlan dear = plan_fragility(input, pulse::suite(text), {128, 0}, text.file(), written),
-                        cheap = plan_fragility(input, pulse::suite(text), {2048, 1}, text.file(), written);
-    EXPECT_NE(std::get<double>(dear.draws[0].values[0]), std::get<double>(cheap.draws[0].values[0]));
-    Watch watch;
-    const auto run = [&](const FragilityPlan& plan) {
-        return run_fragility(plan, text, sweep_method("rigid"), wanted_samples(plan), nullptr, 1, watch);
-    };
-    const FragilityRuns a = run(dear), b = run(cheap);
-    const TwoLevelAtLevel at = estimate_two_level(dear, a, a, cheap, b).limits[0].levels[0];
-    ASSERT_TRUE(at.used) << at.why_not;
-    EXPECT_NEAR(at.low.p, p, 4.0 * std::sqrt(p * (1.0 - p) / 2048.0) + 4.0 * at.low.se);
-    EXPECT_LT(at.low.se, 0.5 * at.low.plain_se);
-    EXPECT_EQ(at.low.p, at.high.p);
 }
 
 // One-way block under the pulse: D(k g) = d at k = mu*, whatever the dam.

@@ -1,17 +1,14 @@
-// What an interval of P costs, and multifidelity Monte Carlo with runs of the program. A rigid block slides down under its own weight and a pulse:
+// What an interval of P costs. A rigid block slides down under its own weight and a pulse:
 // P(D > d) = F_mu(mu*).
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/interval_cost.hpp"
-#include "analysis/fragility/mfmc_runs.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "probability/laws/normal.hpp"
-#include "probability/sampling/philox.hpp"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -50,7 +47,7 @@ TEST(IntervalCost, EstimatorsAgreeAndNarrow)
 {
     const SceneText text = pulse::scene();
     IntervalCostOptions options;
-    options.method = options.cheap = "rigid";
+    options.method = options.rigid = "rigid";
     options.runs = 1024;
     options.sizes = 3;
     options.replicates = 8;
@@ -75,7 +72,7 @@ TEST(IntervalCost, WhatDoesNotFitIsLeftOut)
 {
     const SceneText text = pulse::scene();
     IntervalCostOptions options;
-    options.method = options.cheap = "rigid";
+    options.method = options.rigid = "rigid";
     options.runs = 4096;
     options.budget = 1e-9;
     Watch watch;
@@ -99,80 +96,10 @@ TEST(IntervalCost, GainByHand)
         return p;
     };
     std::vector<IntervalPoint> points{point("plain", 10, 1.0, 0.4), point("plain", 40, 4.0, 0.2),
-                                      point("MFMC", 10, 8.0, 0.1)};
+                                      point("Sobol'", 10, 8.0, 0.1)};
     compare_with_plain(points);
     EXPECT_FALSE(points[0].gain.has_value());
     EXPECT_NEAR(points[2].gain.value(), 2.0, 1e-12);
-}
-
-// The block as both models: the cheap one knows the answer, and P is within four standard errors of the exact one, whose
-// variance is less than half of that of the dear runs alone. A pilot that is too small to learn from says so.
-TEST(Mfmc, WithRunsOfTheProgram)
-{
-    const SceneText text = pulse::scene();
-    FragilityInput input = input_of_the_pulse(0.3);
-    input.intensity.levels = {pulse::accel};
-    input.probability.variables[0].kind = VariableKind::aleatory;
-    const ShakingSuite suite = pulse::suite(text);
-    const auto plan_of = [&](std::size_t samples, std::uint32_t stream) {
-        return plan_fragility(input, suite, {samples, stream}, text.file(), as_in_the_file);
-    };
-    Watch watch;
-    const FragilityPlan plan = plan_of(128, 0);
-    const FragilityRuns dear =
-        run_fragility(plan, text, sweep_method("rigid"), wanted_samples(plan), nullptr, 1, watch);
-    MfmcOptions options;
-    options.dear = "rigid";
-    options.cheap = {"rigid"};
-    options.most_cheap = 4000;
-    options.cheap_price = 1.0; // as dear as the dear one: nothing to gain
-    const MfmcAtLevel off = run_mfmc(plan, dear, plan_of, text, options, watch).limits[0].levels[0];
-    EXPECT_FALSE(off.used);
-    EXPECT_TRUE(off.why_not.starts_with("off: ρ ")) << off.why_not;
-    options.cheap_price = 1e-3;
-    const MfmcFragility result = run_mfmc(plan, dear, plan_of, text, options, watch);
-    const MfmcAtLevel& at = result.limits[0].levels[0];
-    ASSERT_TRUE(at.used) << at.why_not;
-    EXPECT_EQ(at.models.size(), 2u);
-    EXPECT_EQ(at.models[0].runs, 128u);
-    EXPECT_GT(at.models[1].runs, 1000u);
-    EXPECT_NEAR(at.low.p, exact_probability(0.3), 4.0 * at.low.se);
-    EXPECT_LT(at.low.se, std::sqrt(0.5) * std::sqrt(at.low.p * (1.0 - at.low.p) / 128.0));
-    EXPECT_EQ(at.low.p, at.high.p);
-    options.pilot = 4;
-    EXPECT_NE(run_mfmc(plan, dear, plan_of, text, options, watch).limits[0].levels[0].why_not, "");
-}
-
-// mfmc_with_error: the error it prints is the scatter of repeated estimates. Three models, f = 1[u < 0.3], g_2 = 1[u < 0.35], g_3 = 1[u < 0.45] of one
-// uniform number; 3,000 repetitions: the mean within four of its standard errors, the variance within 12 % (its own scatter is 2.6 %; the
-// printed ones are averaged).
-TEST(Mfmc, ErrorIsTheScatter)
-{
-    probability::MfmcPlan plan;
-    plan.models = {0, 1, 2};
-    plan.sizes = {40, 120, 600};
-    plan.weights = {1.0, 0.8, 0.6};
-    const int repetitions = 3000;
-    double sum = 0.0, squares = 0.0, printed = 0.0, within = 0.0;
-    for (int r = 0; r < repetitions; ++r) {
-        const probability::Stream stream(7, "draws", static_cast<std::uint32_t>(r));
-        std::vector<std::vector<double>> answers(3);
-        for (std::uint32_t s = 0; s < 600; ++s) {
-            const double u = stream.uniform(s);
-            for (std::size_t i = 0; i < 3; ++i)
-                if (s < plan.sizes[i]) answers[i].push_back(u < std::array{0.3, 0.35, 0.45}[i] ? 1.0 : 0.0);
-        }
-        const probability::MfmcEstimate e = probability::mfmc_with_error(plan, answers);
-        sum += e.p;
-        squares += e.p * e.p;
-        printed += e.se * e.se;
-        within += e.interval.contains(0.3);
-    }
-    const double mean = sum / repetitions, variance = squares / repetitions - mean * mean;
-    EXPECT_NEAR(mean, 0.3, 4.0 * std::sqrt(variance / repetitions));
-    EXPECT_NEAR(printed / repetitions / variance, 1.0, 0.12);
-    EXPECT_GT(within / repetitions, 0.93); // 95 %
-    EXPECT_LT(within / repetitions, 0.985);
 }
 
 } // namespace

@@ -1,9 +1,6 @@
+#include "analysis/fragility/hazard_file.hpp"
 #include "core/input_error.hpp"
-#include "probability/estimate/allocation.hpp"
 #include "probability/estimate/bands.hpp"
-#include "probability/estimate/multi_fidelity.hpp"
-#include "probability/estimate/subset.hpp"
-#include "probability/estimate/two_level.hpp"
 #include "probability/fit/capacity_fit.hpp"
 #include "probability/fit/cloud_fit.hpp"
 #include "probability/fit/interval.hpp"
@@ -32,7 +29,7 @@ namespace {
 std::string hazard_message(const std::string& text)
 {
     try {
-        (void)parse_hazard_curve(text, "hazard.csv");
+        (void)damslip::parse_hazard_file(text, "hazard.csv", {});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -42,6 +39,15 @@ std::string hazard_message(const std::string& text)
 void expect_has(const std::string& text, const std::string& part)
 {
     EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+/// Of standard normal numbers: the mean of their product, over their standard deviations.
+double correlation(const std::vector<double>& a, const std::vector<double>& b)
+{
+    const auto product = [](const std::vector<double>& x, const std::vector<double>& y) {
+        return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+    };
+    return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
 } // namespace
@@ -294,112 +300,6 @@ TEST(ProbabilityFit, ClustersWidenTheIntervalOfWhatTheyShare)
     EXPECT_TRUE(cluster_proportion(std::span(shared).first(18), 1).few);
 }
 
-TEST(ProbabilityEstimate, WorthlessAndMissingCheapModelsLeaveThePlainMean)
-{
-    std::vector<DearSample> dear;
-    for (std::size_t i = 0; i < 40; ++i) dear.push_back({i, i % 4 == 0 ? 1.0 : 0.0, {NAN}});
-    const std::vector<CheapSample> cheap(100, CheapSample{0, {NAN}});
-    const TwoLevelEstimate e = two_level(dear, cheap, 1);
-    EXPECT_DOUBLE_EQ(e.p, 0.25);
-    EXPECT_DOUBLE_EQ(e.se, e.plain_se);
-    EXPECT_THROW(two_level(std::span(dear).first(1), cheap, 1), ParameterError);
-}
-
-TEST(ProbabilityEstimate, PilotIsNotBelievedWhereItsLowerBoundGainsNothing)
-{
-    const auto at_price = [](double w) { return [w](double rho) { return two_level_speed_up(rho, 1.0, w); }; };
-    const PilotDecision off = decide_on_pilot(40, 0.31, at_price(0.01));
-    EXPECT_FALSE(off.use);
-    expect_has(off.sentence, "off: ρ 0.31 (0.05…0.53), would gain 1.0, 1.0 at least");
-    EXPECT_FALSE(decide_on_pilot(40, 0.9, at_price(1.0)).use);
-    EXPECT_NEAR(decide_on_pilot(40, 0.5, at_price(1.0)).speed_up, 0.5,
-                1e-12); // rho^2 < w (1 - rho^2): the price of both
-    EXPECT_TRUE(decide_on_pilot(40, 0.95, at_price(0.001)).use);
-    EXPECT_FALSE(decide_on_pilot(40, -0.95, at_price(0.001)).use);
-    EXPECT_FALSE(decide_on_pilot(3, 0.99, at_price(0.001)).use);
-    EXPECT_DOUBLE_EQ(less_chance(0.6, 11, 2),
-                     std::sqrt(1.0 - 0.64 * 10.0 / 8.0)); // 0.2: rho^2 = 0.36 of 11 samples, 2 parameters
-    EXPECT_EQ(less_chance(0.1, 11, 2), 0.0);
-}
-
-// The cheap model answers like the dear one but for a share of its samples, or by chance. Off: the plain mean to the digits, whatever the chance.
-TEST(ProbabilityEstimate, TheControlVariateIsOffWhereItDoesNotPay)
-{
-    const auto estimate_of = [](double right, std::uint64_t seed) {
-        const Stream f(seed, "f"), noise(seed, "noise"), kept(seed, "kept");
-        std::vector<DearSample> dear;
-        std::vector<CheapSample> cheap;
-        for (std::uint32_t i = 0; i < 2200; ++i) {
-            const double u = f.uniform(i), seen = kept.uniform(i) < right ? u : noise.uniform(i);
-            if (i < 200)
-                dear.push_back({i, u < 0.3 ? 1.0 : 0.0, {seen}});
-            else
-                cheap.push_back({i, {seen}});
-        }
-        return two_level(dear, cheap, seed);
-    };
-    int used = 0;
-    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-        const TwoLevelEstimate e = estimate_of(0.0, seed);
-        used += e.used;
-        if (e.used) continue;
-        EXPECT_NEAR(e.se, e.plain_se, 1e-15);
-        EXPECT_NEAR(e.p, std::round(200.0 * e.p) / 200.0, 1e-12);
-        expect_has(e.sentence, "off: ρ ");
-    }
-    EXPECT_EQ(used,
-              0); // a gain of 1.2 at the lower end asks for rho 0.5 of 160 samples: six standard deviations of none
-    // Near the border, too, the remark agrees with what was done.
-    int near = 0;
-    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-        const TwoLevelEstimate e = estimate_of(0.6, seed);
-        near += e.used;
-        if (e.used)
-            EXPECT_EQ(e.sentence, "");
-        else
-            expect_has(e.sentence, "off: ρ ");
-    }
-    EXPECT_GT(near, 10);
-    EXPECT_LT(near, 40);
-    const TwoLevelEstimate good = estimate_of(0.97, 1);
-    EXPECT_TRUE(good.used);
-    EXPECT_LT(good.se, 0.7 * good.plain_se);
-    for (const TwoLevelFold& fold : good.folds) EXPECT_TRUE(fold.decision.use) << fold.decision.sentence;
-}
-
-TEST(ProbabilityEstimate, TwoModelsAreTheTwoModelCaseOfTheHierarchy)
-{
-    const std::array<ModelStatistics, 2> models{{{1.0, 1.0, 1.0}, {0.01, 1.0, 0.9}}};
-    const MfmcPlan plan = plan_mfmc(models, 200.0);
-    EXPECT_NEAR(1.0 / plan.ratio, two_level_speed_up(0.9, 1.0, 0.01), 1e-12);
-    const TwoLevelSizes sizes = two_level_sizes(200.0, 0.9, 1.0, 0.01);
-    EXPECT_NEAR(static_cast<double>(sizes.dear), static_cast<double>(plan.sizes[0]), 1.0);
-    EXPECT_NEAR(static_cast<double>(sizes.dear + sizes.cheap) / static_cast<double>(plan.sizes[1]), 1.0, 0.01);
-    const std::array<ModelStatistics, 2> useless{{{1.0, 1.0, 1.0}, {0.9, 1.0, 0.3}}};
-    EXPECT_EQ(plan_mfmc(useless, 100.0).models.size(), 1u);
-}
-
-TEST(ProbabilityEstimate, NoStratumGetsNothingAndTheBudgetHolds)
-{
-    const std::array<Stratum, 3> strata{{{1e-2, 0, 20, 0, 1.0}, {1e-3, 5, 20, 0, 2.0}, {1e-9, 20, 20, 0, 4.0}}};
-    const std::vector<std::uint64_t> sizes = allocate_strata(strata, 100.0, 2);
-    EXPECT_EQ(sizes[2], 2u);
-    EXPECT_GT(sizes[0], sizes[1]);
-    EXPECT_LE(sizes[0] + 2 * sizes[1] + 4 * sizes[2], 100u);
-    EXPECT_DOUBLE_EQ(batch_size(30.0, 1.0, 0.25), std::sqrt(90.0));
-}
-
-TEST(ProbabilityEstimate, OptionsOfSubsetSimulationAreChecked)
-{
-    const auto response = [](std::span<const double> z) { return z[0]; };
-    SubsetOptions options;
-    options.level_probability = 0.6;
-    EXPECT_THROW(subset_simulation(1, response, 1.0, options), ParameterError);
-    options = {};
-    options.max_levels = 2; // P = 3e-5 is five levels away
-    EXPECT_FALSE(subset_simulation(1, response, 4.0, options).reached);
-}
-
 TEST(ProbabilityHazard, FilesThatAreWrongAreNamedByLineWithTheFix)
 {
     expect_has(hazard_message("0.1,1e-2\n0.2,1e-3\n"), "hazard.csv:1");
@@ -407,37 +307,39 @@ TEST(ProbabilityHazard, FilesThatAreWrongAreNamedByLineWithTheFix)
     expect_has(hazard_message("im,rate\n0.1,1e-2\n0.2,2e-2\n"), "never rise");
     expect_has(hazard_message("im,rate\n0.1,1e-2\n0.2,zero\n"), "\"zero\" is no number");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,1.0,0.5\n"),
-               "poe-0.1 = 1");
+               "the curve has 1 points with a rate"); // poe = 1 is passed over
     expect_has(hazard_message("lon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9,0.5\n"), "investigation_time");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9,0.5\n3,4,0,0.9,0.5\n"),
                "2 sites");
     expect_has(hazard_message("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.9\n"),
                "4 fields below 5");
-    expect_has(hazard_message(""), "0 lines");
+    expect_has(hazard_message(""), "the file is empty");
 }
 
 TEST(ProbabilityHazard, SitesAndPointsWithoutEarthquakesAreToldApart)
 {
+    using damslip::HazardFile, damslip::parse_hazard_file;
+    damslip::HazardWish wish;
+    wish.measure = *damslip::parse_intensity("SA(0.3)");
+    wish.site = {3.0, 4.0};
     const HazardFile file =
-        parse_hazard_curve("# investigation_time=50, imt=\"SA(0.3)\"\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n"
-                           "1,2,0,0.9,0.5,0\n3,4,0,0.8,0.4,0.1\n",
-                           "x.csv", Site{3.0, 4.0});
-    EXPECT_EQ(file.measure, "SA(0.3)");
+        parse_hazard_file("# investigation_time=50, imt=\"SA(0.3)\"\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n"
+                          "1,2,0,0.9,0.5,0\n3,4,0,0.8,0.4,0.1\n",
+                          "x.csv", wish);
     EXPECT_EQ(file.curve.x().size(), 3u);
     EXPECT_NEAR(file.curve.rate().front(), -std::log(0.2) / 50.0, 1e-15);
     const HazardFile cut =
-        parse_hazard_curve("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n1,2,0,0.9,0.5,0\n",
-                           "hazard_curve-mean-PGA_1.csv");
+        parse_hazard_file("# investigation_time=50\nlon,lat,depth,poe-0.1,poe-0.2,poe-3\n1,2,0,0.9,0.5,0\n",
+                          "hazard_curve-mean-PGA_1.csv", {});
     EXPECT_EQ(cut.curve.x().size(), 2u);
-    EXPECT_EQ(cut.notes.size(), 1u);
-    EXPECT_EQ(cut.measure, "PGA");
+    expect_has(cut.notes.back(), "points without any earthquake: 1, left out");
 }
 
 TEST(ProbabilityHazard, RatesOutsideTheTestedLevelsAreTold)
 {
     const HazardCurve curve({0.1, 1.0}, {1e-2, 1e-4});
     const AnnualRate within = annual_rate(curve, 0.4, 0.2, 0.1, 1.0);
-    EXPECT_FALSE(within.below_upper.has_value());
+    EXPECT_FALSE(within.all_events); // P at the first point is small, but not 0
     const AnnualRate narrow = annual_rate(curve, 0.4, 0.2, 0.5, 0.6);
     EXPECT_FALSE(narrow.mostly_tested);
     EXPECT_GT(narrow.outside_share, within.outside_share);

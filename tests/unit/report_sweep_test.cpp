@@ -133,7 +133,7 @@ TEST(SweepReport, HeadlineCountsStaticFailuresAndRowsWithoutAnAnswer)
     EXPECT_NE(page.headline.sentence.find("3 of 24 slips by fe exceed the allowable 45 mm"), std::string::npos)
         << page.headline.sentence;
     const std::string rigid_base =
-        "rigid base: no wave leaves; an elastic dam may walk on it by itself."; // first of all
+        "rigid base: no radiation damping; an elastic dam may slide on it without end."; // first of all
     EXPECT_EQ(page.warnings, std::vector<std::string>{rigid_base});
 
     rows.rows[1][11] = rows.rows[1][12] = Cell{}; // an FE run at 0.9 that did not end

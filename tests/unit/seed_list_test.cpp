@@ -115,7 +115,7 @@ TEST_F(SeedList, RefusesByLine)
     }
     const std::string line = refused(heading + good + "b,4,0,,,5,no,\n");
     EXPECT_NE(line.find("pairs.csv:3"), std::string::npos) << line;
-    write_file(list, "name,seed,pga_m_s2,tolerance\na,1,2,0.01\n");
+    write_file(list, "name,seed,pga_m_s2,tolerance,duration_s,vertical\na,1,2,0.01,5,no\n");
     EXPECT_THROW(records_of_seeds(list, 1), InputError); // misses its spectrum by more than 1 %
 }
 

@@ -38,7 +38,7 @@ StepConstants constants()
 
 TEST(StepPasses, SumsOfWorkHaveTheSameBitsOnEveryLevel)
 {
-    if (vector_level() == VectorLevel::sse2) GTEST_SKIP() << "one level here";
+    if (vector_level() == VectorLevel::sse2) return; // one level here: nothing to compare
     for (const Index size : {2, 4, 6, 8, 50, 1000, 1002}) {
         const auto v = uneven_vectors(18, size);
         const WorkVectors work{v[0], v[1],  v[2],  v[3],  v[4],  v[5],  v[6],  v[7],  v[8],

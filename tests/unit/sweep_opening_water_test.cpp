@@ -21,9 +21,9 @@ TEST_F(SweepScene, RulesForOpeningWaterAreRunsOfFe)
     write("block.toml", tall);
     write("pulse.csv", "time_s,accel_m_s2\n0,0\n0.1,5\n0.2,5\n0.3,5\n0.4,-4\n0.5,0\n0.6,0\n");
     const Answer answer = sweep({"--opening-water", "unchanged,zero,full", "--method", "fe", "--friction", "0.6,0.65",
-                                 "--record", path("pulse.csv"), "--out", path("rules.json"), "--json"});
+                                 "--record", path("pulse.csv"), "--json"});
     ASSERT_EQ(answer.code, 0) << answer.talk;
-    const Json lines = Json::parse(content("rules.json"))["opening_water"];
+    const Json lines = Json::parse(answer.out)["opening_water"];
     ASSERT_EQ(lines.size(), 2u);
     const std::string text = content("block.toml");
     for (const Json& line : lines) {

@@ -1,3 +1,4 @@
+#include "analysis/fragility/hazard_file.hpp"
 #include "probability/estimate/bands.hpp"
 #include "probability/export/fragility_files.hpp"
 #include "probability/fit/capacity_fit.hpp"
@@ -191,21 +192,21 @@ std::vector<Check> rates()
     checks.push_back({"above the last point: H_n - P_n H_n", "1/a", 4e-5 * normal_cdf(std::log(median / 1.5) / beta),
                       bounds.above_upper - bounds.above_lower, 1e-9});
     checks.push_back({"below the first point: P₁(ν - H₁)", "1/a", 0.04 * normal_cdf(std::log(0.05 / median) / beta),
-                      *bounds.below_upper, 1e-9});
+                      bounds.below_upper, 1e-9});
     // P = 0.2 + 0.3 ln(x / 0.2) / ln 2 on the flat part adds nothing; on the last, by parts, k = ln 50 / ln 3.75.
     const std::array<double, 2> stripes{0.4, 1.5}, p{0.2, 0.8};
     checks.push_back({"raw stripes, P linear in ln x", "1/a",
                       0.2 * 2e-3 - 0.8 * 4e-5 + 0.6 * (2e-3 - 4e-5) / std::log(50.0),
                       annual_rate(bent, stripes, p).inside, 1e-9});
-    const HazardFile file = parse_hazard_curve("#,,,,,\"generated_by='engine', investigation_time=50.0, imt='PGA'\"\n"
-                                               "lon,lat,depth,poe-0.1,poe-0.2,poe-0.4\n"
-                                               "14.5,46.0,0.0,0.5,0.1,0.01\n",
-                                               "hazard_curve-mean-PGA_1.csv");
-    checks.push_back(
-        {"OpenQuake, poe 0.1 in 50 years: rate", "1/a", 0.10536051565782628 / 50.0, file.curve.rate_at(0.2), 1e-14});
+    const HazardFile file = parse_hazard_file("#,,,,,\"generated_by='engine', investigation_time=50.0, imt='PGA'\"\n"
+                                              "lon,lat,depth,poe-0.1,poe-0.2,poe-0.4\n"
+                                              "14.5,46.0,0.0,0.5,0.1,0.01\n",
+                                              "hazard_curve-mean-PGA_1.csv", {});
+    checks.push_back({"OpenQuake, poe 0.1 in 50 years: rate", "1/a", 0.10536051565782628 / 50.0,
+                      file.curve.rate_at(0.2 * 9.80665), 1e-14});
     checks.push_back({"between its points, log-log", "1/a",
-                      std::sqrt(0.10536051565782628 * 0.010050335853501450) / 50.0, file.curve.rate_at(std::sqrt(0.08)),
-                      1e-12});
+                      std::sqrt(0.10536051565782628 * 0.010050335853501450) / 50.0,
+                      file.curve.rate_at(std::sqrt(0.08) * 9.80665), 1e-12});
     return checks;
 }
 

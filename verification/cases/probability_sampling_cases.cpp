@@ -1,11 +1,9 @@
 #include "core/statistics.hpp"
 #include "probability/estimate/bands.hpp"
-#include "probability/estimate/subset.hpp"
 #include "probability/laws/normal.hpp"
 #include "probability/sampling/unit_points.hpp"
 #include "probability/sensitivity/indices.hpp"
 #include "verification/cases/modules.hpp"
-#include "verification/cases/probability_seeds.hpp"
 
 #include <array>
 #include <cmath>
@@ -124,77 +122,6 @@ std::vector<Check> bands()
     return checks;
 }
 
-constexpr int many_seeds = 3000;
-
-SeedStudy add_two_level(std::vector<Check>& checks, const std::string& name, CheapModel cheap, SuiteOf suite)
-{
-    const SeedStudy s = study_two_level(many_seeds, 100, cheap, suite);
-    checks.push_back({name + ": mean of 3000 estimates", "–", s.exact, s.mean, s.bound(), Measure::absolute});
-    return s;
-}
-
-std::vector<Check> two_level_seeds()
-{
-    std::vector<Check> checks;
-    const auto between = [&](const std::string& name, double least, double most, int covered) {
-        checks.push_back({name + ": at least", "–", least, static_cast<double>(covered), 0.0, Measure::lower_bound});
-        checks.push_back({name + ": at most", "–", most, static_cast<double>(covered), 0.0, Measure::upper_bound});
-    };
-    for (const auto& [name, cheap] : {std::pair{"good", CheapModel::good}, {"worthless", CheapModel::worthless}}) {
-        const SeedStudy s = add_two_level(checks, fmt::format("{} cheap model", name), cheap, SuiteOf::all_records);
-        // 300 of 0.95: mean 285, s.d. 3.8; 276 ... 294 holds 98.8 %. 3000: 0.95 +- 0.004, which 93 % does not reach.
-        between(fmt::format("{}: intervals that hold P, of 300", name), 276.0, 294.0, s.covered_of_few);
-        between(fmt::format("{}: of 3000", name), 0.935 * many_seeds, 0.965 * many_seeds, s.covered);
-        // Scatter of a standard deviation of 3000 estimates: 1/sqrt(2 · 3000), four of it.
-        checks.push_back({fmt::format("{}: standard error stated over the scatter", name), "–", 1.0, s.mean_se / s.sd,
-                          4.0 / std::sqrt(2.0 * many_seeds), Measure::absolute});
-    }
-    return checks;
-}
-
-std::vector<Check> two_level_suite()
-{
-    std::vector<Check> checks;
-    for (const auto& [name, cheap] : {std::pair{"good", CheapModel::good}, {"worthless", CheapModel::worthless}}) {
-        const SeedStudy s = add_two_level(checks, fmt::format("{} cheap model", name), cheap, SuiteOf::ten_records);
-        // Balanced records scatter less than the formula of independent ones says.
-        checks.push_back({fmt::format("{}: standard error stated over the scatter", name), "–", 0.9, s.mean_se / s.sd,
-                          0.0, Measure::lower_bound});
-    }
-    return checks;
-}
-
-std::vector<Check> mfmc_seeds()
-{
-    double variance = 0.0;
-    const SeedStudy s = study_mfmc(3000, &variance);
-    return {{"mean of 3000 estimates", "–", 0.0, s.mean, s.bound(), Measure::absolute},
-            {"their variance by the formula", "–", 1.0, s.sd * s.sd / variance, 4.0 * std::sqrt(2.0 / 3000.0),
-             Measure::absolute}};
-}
-
-std::vector<Check> subset_tail()
-{
-    const double exact = normal_cdf(-4.0);
-    constexpr std::uint32_t replicates = 40;
-    double mean = 0.0, squares = 0.0, cov = 0.0;
-    for (std::uint32_t r = 0; r < replicates; ++r) {
-        SubsetOptions options;
-        options.replicate = r;
-        const SubsetResult s = subset_simulation(
-            2, [](std::span<const double> z) { return (z[0] + z[1]) / std::numbers::sqrt2; }, 4.0, options);
-        mean += s.probability / replicates;
-        squares += s.probability * s.probability / replicates;
-        cov += s.cov / replicates;
-    }
-    const double sd = std::sqrt((squares - mean * mean) * replicates / (replicates - 1.0));
-    // The estimate is biased by O(1/N) (Au & Beck 2001, eq. 31): far below the scatter of 40 means of 1000 samples a level.
-    return {{"P(z > 4): mean of 40 runs", "–", exact, mean, 4.0 * sd / std::sqrt(replicates), Measure::absolute},
-            {"c.o.v. of a run of some 4,200 calls", "–", 0.6, sd / exact, 0.0, Measure::upper_bound},
-            {"c.o.v. each run states, on average: at least half of it", "–", 0.5 * sd / exact, cov, 0.0,
-             Measure::lower_bound}};
-}
-
 } // namespace
 
 void add_probability_sampling_cases(Registry& registry)
@@ -209,18 +136,6 @@ void add_probability_sampling_cases(Registry& registry)
                         "Φ((ln(x/θ) + β_U z_q)/β_R); mean with β_R² + β_U² (Kennedy et al. 1980)",
                         "percentiles of 4096 stratified points: 1/N over the density; variances: 4 standard deviations",
                         bands});
-    registry.push_back({"probability.two-level",
-                        "Two models, cross-fitted: no bias for good and worthless cheap models; coverage",
-                        "P = Φ(-1.2), known by construction",
-                        "4 standard deviations of the mean; coverage: 98.8 % of a true 95 %", two_level_seeds});
-    registry.push_back({"probability.two-level-suite", "Two models over ten records of strong effect: no bias",
-                        "mean of Φ over the ten records, known by construction", "4 standard deviations of the mean",
-                        two_level_suite});
-    registry.push_back({"probability.mfmc", "Multifidelity Monte Carlo has no bias, and the variance of its formula",
-                        "Peherstorfer, Willcox & Gunzburger (2016)", "4 standard deviations of mean and χ²",
-                        mfmc_seeds});
-    registry.push_back({"probability.subset", "Subset simulation finds a tail of 3.2e-5", "Φ(-4)",
-                        "4 standard deviations of 40 runs", subset_tail});
 }
 
 } // namespace damslip::verification

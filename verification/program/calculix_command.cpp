@@ -1,5 +1,6 @@
 #include "verification/program/carry.hpp"
 
+#include "cli/document.hpp"
 #include "cli/flags.hpp"
 #include "core/file.hpp"
 #include "core/usage_error.hpp"
@@ -32,6 +33,7 @@ int calculix(const MeshArguments& arguments, const Streams& streams)
     Watch watch;
     if (!arguments.out.empty()) {
         write_file(arguments.out, calculix_deck(ready, analysis, arguments.modes, watch));
+        if (arguments.results.empty()) put_json_document(streams, "mesh", {{"out", arguments.out.string()}});
         streams.talk << fmt::format("written: {} (CalculiX, {})\n", arguments.out.string(), arguments.analysis);
     }
     if (arguments.results.empty()) return exit_ok;

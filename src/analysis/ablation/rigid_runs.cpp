@@ -30,11 +30,7 @@ double shortest_time(Task&& task)
 
 std::string sentence(const sliding::SlideResult& r, const RigidModel& model)
 {
-    if (fails_statically(r.status))
-        return model.state == sliding::StaticState::lifts_off
-                   ? "the uplift carries more than the weight"
-                   : fmt::format("friction {:.4g} is below the {:.4g} that holds it", model.block.friction,
-                                 model.critical_friction);
+    if (fails_statically(r.status)) return model.why_it_fails();
     if (reported(r.status, r.slip) || r.notes.empty()) return "";
     return r.status == Status::runs_away || r.status == Status::rocks_first ? r.notes.back() : r.notes.front();
 }
@@ -63,7 +59,7 @@ SceneRuns run_rigid(const Ready& ready, const Watch& watch)
     for (const RecordPair& pair : ready.records()) {
         runs.records.emplace_back();
         if (watch.stop_asked()) continue;
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         sliding::SlideResult result;
         const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
         runs.records.back() = outcome(result, model);

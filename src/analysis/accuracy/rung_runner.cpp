@@ -47,11 +47,12 @@ std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& l
     if (!has_water(scene)) return {RungWater::dry};
     switch (scene.reservoir->model) {
     case ReservoirModel::hydrostatic:
-        left_out.push_back("Added mass and acoustic water are not on this ladder: reservoir.model = \"hydrostatic\".");
+        left_out.push_back(
+            "Added mass and acoustic water are not in this hierarchy of models: reservoir.model = \"hydrostatic\".");
         return {RungWater::hydrostatic};
     case ReservoirModel::added_mass:
-        left_out.push_back(
-            "Acoustic water is not on this ladder: reservoir.model = \"added-mass\"; with \"auto\" it is.");
+        left_out.push_back("Acoustic water is not in this hierarchy of models: reservoir.model = \"added-mass\"; with "
+                           "\"auto\" it is.");
         return {RungWater::added_mass};
     case ReservoirModel::acoustic:
     case ReservoirModel::automatic:
@@ -63,7 +64,8 @@ std::vector<RungWater> waters_of(const Scene& scene, std::vector<std::string>& l
 bool can_reduce(const Scene& scene, std::vector<std::string>& left_out)
 {
     const std::optional<Diagnostic> why_not = why_not_reducible(scene);
-    if (why_not) left_out.push_back("Reduced runs are not on this ladder: " + first_line(why_not->problem));
+    if (why_not)
+        left_out.push_back("Reduced runs are not in this hierarchy of models: " + first_line(why_not->problem));
     return !why_not;
 }
 
@@ -161,7 +163,7 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
                                            ? rock_model(ready.scene, model, motion, 1).slide
                                            : slide_model(ready.scene, model, motion, 1);
@@ -192,7 +194,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
         const auto reduced_run = [&] { return reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out); };
         if (reduced ? !take(reduced_run(), result) : !take(full.run(motion), result)) return;
@@ -205,8 +207,15 @@ bool RungRunner::rocks_first() const
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     return model.rocking && std::any_of(ready.records().begin(), ready.records().end(), [&](const RecordPair& pair) {
-               return slide_model(ready.scene, model, ready.motion(pair), 1).status == Status::rocks_first;
+               return slide_model(ready.scene, model, ready.motion(pair, 1.0, polarities_of(ready.scene).front()), 1).status == Status::rocks_first;
            });
+}
+
+double RungRunner::least_seconds(const Rung& rung) const
+{
+    constexpr double per_operation = 1e-10; // [s], of n³ in dense factors
+    if (rung.family != RungFamily::finite_elements || scene_.mesh.file) return 0.0;
+    return per_operation * std::pow(2.0 * elements_on_base(scene_of(scene_, rung)), 3.0);
 }
 
 LadderFacts RungRunner::facts() const
@@ -214,7 +223,8 @@ LadderFacts RungRunner::facts() const
     LadderFacts facts;
     facts.rocks = rocks_first();
     facts.vertical = std::any_of(records_->begin(), records_->end(), [](const RecordPair& p) { return p.vertical; });
-    if (!facts.vertical) facts.left_out.push_back("No rung with vertical motion: the records have none that counts.");
+    if (!facts.vertical)
+        facts.left_out.push_back("No model level with vertical motion: the records have none that counts.");
     facts.slammer = scene_.sliding.scheme == SlidingScheme::slammer;
     facts.regressions = best_regressions(scene_, records_);
     if (facts.regressions.empty()) facts.left_out.push_back("No regression is valid for all records.");

@@ -22,6 +22,7 @@ struct ContactRun {
     int polarity = 1;                          ///< -1: the record's horizontal component is flipped
     bool both = false;                         ///< the other polarity was run, too
     MeshError mesh;
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
 
     std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
     std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
@@ -42,6 +43,11 @@ SlipError lift_error(const ContactRun& run, std::size_t lift);
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);
 
+/// Has every run an answer, one that fails included?
+bool all_answered(const std::vector<ContactRun>& runs);
+/// "EC8, polarity -1 self-excited, walked ≥ 409 mm": the runs without an answer; empty where all have one.
+std::string unanswered_words(const std::vector<ContactRun>& runs);
+
 /// How far a dam that goes on by itself had come when the run ended [m]; none for all others.
 std::optional<double> walked_at_least(Status status, double slip);
 
@@ -53,14 +59,15 @@ bool falls_after(const ContactRun& run);
 /// Did the solver find no answer for the state after the earthquake?
 bool open_after(const ContactRun& run);
 
-/// What may be said of a run: of the base, of every lift joint and of the state after the earthquake the worst. PASS and FAIL by
+/// Verdict of a run: the worst of its base, of every lift joint and of the state after the earthquake. PASS and FAIL come from
 /// judge(), with the total error of each slip. @param allowable  slip [m]; none: no criterion
 Verdict verdict_of(const ContactRun& run, const std::optional<double>& allowable);
 /// Of all runs: FAIL if one fails, none if one has no verdict, undecided if one is, else PASS.
 Verdict verdict_of(const std::vector<ContactRun>& runs, const std::optional<double>& allowable);
 
-/// The run with the largest slip; dams that fall or run away before all others, runs without slip after them. Of equals the first.
-/// @param runs  not empty
+/// Whether `a` comes before `b`: the smaller slip; runs without slip before all others, dams that fall or run away after them.
+bool milder(const ContactRun& a, const ContactRun& b);
+/// The run that no other is worse than; of equals the first. @param runs  not empty
 const ContactRun& worst_of(const std::vector<ContactRun>& runs);
 
 /// By the statuses of the runs, and of the states after the earthquake.
@@ -75,6 +82,7 @@ struct ReducedRecord {
     bool both = false; ///< the other polarity was run, too
     MeshError mesh;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    bool leaves_out = false;                   ///< as ContactRun::leaves_out
 };
 
 /// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.

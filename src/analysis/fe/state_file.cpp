@@ -5,6 +5,7 @@
 #include "core/version.hpp"
 #include "scene/anchor_bar.hpp"
 #include "scene/joint_bond.hpp"
+#include "scene/opening_water.hpp"
 #include "scene/write.hpp"
 
 #include <fmt/format.h>
@@ -72,13 +73,14 @@ std::vector<std::pair<const char*, std::size_t>> numbers_of_laws(const Scene& sc
             all.emplace_back(key, scene.anchors.size());
         all.emplace_back("anchor_time_s", 1);
     }
-    if (scene.uplift && scene.uplift->water.follows())
+    if (base_water_changes(scene))
         all.insert(all.end(), {{"water_largest_crack_m", 2},
                                {"water_pressures_Pa", 2},
                                {"water_reynolds_number", 1},
                                {"water_cracked_through_s", 1},
                                {"water_work_J_m", 1},
                                {"water_flow_J_m", 8}});
+    if (drains_shear_off(scene)) all.emplace_back("drain_path_m", 1);
     return all;
 }
 

@@ -3,7 +3,7 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/statistics.hpp"
-#include "probability/estimate/two_level.hpp"
+#include "probability/fit/interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,9 @@ public:
     LimitCounter(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit, std::size_t levels,
                  std::size_t replicates)
         : runs_(runs), limit_(limit), events_(events_of(plan.suite)), rule_(plan.input.probability.static_failure),
-          counts_(levels, replicates, events_.count, replicates * plan.outer)
+          counts_(levels, replicates, events_.count, replicates * plan.outer,
+                  plan.epistemic && !plan.whole_suite ? replicates * plan.inner : 0),
+          inner_(plan.inner)
     {
     }
     void add(std::size_t id, const FragilitySample& s, std::size_t level)
@@ -57,6 +59,8 @@ public:
         for (RunCount* c : {&counts_.all[level], &counts_.replicate[level][s.replicate],
                             &counts_.cluster[level][events_.of_record[s.record]], &counts_.outer[level][s.outer]})
             add_run(*c, answer, s.weight, rule_);
+        if (!counts_.inner[level].empty())
+            add_run(counts_.inner[level][s.replicate * inner_ + s.inner], answer, s.weight, rule_);
     }
     const LimitCounts& counts() const { return counts_; }
 
@@ -66,6 +70,7 @@ private:
     Events events_;
     StaticFailure rule_;
     LimitCounts counts_;
+    std::size_t inner_;
 };
 
 LimitCounts count_limit(const FragilityPlan& plan, const FragilityRuns& runs, const LimitInput& limit)
@@ -84,12 +89,43 @@ bool nothing_drawn(const FragilityPlan& plan)
     return plan.whole_suite && !plan.epistemic;
 }
 
-/// 95 % of a share by independent runs, or by replicates whose points hang together.
+/// Variance of a share by clusters whose runs hang together, sum (z - p n)^2 / (all n)^2 k / (k - 1): as of a ratio, clusters may differ in size.
+template <class Share>
+double cluster_variance(const std::vector<RunCount>& clusters, const RunCount& all, Share share)
+{
+    double sum = 0.0, k = 0.0;
+    for (const RunCount& c : clusters) {
+        sum += std::pow((share(c) - share(all)) * c.n, 2);
+        k += c.n > 0.0;
+    }
+    return k > 1.0 ? sum / (all.n * all.n) * k / (k - 1.0) : 0.0;
+}
+
+/// 95 % of a share whose runs share their epistemic draws (outer) and their inner draws, each with each: two-way clusters, V = V_outer + V_inner -
+/// p (1 - p) / n, not below either of both (Cameron, Gelbach & Miller 2011); degrees of freedom of Satterthwaite (1946).
+template <class Share>
+probability::Interval crossed_interval(const LimitCounts& counts, std::size_t level, double independent, Share share)
+{
+    const RunCount& all = counts.all[level];
+    const double p = std::clamp(share(all), 0.0, 1.0);
+    const double outer = cluster_variance(counts.outer[level], all, share),
+                 inner = cluster_variance(counts.inner[level], all, share);
+    const double variance = std::max({outer + inner - p * (1.0 - p) / all.n, outer, inner});
+    if (!(variance > 0.0)) return probability::wilson(p * independent, independent);
+    const auto part = [](double v, std::size_t k) { return k > 1 ? v * v / static_cast<double>(k - 1) : 0.0; };
+    const double degrees = std::pow(outer + inner, 2) /
+                           (part(outer, counts.outer[level].size()) + part(inner, counts.inner[level].size()));
+    return probability::wilson_of_estimate(p, std::sqrt(variance), all.n, degrees);
+}
+
+/// 95 % of a share by independent runs, by replicates whose points hang together, or by clusters of one replicate.
 /// @param share  of a count: low() or high()
 template <class Share>
-probability::Interval sampling_interval(const FragilityPlan& plan, const RunCount& all,
-                                        const std::vector<RunCount>& replicates, bool weighted, Share share)
+probability::Interval sampling_interval(const FragilityPlan& plan, const LimitCounts& counts, std::size_t level,
+                                        bool weighted, Share share)
 {
+    const RunCount& all = counts.all[level];
+    const std::vector<RunCount>& replicates = counts.replicate[level];
     const double p = std::clamp(share(all), 0.0, 1.0);
     if (all.n <= 0.0) return {};
     if (nothing_drawn(plan)) return {p, p};
@@ -97,8 +133,12 @@ probability::Interval sampling_interval(const FragilityPlan& plan, const RunCoun
     double sum = 0.0;
     const auto r = static_cast<double>(replicates.size());
     for (const RunCount& c : replicates) sum += (share(c) - p) * (share(c) - p);
+    // All runs of an epistemic draw hang together, and all of an inner draw: where they all agree, they say what the fewer of both say.
+    const std::size_t clusters = plan.whole_suite ? plan.outer : std::min(plan.outer, plan.inner);
+    const double n = plan.epistemic ? std::min(all.n, static_cast<double>(plan.replicates * clusters)) : all.n;
+    if (plan.epistemic && replicates.size() == 1 && !weighted) return crossed_interval(counts, level, n, share);
     if (independent || replicates.size() < 2 || p <= 0.0 || p >= 1.0 || sum == 0.0)
-        return probability::wilson(p * all.n, all.n);
+        return probability::wilson(p * n, n);
     return probability::wilson_of_estimate(p, std::sqrt(sum / (r * (r - 1.0))), all.n, r - 1.0);
 }
 
@@ -125,12 +165,8 @@ LevelEstimate estimate_level(const FragilityPlan& plan, const LimitCounts& count
     e.p_high = std::clamp(all.high(), 0.0, 1.0);
     e.p = 0.5 * (e.p_low + e.p_high);
     e.se = error_of_replicates(counts.replicate[level], all.middle());
-    e.sampling = {
-        sampling_interval(plan, all, counts.replicate[level], weighted, [](const RunCount& c) { return c.low(); })
-            .lower,
-        sampling_interval(plan, all, counts.replicate[level], weighted, [](const RunCount& c) {
-            return c.high();
-        }).upper};
+    e.sampling = {sampling_interval(plan, counts, level, weighted, [](const RunCount& c) { return c.low(); }).lower,
+                  sampling_interval(plan, counts, level, weighted, [](const RunCount& c) { return c.high(); }).upper};
     const std::vector<RunCount>& clusters = counts.cluster[level];
     const auto by_clusters = [&](auto share) {
         return probability::cluster_bootstrap(
@@ -219,16 +255,22 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
                   const probability::HazardCurve& hazard, std::optional<double> all_events)
 {
     LimitRate rate;
-    std::vector<double> x, p, low, high;
+    std::vector<double> x, p, low, high, p_lower, p_upper;
+    bool growing = true; // P over the levels, as far as the draws tell
+    double largest = 0.0;
     for (const LevelEstimate& level : limit.levels) {
         x.push_back(level.x);
         p.push_back(level.p);
         low.push_back(level.p_low);
         high.push_back(level.p_high);
+        p_lower.push_back(level.sampling.lower);
+        p_upper.push_back(level.sampling.upper);
+        growing = growing && level.sampling.upper >= largest;
+        largest = std::max(largest, level.sampling.lower);
     }
-    rate.raw = probability::annual_rate(hazard, x, p, all_events);
-    rate.raw_low = probability::annual_rate(hazard, x, low, all_events);
-    rate.raw_high = probability::annual_rate(hazard, x, high, all_events);
+    rate.raw = probability::annual_rate(hazard, x, p, all_events, growing);
+    rate.raw_low = probability::annual_rate(hazard, x, low, all_events, growing);
+    rate.raw_high = probability::annual_rate(hazard, x, high, all_events, growing);
     if (limit.fit.lognormal())
         rate.fitted = probability::annual_rate(hazard, limit.fit.curve.median, limit.fit.curve.beta, x.front(),
                                                x.back(), all_events);
@@ -238,7 +280,7 @@ LimitRate rate_of(const FragilityPlan& plan, const LimitEstimate& limit, const L
         return raw_rate(hazard, x, q);
     };
     const double whole = raw_rate(hazard, x, p);
-    rate.sampling = {whole, whole};
+    rate.sampling = {raw_rate(hazard, x, p_lower), raw_rate(hazard, x, p_upper)};
     if (plan.replicates > 1) {
         std::vector<double> parts;
         for (std::size_t r = 0; r < plan.replicates; ++r)
@@ -332,8 +374,7 @@ std::vector<CapacityBracket> capacity_brackets(const FragilityPlan& plan, const 
     std::vector<CapacityBracket> brackets;
     for (const auto& [key, curve] : curves) {
         std::vector<LimitAnswer> answers;
-        for (const auto& id : curve)
-            answers.push_back(id ? answer_to(limit, runs.rows[*id]) : LimitAnswer::missing);
+        for (const auto& id : curve) answers.push_back(id ? answer_to(limit, runs.rows[*id]) : LimitAnswer::missing);
         if (answers.front() == LimitAnswer::static_failure) continue; // no capacity of an earthquake
         CapacityBracket& bracket = brackets.emplace_back();
         const auto first = std::find(answers.begin(), answers.end(), LimitAnswer::fails);
@@ -394,8 +435,8 @@ FragilityEstimate estimate_fragility(const FragilityPlan& plan, const FragilityR
     for (const LimitInput& wanted : plan.input.limits) {
         LimitEstimate& limit = estimate.limits.emplace_back();
         limit.limit = wanted;
-        const LimitCounts counts = conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1)
-                                               : count_limit(plan, runs, wanted);
+        const LimitCounts counts =
+            conditioned ? counts_of(*conditioned, runs, estimate.limits.size() - 1) : count_limit(plan, runs, wanted);
         if (design == FragilityDesign::cloud) {
             fit_cloud_of(plan, runs, limit);
             for (const double x : plan.input.intensity.levels) {

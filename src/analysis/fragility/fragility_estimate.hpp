@@ -35,8 +35,9 @@ struct LevelEstimate {
     double p_low = 0.0, p_high = 0.0; ///< missing runs as survivals, as failures; equal where none is missing
     double p = 0.0;                   ///< midway
     double se = 0.0;                  ///< standard error of p by the draws, from the replicates; of one replicate 0
-    /// 95 %: error of the draws, the suite taken as the population. Of random draws Wilson's; of others from the replicates (Student's t);
-    /// from the lower end of p_low to the upper end of p_high.
+    /// 95 %: error of the draws, the suite taken as the population. Of random draws Wilson's; of others from the replicates (Student's t); of one
+    /// replicate with lack of knowledge by clusters, as its runs share their epistemic and their inner draws (Cameron, Gelbach & Miller 2011).
+    /// From the lower end of p_low to the upper end of p_high.
     probability::Interval sampling;
     probability::ClusterInterval records;             ///< 95 %, error of the records: clusters by event drawn anew
     std::optional<probability::EpistemicBands> bands; ///< of lack of knowledge; none: no such variable
@@ -48,9 +49,13 @@ struct LimitRate {
     std::optional<probability::AnnualRate> fitted; ///< of the lognormal curve; none: there is none, or it does not hold
     probability::AnnualRate raw;                   ///< of the stripes, P linear in ln x
     probability::AnnualRate raw_low, raw_high;     ///< the same with missing runs as survivals, as failures
-    probability::Interval sampling;       ///< 95 % of raw, from the replicates; of one replicate: both ends raw
+    /// 95 % of raw.lower, from the replicates; where they do not differ, or there is one: of all lower and of all upper ends of the P's intervals
+    probability::Interval sampling;
     probability::ClusterInterval records; ///< 95 % of raw, clusters by event
     std::vector<double> bands;            ///< of raw over the epistemic draws, at band_levels; empty: none
+    /// What the runs and the hazard curve leave open: from missing runs as survivals and P = 0 below the levels to missing runs as failures, P of the
+    /// lowest level below it and P = 1 above the highest. Every output takes the rate from here.
+    probability::Interval bounds() const { return {raw_low.lower, raw_high.upper}; }
 };
 
 struct LimitEstimate {

@@ -102,7 +102,8 @@ public:
         void put(std::size_t i, std::vector<double>& u) const
         {
             if (kind_->empty()) return;
-            const std::vector<double> dependent = kind_->copula_.dependent(points_.point(static_cast<std::uint32_t>(i)));
+            const std::vector<double> dependent =
+                kind_->copula_.dependent(points_.point(static_cast<std::uint32_t>(i)));
             for (std::size_t k = 0; k < dependent.size(); ++k) u[kind_->places_[k]] = dependent[k];
         }
 
@@ -115,8 +116,7 @@ public:
         std::vector<std::string> names;
         for (const std::size_t place : places_) names.push_back(input_.probability.variables[place].name);
         const auto sampling = empty() ? probability::Sampling::random : sampling_of(input_.probability.sampling);
-        return {*this,
-                {sampling, input_.probability.seed, names, static_cast<std::uint32_t>(n), replicate}};
+        return {*this, {sampling, input_.probability.seed, names, static_cast<std::uint32_t>(n), replicate}};
     }
 
 private:
@@ -201,7 +201,7 @@ struct ShakenWays {
 
 ShakenWays shaken_ways(const FragilityInput& input, const ShakingSuite& suite)
 {
-    const SuitePolarity wanted = input.suite ? input.suite->polarity : SuitePolarity::as_recorded;
+    const SuitePolarity wanted = input.suite.value_or(SuiteInput{}).polarity;
     ShakenWays ways;
     for (std::size_t r = 0; r < suite.pairs->size(); ++r)
         for (const int polarity : {1, -1}) {
@@ -232,7 +232,12 @@ void choose_sizes(FragilityPlan& plan, std::size_t ways, const FragilitySizes& s
                                       : up(sizes.samples, plan.replicates);
         return;
     }
-    plan.inner = plan.whole_suite ? ways : whole(given ? given : std::max<std::size_t>(16, ways));
+    // More samples are more draws of both kinds: few inner ones would bound what the interval can say, however many outer ones share them.
+    const double root = std::sqrt(static_cast<double>(up(sizes.samples, plan.replicates)));
+    plan.inner =
+        plan.whole_suite
+            ? ways
+            : whole(given ? given : std::max({std::size_t{16}, ways, static_cast<std::size_t>(std::ceil(root))}));
     plan.outer = whole(up(sizes.samples, plan.replicates * plan.inner));
 }
 
@@ -270,8 +275,8 @@ public:
           epistemic_(input_, VariableKind::epistemic, file), aleatory_(input_, VariableKind::aleatory, file),
           values_(input_, file, written)
     {
-        mean_weight_ = std::accumulate(ways_.weight.begin(), ways_.weight.end(), 0.0) /
-                       static_cast<double>(ways_.weight.size());
+        mean_weight_ =
+            std::accumulate(ways_.weight.begin(), ways_.weight.end(), 0.0) / static_cast<double>(ways_.weight.size());
         const bool replaced = input_.suite && input_.suite->draw == SuiteDraw::with_replacement;
         const auto order = replaced ? probability::RecordOrder::with_replacement : probability::RecordOrder::balanced;
         const std::size_t first = std::size_t{stream} * (1u << 24);
@@ -284,8 +289,7 @@ public:
             inner_points_.push_back(aleatory_.points(inner_, number));
             const probability::RecordDraw records(order, input_.probability.seed, ways_.weight, number);
             for (std::size_t i = 0; i < inner_; ++i)
-                way_.push_back(
-                    static_cast<std::uint32_t>(whole_suite_ ? i : records(static_cast<std::uint32_t>(i))));
+                way_.push_back(static_cast<std::uint32_t>(whole_suite_ ? i : records(static_cast<std::uint32_t>(i))));
         }
     }
     DrawnPlan(const DrawnPlan&) = delete; // its parts point to one another
@@ -347,7 +351,7 @@ private:
     KindOfVariables epistemic_, aleatory_;
     ValuesOfDraw values_;
     std::vector<KindOfVariables::Points> outer_points_, inner_points_; ///< of each replicate; of each inner set
-    std::vector<std::uint32_t> way_; ///< of each inner draw of each inner set
+    std::vector<std::uint32_t> way_;                                   ///< of each inner draw of each inner set
 };
 
 } // namespace

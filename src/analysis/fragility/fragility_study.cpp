@@ -1,11 +1,12 @@
 #include "analysis/fragility/fragility_study.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
+#include "analysis/fragility/hazard_file.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "core/units.hpp"
 #include "core/usage_error.hpp"
 #include "scene/effect_plan.hpp"
+#include "scene/plausible.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace damslip {
 
 namespace {
 
-constexpr std::uint32_t cheap_stream = 1, pilot_stream = 2; // of FragilitySizes: draws of their own
+constexpr std::uint32_t pilot_stream = 2; // of FragilitySizes: draws of their own
 
 const SweepMethod& method_of_fragility(const std::string& given, const Records& records, const Scene& scene)
 {
@@ -58,26 +59,20 @@ void check_limits(const FragilityInput& input, const SweepMethod& method, const 
     }
 }
 
-/// The hazard curve in SI. @throws InputError for one of another measure, or that no level lies within
-probability::HazardCurve hazard_of(const FragilityInput& input)
+/// The hazard curve, what was said of it added to the notes. @throws InputError for one of another measure, or that no level lies within
+probability::HazardCurve hazard_of(const FragilityInput& input, const Scene& scene, std::vector<std::string>& notes)
 {
-    const double unit = input.intensity.level_unit;
-    const probability::HazardFile file = probability::read_hazard_curve(input.hazard->curve);
-    if (!file.measure.empty() && file.measure != input.intensity.text)
-        throw InputError(Diagnostic{
-            input.hazard->curve.string(), 0, 0,
-            fmt::format("the hazard curve is of {}, the levels are of {}.", file.measure, input.intensity.text),
-            "one measure for both", "change intensity.measure, or take the curve of that measure"});
-    const bool exported = file.investigation_time > 0.0; // OpenQuake's units
-    const bool velocity = input.intensity.measure == IntensityMeasure::pgv;
-    const double factor = !exported ? unit : velocity ? units::cm : units::standard_gravity;
-    std::vector<double> x = file.curve.x();
-    for (double& at : x) at *= factor;
-    const std::vector<double>& levels = input.intensity.levels;
+    const IntensityInput& of = input.intensity;
+    HazardWish wish{
+        {of.measure, of.first_period, of.periods}, 0.0, of.level_unit, of.level_unit_text, input.hazard->site};
+    if (of.first_period) wish.first_period = first_period_of(scene);
+    HazardFile file = read_hazard_file(input.hazard->curve, wish);
+    notes.insert(notes.end(), file.notes.begin(), file.notes.end());
+    const std::vector<double>&x = file.curve.x(), &levels = of.levels;
     const bool apart = !levels.empty() && (levels.back() < x.front() || levels.front() > x.back());
-    if (apart && input.intensity.design != FragilityDesign::cloud) {
+    if (apart && of.design != FragilityDesign::cloud) {
         const auto range = [&](double from, double to) {
-            return fmt::format("{:g} to {:g} {}", from / unit, to / unit, input.intensity.level_unit_text);
+            return fmt::format("{:g} to {:g} {}", from / of.level_unit, to / of.level_unit, of.level_unit_text);
         };
         throw InputError(
             Diagnostic{input.hazard->curve.string(), 0, 0,
@@ -86,40 +81,7 @@ probability::HazardCurve hazard_of(const FragilityInput& input)
                        "levels within the hazard curve, at least in part",
                        "change the levels of [intensity], or take a curve that reaches them"});
     }
-    return {std::move(x), file.curve.rate()};
-}
-
-/// Rigid runs beside the finite elements, and the estimate of both.
-TwoLevelFragility two_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
-                             const FragilityExtras& extras, Watch& watch)
-{
-    const FragilityRuns beside =
-        run_fragility(plan, study.text, study.rigid(), wanted_samples(plan), nullptr, extras.jobs, watch);
-    const FragilityPlan others = study.plan(extras.cheap_samples, cheap_stream);
-    const FragilityRuns cheap =
-        run_fragility(others, study.text, study.rigid(), wanted_samples(others), nullptr, extras.jobs, watch);
-    return estimate_two_level(plan, dear, beside, others, cheap);
-}
-
-/// Multifidelity Monte Carlo with few modes between finite elements and block where the scene allows them.
-MfmcFragility many_models(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& dear,
-                          const FragilityExtras& extras, Watch& watch)
-{
-    constexpr std::size_t least_pilot = 24;
-    MfmcOptions options;
-    options.dear = study.method.id;
-    try {
-        if (!study.method.reduced)
-            options.cheap.push_back(method_of_fragility("fe-reduced", study.suite.pairs, study.scene).id);
-    } catch (const InputError&) { // few modes cannot run it: two models are left
-    }
-    options.cheap.push_back(study.rigid().id);
-    options.pilot = std::max(least_pilot, plan.samples.size() / plan.levels / 10);
-    options.most_cheap = static_cast<std::size_t>(extras.cheap_samples);
-    options.jobs = extras.jobs;
-    return run_mfmc(
-        plan, dear, [&](std::size_t samples, std::uint32_t stream) { return study.plan(samples, stream); }, study.text,
-        options, watch);
+    return std::move(file.curve);
 }
 
 /// The limit's level with P nearest to 0.1.
@@ -157,16 +119,13 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
     check_limits(input, of, text.file());
     const NumberInFile written = [text](const std::string& key) { return text.written(key); };
     std::optional<probability::HazardCurve> hazard;
-    if (input.hazard) hazard = hazard_of(input);
+    if (input.hazard) hazard = hazard_of(input, scene, suite.notes);
     return {std::move(text), std::move(scene), std::move(input), std::move(suite), of, written, std::move(hazard)};
 }
 
 void allow_any_scaling(FragilityInput& input)
 {
-    if (!input.suite) {
-        input.suite.emplace();
-        input.suite->polarity = SuitePolarity::as_recorded;
-    }
+    if (!input.suite) input.suite.emplace();
     input.suite->allow_scaling = true;
 }
 
@@ -237,14 +196,12 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
                                          input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
     answer.conditioned = conditioned;
     answer.notes = study.suite.notes;
+    for (std::string& note : note_texts(not_honoured(study.text.scene(), methods_of({study.method}))))
+        answer.notes.push_back(std::move(note));
     if (conditioned) answer.notes.insert(answer.notes.end(), conditioned->notes.begin(), conditioned->notes.end());
     if (runs.complete()) {
         capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);
         const bool cloud = input.intensity.design == FragilityDesign::cloud;
-        const bool two_kinds = !conditioned && study.finite_elements() && extras.cheap_samples > 0 && !cloud;
-        if (two_kinds && extras.multi_fidelity == "two-level")
-            answer.two_level = two_models(study, plan, runs, extras, watch);
-        if (two_kinds && extras.multi_fidelity == "mfmc") answer.mfmc = many_models(study, plan, runs, extras, watch);
         if (!conditioned && !cloud)
             for (const LimitEstimate& limit : answer.estimate.limits)
                 for (IntervalPoint& point : own_prefixes(plan, runs, limit.limit, level_near_a_tenth(limit)))

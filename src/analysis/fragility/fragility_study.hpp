@@ -3,8 +3,6 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/interval_cost.hpp"
-#include "analysis/fragility/mfmc_runs.hpp"
-#include "analysis/fragility/two_level_runs.hpp"
 
 namespace damslip {
 
@@ -64,18 +62,13 @@ std::optional<ConditionedPlan> condition_on_friction(const FragilityStudy& study
 
 /// What is computed beside the runs.
 struct FragilityExtras {
-    std::size_t cheap_samples =
-        2048;               ///< of finite elements: further runs of the rigid block per level; 0: finite elements alone
     std::size_t rows = 128; ///< of each sample of the shares; 0: none
     int jobs = 0;           ///< threads; 0: all cores
-    std::string multi_fidelity = "two-level"; ///< of finite elements: "two-level", "mfmc", "none"
 };
 
 /// What the runs say.
 struct FragilityAnswer {
     FragilityEstimate estimate;
-    std::optional<TwoLevelFragility> two_level;
-    std::optional<MfmcFragility> mfmc;
     std::optional<FragilityCauses> causes;
     const ConditionedPlan* conditioned = nullptr; ///< as given; nullptr: friction is drawn
     std::vector<IntervalPoint> own_cost; ///< intervals of the run's own first draws at the level with P nearest to 0.1
@@ -84,7 +77,7 @@ struct FragilityAnswer {
     bool answered = true; ///< false: more than 5 % of the runs of a limit have no answer
 };
 
-/// Probabilities and rates, the rigid block beside finite elements, what P comes from. Of runs that are not complete, the estimate alone:
+/// Probabilities and rates, and what P comes from. Of runs that are not complete, the estimate alone:
 /// what was not run counts as missing.
 FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
                                  const FragilityExtras& extras, Watch& watch,

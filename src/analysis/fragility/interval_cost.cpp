@@ -1,7 +1,6 @@
 #include "analysis/fragility/interval_cost.hpp"
 
-#include "analysis/fragility/mfmc_runs.hpp"
-#include "analysis/fragility/two_level_runs.hpp"
+#include "analysis/fragility/fragility_estimate.hpp"
 #include "core/input_error.hpp"
 
 #include <algorithm>
@@ -95,10 +94,6 @@ public:
         for (const auto& [sampling, name] :
              {std::pair{SamplingInput::latin_hypercube, "Latin hypercube"}, {SamplingInput::sobol, "Sobol'"}})
             for (const std::size_t n : sizes()) points_.push_back(replicated(sampling, name, n));
-        if (options_.method != options_.cheap) {
-            for (const std::size_t n : sizes()) points_.push_back(two_models(n));
-            for (const std::size_t n : sizes()) points_.push_back(multifidelity(n));
-        }
         compare_with_plain(points_);
         return std::move(points_);
     }
@@ -168,16 +163,16 @@ private:
             wanted.pop_back();
         }
         if (!wanted.empty()) {
-            dear_plan_ = plan_of(SamplingInput::random, wanted.back(), 0);
-            dear_ = run(dear_plan_, options_.method);
-            if (dear_.complete()) per_run_ = dear_.seconds / static_cast<double>(dear_plan_.samples.size());
+            const FragilityPlan longest = plan_of(SamplingInput::random, wanted.back(), 0);
+            const FragilityRuns runs = run(longest, options_.method);
+            if (runs.complete()) per_run_ = runs.seconds / static_cast<double>(longest.samples.size());
             for (const std::size_t n : wanted) {
-                if (options_.method == options_.cheap && n < wanted.back()) { // cheap enough to be run by itself
+                if (options_.method == options_.rigid && n < wanted.back()) { // cheap enough to be run by itself
                     points_.push_back(replicated(SamplingInput::random, "plain", n));
                     continue;
                 }
-                IntervalPoint point = point_of(first_runs(dear_plan_, dear_, n), "plain");
-                if (!dear_.complete()) point.remark = "interrupted";
+                IntervalPoint point = point_of(first_runs(longest, runs, n), "plain");
+                if (!runs.complete()) point.remark = "interrupted";
                 points_.push_back(std::move(point));
             }
         }
@@ -195,68 +190,6 @@ private:
                                      [](const FragilitySample&, std::size_t) { return true; }),
                         name);
     }
-    /// The dear runs are those of plain Monte Carlo: none where that was not run so far.
-    std::optional<PartOfRuns> dear_part(std::size_t n, IntervalPoint& point)
-    {
-        point.runs = n;
-        if (dear_plan_.samples.size() < n || !dear_.complete()) {
-            point.remark = "left out, as plain Monte Carlo of so many runs";
-            return std::nullopt;
-        }
-        return first_runs(dear_plan_, dear_, n);
-    }
-    IntervalPoint two_models(std::size_t n)
-    {
-        IntervalPoint point;
-        point.estimator = "two models";
-        const std::optional<PartOfRuns> dear = stopped(point) ? std::nullopt : dear_part(n, point);
-        if (!dear) return point;
-        const FragilityRuns beside = run(dear->plan, options_.cheap);
-        // A fifth of the time goes into the block: fixed before any answer is known.
-        const double ratio = beside.seconds > 0.0 ? dear->runs.seconds / beside.seconds : 4.0;
-        const auto further =
-            static_cast<std::size_t>(std::min(20'000.0, static_cast<double>(n) * std::clamp(0.2 * ratio, 4.0, 1000.0)));
-        const FragilityPlan others = plan_of(SamplingInput::random, further, 1);
-        const FragilityRuns cheap = run(others, options_.cheap);
-        if (stopped(point)) return point;
-        const TwoLevelAtLevel at =
-            estimate_two_level(dear->plan, dear->runs, beside, others, cheap).limits.front().levels.front();
-        point.cheap = beside.rows.size() + cheap.rows.size();
-        point.seconds = dear->runs.seconds + beside.seconds + cheap.seconds;
-        point.remark = at.used ? "" : at.why_not;
-        point.p = 0.5 * (at.low.printed + at.high.printed);
-        point.interval = {at.low.interval.lower, at.high.interval.upper};
-        return point;
-    }
-    IntervalPoint multifidelity(std::size_t n)
-    {
-        IntervalPoint point;
-        point.estimator = "MFMC";
-        const std::optional<PartOfRuns> dear = stopped(point) ? std::nullopt : dear_part(n, point);
-        const std::size_t pilot = std::max<std::size_t>(24, n / 10);
-        if (!dear || too_dear(pilot, point)) return point;
-        point.runs = n;
-        MfmcOptions mfmc;
-        mfmc.dear = options_.method;
-        mfmc.cheap = options_.middle;
-        mfmc.cheap.push_back(options_.cheap);
-        mfmc.pilot = pilot;
-        mfmc.jobs = options_.jobs;
-        const MfmcFragility result = run_mfmc(
-            dear->plan, dear->runs,
-            [&](std::size_t samples, std::uint32_t stream) { return plan_of(SamplingInput::random, samples, stream); },
-            text_, mfmc, watch_);
-        spent_ += result.seconds;
-        if (stopped(point)) return point;
-        const MfmcAtLevel& at = result.limits.front().levels.front();
-        point.seconds = dear->runs.seconds + result.seconds;
-        point.cheap = result.pilot;
-        for (std::size_t j = 1; j < at.models.size(); ++j) point.cheap += at.models[j].runs;
-        point.remark = at.used ? "" : at.why_not;
-        point.p = 0.5 * (at.low.printed + at.high.printed);
-        point.interval = {at.low.interval.lower, at.high.interval.upper};
-        return point;
-    }
 
     FragilityInput input_;
     const ShakingSuite& suite_;
@@ -264,9 +197,7 @@ private:
     const NumberInFile& written_;
     const IntervalCostOptions& options_;
     Watch& watch_;
-    double spent_ = 0.0, per_run_ = 0.0; ///< processor time so far; of a dear run
-    FragilityPlan dear_plan_;
-    FragilityRuns dear_;
+    double spent_ = 0.0, per_run_ = 0.0; ///< processor time so far; of a run
     std::vector<IntervalPoint> points_, left_out_;
 };
 
@@ -281,7 +212,7 @@ double level_near_a_tenth(const FragilityInput& input, const ShakingSuite& suite
     random.probability.replicates = 1;
     const FragilityPlan plan = plan_fragility(random, suite, {draws, 6}, text.file(), written);
     const FragilityRuns runs =
-        run_fragility(plan, text, sweep_method(options.cheap), wanted_samples(plan), nullptr, options.jobs, watch);
+        run_fragility(plan, text, sweep_method(options.rigid), wanted_samples(plan), nullptr, options.jobs, watch);
     const FragilityEstimate estimate = estimate_fragility(plan, runs, nullptr, {});
     const std::vector<LevelEstimate>& levels = estimate.limits.front().levels;
     const auto nearest =

@@ -11,9 +11,8 @@ namespace damslip {
 
 /// One estimate.
 struct IntervalPoint {
-    std::string estimator;          ///< "plain", "Latin hypercube", "Sobol'", "two models", "MFMC"
+    std::string estimator;          ///< "plain", "Latin hypercube", "Sobol'"
     std::size_t runs = 0;           ///< of the model whose P is asked for
-    std::size_t cheap = 0;          ///< of all cheaper ones; of a pilot the dear runs, too
     double seconds = 0.0;           ///< processor time of all of it [s]
     double p = 0.0;                 ///< P(D > d)
     probability::Interval interval; ///< 95 %, error of the draws, the suite taken as the population
@@ -31,11 +30,10 @@ struct IntervalCost {
 };
 
 struct IntervalCostOptions {
-    std::string method;              ///< whose P is asked for
-    std::string cheap;               ///< "rigid-v": the block of two models; MFMC
-    std::vector<std::string> middle; ///< between both, of MFMC: "fe-reduced"; none: MFMC has two models
-    std::optional<double> level;     ///< [SI]; none: where P is nearest to 0.1 by the rigid block
-    std::size_t runs = 4096;         ///< of the largest estimate; a quarter, a sixteenth ... of it before
+    std::string method;          ///< whose P is asked for
+    std::string rigid;           ///< "rigid-v": the block that finds the level where none is given
+    std::optional<double> level; ///< [SI]; none: where P is nearest to 0.1 by the rigid block
+    std::size_t runs = 4096;     ///< of the largest estimate; a quarter, a sixteenth ... of it before
     std::size_t sizes = 4;
     std::size_t step = 4;        ///< ratio of neighbouring sizes
     std::size_t replicates = 16; ///< of Latin hypercubes and Sobol' points
@@ -44,8 +42,7 @@ struct IntervalCostOptions {
 };
 
 /// Estimators side by side. All variables are drawn as if they varied from earthquake to earthquake (aleatory): the mean of P is the same. Each
-/// estimate is run by itself, but for prefixes of plain Monte Carlo with a dear model, which take their share of the longest one's time, and for the dear runs of the
-/// two-model estimates, which are those of plain Monte Carlo and are paid again.
+/// estimate is run by itself, but for prefixes of plain Monte Carlo with finite elements, which take their share of the longest one's time.
 /// @throws InputError where nothing is drawn, for a level that records reach only by a factor beyond suite.max_scale
 IntervalCost interval_cost(const FragilityInput& input, const ShakingSuite& suite, const SceneText& text,
                            const NumberInFile& written, const IntervalCostOptions& options, Watch& watch);

@@ -19,13 +19,15 @@ struct RunCount {
     double middle() const { return 0.5 * (low() + high()); }
 };
 
-/// Counts of one limit: by level and then by replicate, event and epistemic draw.
+/// Counts of one limit: by level and then by replicate, event, epistemic draw, and inner draw (which all epistemic draws of a replicate share).
 struct LimitCounts {
     std::vector<RunCount> all;
-    std::vector<std::vector<RunCount>> replicate, cluster, outer;
-    LimitCounts(std::size_t levels, std::size_t replicates, std::size_t clusters, std::size_t outers)
+    std::vector<std::vector<RunCount>> replicate, cluster, outer, inner;
+    LimitCounts(std::size_t levels, std::size_t replicates, std::size_t clusters, std::size_t outers,
+                std::size_t inners = 0)
         : all(levels), replicate(levels, std::vector<RunCount>(replicates)),
-          cluster(levels, std::vector<RunCount>(clusters)), outer(levels, std::vector<RunCount>(outers))
+          cluster(levels, std::vector<RunCount>(clusters)), outer(levels, std::vector<RunCount>(outers)),
+          inner(levels, std::vector<RunCount>(inners))
     {
     }
 };

@@ -124,7 +124,7 @@ ModesResult compute_modes(const Ready& ready, const ModesOptions& options)
         m.modes = as_natural_modes(*m.coupled, m.leading);
         total_mass = m.coupled->total_mass.x();
     } else {
-        m.modes = fe2d::natural_modes(m.model, options.count);
+        m.modes = fe2d::natural_modes(m.model, options.count.value_or(usual_modes));
     }
     m.damping = damping_of_modes(m.scene, total_mass, m.modes, ready.records());
     if (options.transfer) find_transfer(ready, m);

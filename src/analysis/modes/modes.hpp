@@ -27,7 +27,7 @@ struct DampingOfModes {
 /// Modes of dam and massless rock on a tied base, with added mass or with acoustic water.
 struct ModesResult {
     Scene scene;   ///< as the plan calls for it, reservoir.model and added_mass.period decided
-    int count = 0; ///< modes asked for
+    std::optional<int> count; ///< modes asked for; none: ten, with acoustic water all up to coupled_modes_to
     std::optional<ReservoirChoice> choice;
     std::optional<DamPeriod> period;
     fe2d::Model model;
@@ -43,10 +43,11 @@ struct ModesResult {
 };
 
 inline constexpr double coupled_modes_to = 20.0; ///< [Hz]
+inline constexpr int usual_modes = 10;           ///< without acoustic water, where no number is asked for
 
 struct ModesOptions {
-    int count = 10;        ///< modes; with acoustic water all up to coupled_modes_to
-    bool transfer = false; ///< transfer functions, too
+    std::optional<int> count = {}; ///< modes; none: ten, with acoustic water all up to coupled_modes_to
+    bool transfer = false;         ///< transfer functions, too
 };
 
 /// The leading coupled modes as modes of a structure, for what knows no water; without shapes.

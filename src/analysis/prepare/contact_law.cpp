@@ -28,7 +28,7 @@ std::optional<std::string> base_note(const Scene& scene)
 {
     switch (rock_kind(scene)) {
     case RockKind::rigid:
-        return "rigid base: no wave leaves; an elastic dam may walk on it by itself";
+        return "rigid base: no radiation damping; an elastic dam may slide on it without end";
     case RockKind::massless:
         return fmt::format(
             "massless rock keeps all waves: slips come out too large, often by half and more;  damslip fe "

@@ -49,7 +49,7 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
                         "delete sequence in [motion]");
     if (scene.contact.restitution > 0.0)
         return not_with(fmt::format("contact.restitution = {:g}", scene.contact.restitution),
-                        "restitution = 0, landings of a reduced run come to rest", "delete restitution");
+                        "restitution = 0, impacts of a reduced run come to rest", "delete restitution");
     if (!scene.lift_joints.empty())
         return not_with(fmt::format("{} [[lift_joint]]", scene.lift_joints.size()),
                         "no [[lift_joint]], the modes are those of a dam of one piece", "delete the [[lift_joint]]");

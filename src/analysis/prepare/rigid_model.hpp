@@ -35,6 +35,9 @@ struct RigidModel {
     /// The static state between the records of a sequence (uplift.after); null: none
     std::shared_ptr<const sliding::RestBetweenEvents> rests;
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
+
+    /// Why it is not at rest before the earthquake: "friction 0.5 is below the 0.645 that would hold it".
+    std::string why_it_fails() const;
 };
 
 /// What the rigid block of a scene stands on whatever its friction: found once, for all frictions and from any thread.

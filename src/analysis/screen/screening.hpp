@@ -18,11 +18,11 @@
 /// What `screen` computes, as data; pages/screen shows it.
 namespace damslip {
 
-/// The base with its uplift, once as the scene says and once with a crack where none was asked for.
+/// The base with its uplift: as the scene gives it, and a second time with a crack where the scene asks for none.
 struct BaseRow {
     std::string base; ///< "as given", "cracked base"
     RigidModel model;
-    sliding::BaseLimits limits = {}; ///< how far the sliding block is the dam; none of a wedge
+    sliding::BaseLimits limits = {}; ///< accelerations up to which the sliding block stands for the dam; empty for a wedge
 };
 
 /// Slip of a block that is flexible, by the analyses the scene asks for; with the vertical component where the record has one.
@@ -53,7 +53,8 @@ struct SlipRow {
         rocking; ///< free to rock, too; where the sliding block does not hold, or on request
 
     std::vector<std::string> broken_premises =
-        {}; ///< why the slip is none of a dam in this motion: no PASS rests on it
+        {}; ///< why the sliding block does not hold for the dam in this motion: no PASS rests on it
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on it either
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
@@ -140,9 +141,13 @@ StatusCount statuses_of(const Screening& screening);
 /// When the block that rocks and slides is run beside the sliding one.
 enum class RockingRuns { where_sliding_does_not_hold, always };
 
+/// Is the block that vibrates run beside the rigid one?
+enum class FlexibleRuns { as_the_scene_says, none };
+
 /// @param ready  for the rigid block @param jobs  threads, 0: all cores
 Screening run_screening(const Ready& ready, int jobs = 0,
-                        RockingRuns rocking = RockingRuns::where_sliding_does_not_hold);
+                        RockingRuns rocking = RockingRuns::where_sliding_does_not_hold,
+                        FlexibleRuns flexible = FlexibleRuns::as_the_scene_says);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.
 bool overturns(const BaseRow& base);

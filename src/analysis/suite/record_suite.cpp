@@ -1,7 +1,9 @@
 #include "analysis/suite/record_suite.hpp"
 
+#include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
@@ -33,9 +35,9 @@ std::string listed_path(const std::filesystem::path& file, const std::filesystem
 {
     const std::filesystem::path folder = std::filesystem::absolute(list).parent_path();
     const std::string path = std::filesystem::absolute(file).lexically_normal().lexically_relative(folder).string();
-    if (path.find_first_of(",\n\r\"") != std::string::npos)
-        refuse(file, "a list cannot hold this path.", "a path without commas and quotes", "rename the file");
-    return path;
+    if (visible(path, LineEnds::replaced) != path)
+        refuse(file, "a list cannot hold this path.", "a path without control characters", "rename the file");
+    return csv_cell(path);
 }
 
 } // namespace
@@ -103,25 +105,33 @@ MatchedMember match_member(const RecordSuite& suite, const records::ChosenRecord
 SuiteLine line_of(const RecordList& list, std::size_t record, double factor)
 {
     const RecordFiles& files = list.records[record];
-    return {files.horizontal,    files.vertical,       files.other_horizontal,
-            list.events[record], list.weights[record], files.scale * factor};
+    const auto cell = [](const std::string& column) {
+        return column.substr(0, column.find(','));
+    }; // its first word is enough
+    return {files.horizontal,     files.vertical,       files.other_horizontal, list.events[record],
+            list.weights[record], files.scale * factor, cell(files.column),     cell(files.vertical_column)};
 }
 
 std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::filesystem::path& file,
                             const std::vector<std::string>& comments)
 {
     std::string text;
-    for (const std::string& comment : comments) text += "# " + comment + "\n";
+    for (const std::string& comment : comments) text += "# " + visible(comment, LineEnds::replaced) + "\n";
     const bool others =
         std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) { return line.other_horizontal; });
+    const bool columns = std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) {
+        return !line.column.empty() || !line.vertical_column.empty();
+    });
     const auto path = [&file](const std::optional<std::filesystem::path>& of) {
         return of ? listed_path(*of, file) : std::string();
     };
-    text += fmt::format("horizontal,vertical,{}event,weight,scale\n", others ? "other_horizontal," : "");
+    text += fmt::format("horizontal,vertical,{}{}event,weight,scale\n", others ? "other_horizontal," : "",
+                        columns ? "column,vertical_column," : "");
     for (const SuiteLine& line : lines)
-        text += fmt::format("{},{},{}{},{},{}\n", path(line.horizontal), path(line.vertical),
-                            others ? path(line.other_horizontal) + "," : "", line.event, shortest(line.weight),
-                            shortest(line.scale));
+        text += fmt::format("{},{},{}{}{},{},{}\n", path(line.horizontal), path(line.vertical),
+                            others ? path(line.other_horizontal) + "," : "",
+                            columns ? csv_cell(line.column) + "," + csv_cell(line.vertical_column) + "," : "", csv_cell(line.event),
+                            shortest(line.weight), shortest(line.scale));
     return text;
 }
 

@@ -41,12 +41,13 @@ sliding::SlideResult slide(const Scene& scene, const Grid& grid, const GridIndex
     return slide_model(scene, grid.model(at), motion, polarity, output);
 }
 
-/// Slip after each event of a sequence, and the anchors; of a row that has a slip.
+/// Slip after each event of a sequence as far as it has one, and the anchors of a row that has a slip.
 void add_events_and_anchors(const std::vector<EventSlip>& events, const std::vector<AnchorOutcome>& anchors,
                             RowResults& results)
 {
+    for (const EventSlip& event : events)
+        if (reported(event.status, event.slip)) results.event_slips.push_back(event.slip);
     if (!results.slip) return;
-    for (const EventSlip& event : events) results.event_slips.push_back(event.slip);
     for (const AnchorOutcome& anchor : anchors)
         results.anchors.push_back({anchor.name, anchor.history.largest_force, anchor_end(anchor.history)});
 }
@@ -56,6 +57,7 @@ void fill(const sliding::SlideResult& r, RowResults& results)
     results.slip = reported(r.status, r.slip);
     results.max_slip = reported(r.status, r.max_slip);
     results.upstream_slip = reported(r.status, r.upstream_slip);
+    if (r.slip_error > 0.0) results.slip_error = reported(r.status, r.slip_error);
     results.status = word(r.status);
     add_events_and_anchors(r.events, r.anchors, results);
 }

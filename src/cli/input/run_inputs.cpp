@@ -32,14 +32,11 @@ std::vector<RecordFiles> command_line_records(const RunInputs& inputs)
     for (std::size_t i = 0; i < inputs.records.size(); ++i) {
         RecordFiles f;
         f.name = inputs.records[i].stem().string();
-        const auto taken = std::count_if(files.begin(), files.end(), [&](const RecordFiles& o) {
-            return o.horizontal.stem() == inputs.records[i].stem();
-        });
-        if (taken > 0) f.name += fmt::format(" ({})", taken + 1);
         f.horizontal = inputs.records[i];
         if (!inputs.verticals.empty() && inputs.verticals[i] != no_vertical) f.vertical = inputs.verticals[i];
         files.push_back(std::move(f));
     }
+    number_names(files);
     return files;
 }
 
@@ -64,7 +61,7 @@ Scene scene_as_written(const RunInputs& inputs)
 /// Those of --records, said one by one: what was paired with what is not to be guessed.
 void put_record_list(const RunInputs& inputs, Scene& scene, std::vector<Diagnostic>& notes)
 {
-    RecordList list = record_list(inputs.record_list);
+    RecordList list = record_list(inputs.record_list, inputs.column.empty());
     if (list.records.empty())
         refuse_usage(fmt::format("--records {}: there is no record.", inputs.record_list),
                      "a folder, a pattern in quotes, or a CSV with the column horizontal",

@@ -1,5 +1,6 @@
 #include "cli/terminal/interrupt.hpp"
 
+#include "core/file.hpp"
 #include "core/status.hpp"
 
 #include <atomic>
@@ -26,9 +27,17 @@ void print(int descriptor, const std::string& text)
     }
 }
 
+void ring(suseconds_t microseconds)
+{
+    const itimerval once{{0, 0}, {0, microseconds}};
+    ::setitimer(ITIMER_REAL, &once, nullptr);
+}
+
 extern "C" void end_the_deaf(int)
 {
     if (asked || at_hand) return;
+    constexpr suseconds_t soon = 20'000;
+    if (Temporary::any()) return ring(soon); // what it owns on the disk goes first
     print(STDERR_FILENO, farewell_talk);
     print(STDOUT_FILENO, farewell_out);
     ::_exit(exit_no_answer);
@@ -38,9 +47,7 @@ extern "C" void mark_interrupt(int signal)
 {
     signal_seen = true;
     std::signal(signal, SIG_DFL);
-    constexpr auto microseconds = static_cast<suseconds_t>(1e6 * InterruptGuard::longest_silence);
-    const itimerval once{{0, 0}, {0, microseconds}};
-    ::setitimer(ITIMER_REAL, &once, nullptr);
+    ring(static_cast<suseconds_t>(1e6 * InterruptGuard::longest_silence));
 }
 
 void handle(int signal, void (*handler)(int))

@@ -1,10 +1,8 @@
 #include "cli/terminal/visible_stream.hpp"
 
-#include "pages/report/escape.hpp"
+#include "core/text.hpp"
 
 namespace damslip::cli {
-
-using namespace pages;
 
 VisibleStream::VisibleStream(std::ostream& sink) : std::ostream(nullptr), buffer_(sink)
 {
@@ -13,7 +11,7 @@ VisibleStream::VisibleStream(std::ostream& sink) : std::ostream(nullptr), buffer
 
 bool VisibleStream::Buffer::put(std::string_view text)
 {
-    sink_ << pages::visible(text, pages::LineEnds::kept);
+    sink_ << visible(text, LineEnds::kept);
     return sink_.good();
 }
 
@@ -26,8 +24,9 @@ VisibleStream::Buffer::int_type VisibleStream::Buffer::overflow(int_type c)
 
 std::streamsize VisibleStream::Buffer::xsputn(const char* text, std::streamsize count)
 {
+    used_ = used_ || count > 0;
     const std::string whole = unfinished_ + std::string(text, static_cast<std::size_t>(count));
-    const std::size_t kept = pages::unfinished_bytes(whole);
+    const std::size_t kept = unfinished_bytes(whole);
     unfinished_ = whole.substr(whole.size() - kept);
     return put(std::string_view(whole).substr(0, whole.size() - kept)) ? count : 0;
 }

@@ -47,9 +47,9 @@ Chart convergence_chart(const AccuracyReportInput& in, const std::string& title,
 Chart cost_chart(const AccuracyReportInput& in)
 {
     Chart chart;
-    chart.title = "The same to zoom into: deviation of every rung over its time";
-    chart.x = {"time of this rung alone", "s", Scale::log};
-    chart.y = {"deviation from the finest rung", "%", Scale::log};
+    chart.title = "The same to zoom into: deviation of every model level over its time";
+    chart.x = {"time of this model level alone", "s", Scale::log};
+    chart.y = {"deviation from the finest model level", "%", Scale::log};
     chart.horizontal.push_back({100.0 * in.tolerance, fmt::format("tolerance {:.3g} %", 100.0 * in.tolerance)});
     for (const RungKind kind : {RungKind::regression, RungKind::rigid, RungKind::reduced, RungKind::finite_elements,
                                 RungKind::variant, RungKind::acoustic, RungKind::quadratic, RungKind::other_rock}) {
@@ -88,7 +88,7 @@ Headline headline(const AccuracyReportInput& in)
     const std::string sentence = choice_sentence(in.results, in.judgement, in.tolerance);
     if (all_fail_statically(in.results)) return {sentence, Outcome::fail, "FAIL"};
     if (in.judgement.choice) return {sentence, Outcome::none, ""};
-    return {sentence, Outcome::unresolved, "No rung within the tolerance."};
+    return {sentence, Outcome::unresolved, "No model level within the tolerance."};
 }
 
 std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyReportInput& in)
@@ -97,12 +97,12 @@ std::vector<std::pair<std::string, std::string>> key_figures(const AccuracyRepor
     const Judgement& j = in.judgement;
     if (!j.top) return list;
     const RungResult& top = in.results[*j.top];
-    list.emplace_back("Slip of the finest rung", fmt::format("{:.4g} mm", top.slip[j.record] / units::mm));
-    list.emplace_back("Finest rung", rung_id(top.rung));
+    list.emplace_back("Slip of the finest model level", fmt::format("{:.4g} mm", top.slip[j.record] / units::mm));
+    list.emplace_back("Finest model level", rung_id(top.rung));
     if (j.top_error) list.emplace_back("It leaves open", fmt::format("{:.2g} %", 100.0 * *j.top_error));
     list.emplace_back("It takes", fmt::format("{:.3g} s", top.seconds));
     if (j.choice) {
-        list.emplace_back("Rung within the tolerance", rung_id(in.results[*j.choice].rung));
+        list.emplace_back("Model level within the tolerance", rung_id(in.results[*j.choice].rung));
         list.emplace_back("It takes", fmt::format("{:.3g} s", in.results[*j.choice].seconds));
     }
     return list;
@@ -124,15 +124,15 @@ Section cost_section(const AccuracyReportInput& in)
     const std::string svg =
         cost_figure(in.results, in.judgement, in.tolerance, figure_title(in.scene, in.records), FigureStyle::page);
     if (svg.empty()) {
-        section.parts.push_back(Paragraph{"No rung has a deviation to draw." + not_drawn(in.results)});
+        section.parts.push_back(Paragraph{"No model level has a deviation to draw." + not_drawn(in.results)});
         return section;
     }
-    section.parts.push_back(Drawing{
-        "Deviation over time", svg,
-        "The line joins rungs that no rung as fast beats. Filled: on that line. Ring: the cheapest rung within the "
-        "tolerance." +
-            not_drawn(in.results)});
-    if (!in.command.empty()) section.parts.push_back(Paragraph{"To run that rung alone:  " + in.command});
+    section.parts.push_back(Drawing{"Deviation over time", svg,
+                                    "The line joins model levels that no model level as fast beats. Filled: on that "
+                                    "line. Ring: the cheapest model level within the "
+                                    "tolerance." +
+                                        not_drawn(in.results)});
+    if (!in.command.empty()) section.parts.push_back(Paragraph{"To run that model level alone:  " + in.command});
     section.parts.push_back(cost_chart(in));
     return section;
 }
@@ -160,14 +160,14 @@ std::string figure_title(const Scene& scene, const std::vector<RecordPair>& reco
 
 Page accuracy_page(const AccuracyReportInput& in)
 {
-    Page page =
-        begin_page(in.scene, "What accuracy costs: the ladder from regressions to the finest finite elements. ");
+    Page page = begin_page(
+        in.scene, "What accuracy costs: the hierarchy of models from regressions to the finest finite elements. ");
     page.headline = headline(in);
     page.key_figures = key_figures(in);
     page.warnings = in.messages;
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     page.sections.push_back(cost_section(in));
-    page.sections.push_back({"Rungs", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
+    page.sections.push_back({"Model levels", {rows_part(rung_table(in.results, in.judgement))}, Fold::open});
     page.sections.push_back(convergence_section(in));
     page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});

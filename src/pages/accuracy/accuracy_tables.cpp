@@ -62,7 +62,7 @@ std::vector<ColumnOf<RungRow>> rung_columns()
     };
     const auto megabytes = [](const R& r) { return r.result.done() ? optional_cell(r.result.bytes, 1e6) : Cell(); };
     const auto deviation = [](const R& r) { return r.verdict.deviation ? Cell(100.0 * *r.verdict.deviation) : Cell(); };
-    return {{{"rung", "rung"}, [](const R& r) { return rung_id(r.result.rung); }},
+    return {{{"rung", "model level"}, [](const R& r) { return rung_id(r.result.rung); }},
             {{"slip_mm", "slip", "mm", 5}, [](const R& r) { return r.of_record(r.result.slip); }},
             {{"slip_16_mm", "16 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.low); }},
             {{"slip_84_mm", "84 %", "mm", 3}, [](const R& r) { return r.of_record(r.result.high); }},
@@ -90,20 +90,23 @@ Table rung_table(const std::vector<RungResult>& results, const Judgement& j)
 {
     std::vector<RungRow> rows;
     for (std::size_t i = 0; i < results.size(); ++i) rows.push_back({results[i], j.rungs[i], j});
-    Table t = table_of("Rungs", rung_columns(), rows);
+    Table t = table_of("Model levels", rung_columns(), rows);
     t.notes = {
-        "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the rungs of the same "
+        "± steps, mesh: estimate of what steps, elements, penalty and modes leave open, from the model levels of the "
+        "same "
         "model; model − top's: difference of the limits of both models.",
-        "deviation: (|slip − top's| + what the top rung leaves open) over the top's slip, the worst record; front: no "
-        "rung as fast deviates less.",
-        "time: processor time of all that this rung costs alone, reading and set-up included, median of the runs; "
+        "deviation: (|slip − top's| + what the top model level leaves open) over the top's slip, the worst record; "
+        "front: no "
+        "model level as fast deviates less.",
+        "time: processor time of all that this model level costs alone, reading and set-up included, median of the "
+        "runs; "
         "memory: growth of the resident memory to its peak during the first run.",
         "dt/4: a quarter of the record's step; dt=auto: chosen by time.slip_tolerance, the default of `fe`; "
         "dt=adaptive: the same with time.stepping = \"adaptive\"; 2h, h/2: "
         "elements of twice and half the scene's size; q8: quadratic elements of the size before it; stick: penalty in "
         "N/m³."};
     if (j.top && results[*j.top].slip.size() > 1)
-        t.notes.push_back("slips and millimetres: of the record that slides the top rung furthest.");
+        t.notes.push_back("slips and millimetres: of the record that slides the top model level furthest.");
     return t;
 }
 
@@ -135,7 +138,7 @@ Table model_table(const std::vector<RungResult>& results, const Judgement& j)
     if (!j.top) return t;
     t.notes.push_back("limit: step and element size to zero, by Richardson's extrapolation with the observed order "
                       "(held between 1 and 2); the rigid block is located exactly. Orders are those the last three "
-                      "rungs show.");
+                      "model levels show.");
     for (const M& m : j.models)
         if (!m.mesh_known && m.model.starts_with("fe-"))
             t.notes.push_back(m.model + ": the limit is that of the scene's mesh, no other mesh was run.");
@@ -153,7 +156,7 @@ Table slip_table(const std::vector<RungResult>& results, const std::vector<Recor
         for (std::size_t i = 0; i < r.slip.size() && i < records.size(); ++i)
             rows.push_back({rung_id(r.rung), records[i].files.name, r.slip[i]});
     return table_of<Row>("",
-                         {{{"rung", "rung"}, &Row::rung},
+                         {{{"rung", "model level"}, &Row::rung},
                           {{"record", "record"}, &Row::record},
                           {{"slip_m", "slip", "m", 6}, &Row::slip}},
                          rows);
@@ -162,7 +165,7 @@ Table slip_table(const std::vector<RungResult>& results, const std::vector<Recor
 Table one_rung_table(const RungResult& result, const std::vector<RecordPair>& records)
 {
     using Number = std::size_t;
-    return table_of<Number>("Rung " + rung_id(result.rung),
+    return table_of<Number>("Model level " + rung_id(result.rung),
                             {{{"record", "record"}, [&](Number i) { return records[i].files.name; }},
                              {{"slip_mm", "slip", "mm", 6}, [&](Number i) { return result.slip[i] / mm; }},
                              {{"seconds", "time, all records", "s", 3}, [&](Number) { return result.seconds; }}},
@@ -187,7 +190,7 @@ std::string standing_sentence(const std::vector<RungResult>& results)
     StatusCount count;
     for (const RungResult& r : results)
         if (r.ran()) count.add(r.status);
-    return "The dam does not stand without an earthquake, by every rung that ran: " + count.words() + ".";
+    return "The dam does not stand without an earthquake, by every model level that ran: " + count.words() + ".";
 }
 
 } // namespace
@@ -195,22 +198,23 @@ std::string standing_sentence(const std::vector<RungResult>& results)
 std::string choice_sentence(const std::vector<RungResult>& results, const Judgement& j, double tolerance)
 {
     if (all_fail_statically(results)) return standing_sentence(results);
-    if (!j.top) return "No rung has a slip to compare.";
+    if (!j.top) return "No model level has a slip to compare.";
     const RungResult& top = results[*j.top];
     if (j.contradiction)
-        return fmt::format("No rung can be named: {}, finer than the others, has no final slip: {}. {}",
+        return fmt::format("No model level can be named: {}, finer than the others, has no final slip: {}. {}",
                            rung_id(results[*j.contradiction].rung), word(results[*j.contradiction].status),
                            results[*j.contradiction].remark);
     if (!j.top_error)
-        return fmt::format("Nothing says how far the finest rung, {}, is from its limit: more steps are needed (larger "
-                           "--budget).",
-                           rung_id(top.rung));
+        return fmt::format(
+            "Nothing says how far the finest model level, {}, is from its limit: more steps are needed (larger "
+            "--budget).",
+            rung_id(top.rung));
     if (!j.choice)
-        return fmt::format("No rung is within {:.3g} %: the finest one, {}, itself leaves {:.2g} % open.",
+        return fmt::format("No model level is within {:.3g} %: the finest one, {}, itself leaves {:.2g} % open.",
                            100.0 * tolerance, rung_id(top.rung), 100.0 * *j.top_error);
     const RungResult& r = results[*j.choice];
     return fmt::format(
-        "Cheapest rung within {:.3g} %: {}, slip {:.4g} mm in {:.2g} s, {:.2g} % from the finest ({}, {:.2g} "
+        "Cheapest model level within {:.3g} %: {}, slip {:.4g} mm in {:.2g} s, {:.2g} % from the finest ({}, {:.2g} "
         "s).",
         100.0 * tolerance, rung_id(r.rung), r.slip[j.record] / mm, r.seconds, 100.0 * *j.rungs[*j.choice].deviation,
         rung_id(top.rung), top.seconds);

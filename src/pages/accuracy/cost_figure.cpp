@@ -131,8 +131,8 @@ private:
         const std::string axis = "stroke:var(--axis);stroke-width:1.2";
         line(left, height - bottom, width - right, height - bottom, axis);
         line(left, top, left, height - bottom, axis);
-        text(0.5 * (left + width - right), height - 12, "time of this rung alone (s)", "middle");
-        text(left, top - 8, "deviation from the finest rung, what that leaves open included", "start",
+        text(0.5 * (left + width - right), height - 12, "time of this model level alone (s)", "middle");
+        text(left, top - 8, "deviation from the finest model level, what that leaves open included", "start",
              "fill:var(--muted)");
     }
 
@@ -149,7 +149,7 @@ private:
         across(100.0 * tolerance_, fmt::format("tolerance {:.3g} %", 100.0 * tolerance_), "6 4");
         if (judgement_.top_error && std::abs(std::log10(*judgement_.top_error / tolerance_)) > 0.08)
             across(100.0 * *judgement_.top_error,
-                   fmt::format("left open by the finest rung, {:.2g} %", 100.0 * *judgement_.top_error), "2 4");
+                   fmt::format("left open by the finest model level, {:.2g} %", 100.0 * *judgement_.top_error), "2 4");
     }
 
     void draw_front()

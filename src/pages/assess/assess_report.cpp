@@ -5,6 +5,7 @@
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/effect_table.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
@@ -150,6 +151,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> answers(const Asse
 std::vector<std::string> assess_notes(const Assessment& a)
 {
     std::vector<std::string> notes = note_texts(a.ready.given.notes);
+    if (a.fe)
+        for (std::string& note : note_texts(a.fe->given.notes))
+            if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
     for (const std::string& s : left_out_sentences(a)) notes.push_back(s);
     return notes;
 }
@@ -199,18 +203,18 @@ Headline assess_headline(const Assessment& a)
         if (std::find(ran.begin(), ran.end(), r.record) == ran.end()) ran.push_back(r.record);
     if (a.fe && !ran.empty() && ran.size() < a.fe->records().size())
         sentence += fmt::format(" Only {} of {} records fitted the budget.", ran.size(), a.fe->records().size());
+    if (a.recommended && a.recommended->level != SlipLevel::finite_elements)
+        sentence += " By the " + word(a.recommended->level) + ": no bound for an elastic dam.";
     sentence += " " + a.verdict_reason;
-    switch (a.verdict) {
-    case Verdict::pass:
-        return {sentence, Outcome::pass, "PASS"};
-    case Verdict::fail:
-        return {sentence, Outcome::fail, "FAIL"};
-    case Verdict::undecided:
-        return {sentence, Outcome::unresolved, "Undecided"};
-    default:
-        return {sentence, a.recommended ? Outcome::none : Outcome::unresolved,
-                a.recommended ? "No criterion." : "No answer."};
-    }
+    const Outcome outcome = a.slip_verdict == Verdict::pass   ? Outcome::pass
+                            : a.slip_verdict == Verdict::fail ? Outcome::fail
+                            : a.slip_verdict == Verdict::none && a.recommended ? Outcome::none
+                                                                              : Outcome::unresolved;
+    const std::string verdict = a.slip_verdict == Verdict::undecided ? "Undecided"
+                                : a.slip_verdict != Verdict::none    ? word(a.slip_verdict)
+                                : a.recommended                      ? "No criterion."
+                                                                     : "No answer.";
+    return with_failed_checks({sentence, outcome, verdict}, a.failed_checks);
 }
 
 Page assess_page(const Assessment& a, const Scene& given)
@@ -236,14 +240,12 @@ Page assess_page(const Assessment& a, const Scene& given)
             page.sections.back().parts.push_back(rows_part(assumption_table(a)));
         }
     }
-    page.sections.push_back(
-        {"Limit equilibrium",
-         {TablePart{sliding::equilibrium_table(a.screening.combinations), Layout::columns, 3, Fold::open}},
-         Fold::open});
+    page.sections.push_back(equilibrium_section(a.screening.combinations));
     if (a.spectrum) page.sections.push_back(spectrum_section(*a.spectrum));
     page.sections.push_back(sentences_section("What was not considered", {}));
     page.sections.back().parts.push_back(rows_part(off_table("The scene does not name", not_named(a))));
     page.sections.back().parts.push_back(rows_part(off_table("A choice of scene or method leaves off", taken_off(a))));
+    page.sections.push_back(limits_section(a.ready.scene, a.fe ? Method::finite_elements : Method::rigid_block));
     page.sections.push_back({"Scene", {scene_listing(given)}, Fold::open});
     page.provenance = scene_provenance(given);
     add_record_provenance(a.ready.records(), page.provenance);
@@ -263,6 +265,8 @@ nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
     }
     j["verdict"] = word(a.verdict);
     j["verdict_reason"] = a.verdict_reason;
+    const Headline headline = assess_headline(a);
+    j["headline"] = headline.sentence + " " + headline.verdict;
     j["levels"] = json_of(level_table(a));
     j["assumptions"] = json_of(assumption_table(a));
     for (const auto& [title, sentences] : answers(a)) j["answers"][title] = sentences;

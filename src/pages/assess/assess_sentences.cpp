@@ -2,6 +2,7 @@
 #include "pages/assess/assess_report.hpp"
 
 #include "analysis/ablation/ablation_rows.hpp"
+#include "core/number.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -82,8 +83,11 @@ std::vector<std::string> governing_sentences(const Assessment& a)
 {
     std::vector<std::string> list;
     if (!a.recommended) {
-        list.push_back(a.runs.empty() ? "No level has a slip for every record."
-                                      : fmt::format("The finite elements decide: {}. {}",
+        list.push_back(a.runs.empty() && !a.interrupted ? "No level has a slip for every record."
+                               : a.interrupted          ? "Interrupted: nothing is recommended."
+                       : !all_answered(a.runs)  ? "The finite elements decide, and not every run has an answer: " +
+                                                     unanswered_words(a.runs) + "."
+                              : fmt::format("The finite elements decide: {}. {}",
                                                     word(governing_run(a).fe.status), governing_run(a).fe.message));
         return list;
     }
@@ -152,8 +156,8 @@ std::vector<std::string> after_sentences(const Assessment& a)
     std::vector<std::string> list;
     for (const sliding::Equilibrium& e : a.screening.combinations)
         if (e.kind == CombinationKind::post_seismic)
-            list.push_back(fmt::format("Limit equilibrium, {} (crack rule {}): sliding factor {:.3g} with μ = {:.3g}.",
-                                       e.name, sliding::word(e.crack_rule), e.sliding_factor, e.friction));
+            list.push_back(fmt::format("Limit equilibrium, {} (crack rule {}): sliding factor {} with μ = {:.3g}.",
+                                       e.name, sliding::word(e.crack_rule), factor_text(e.sliding_factor), e.friction));
     if (!a.runs.empty()) {
         const fe2d::StageResult& after = governing_run(a).fe.after;
         if (after.sliding_factor > 0.0 && std::isfinite(after.sliding_factor))

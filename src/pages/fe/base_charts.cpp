@@ -38,7 +38,7 @@ Chart chart_of(const RunView& view, const std::string& what, const std::vector<f
     Chart chart;
     chart.title = view.run.label() + ": " + what + " along the base";
     chart.x = {"distance from the heel", "m"};
-    chart.y = {what, "MPa"};
+    chart.y = {what.substr(0, what.find(',')), "MPa"}; // the title has the rest
     chart.together = view.together + "base";
     const auto add = [&](const std::string& name, std::size_t row, int colour, Mark mark, Weight weight) {
         chart.curves.push_back({name, distance, row_values(h.by_pair, values, row), {}, {}, mark, weight, colour});

@@ -68,6 +68,11 @@ Table base_water_table(const Scene& scene, const std::vector<ContactRun>& runs)
         {{"largest_pressure_kPa", "largest p", "kPa", 4}, figure(&JointWaterReport::largest_pressure, 1e3)},
         {{"water_work_J_m", "work on the dam", "J/m", 4},
          [](const R& r) { return r.fe.history.energy.empty() ? 0.0 : r.fe.history.energy.back().joint_water; }}};
+    if (drains_shear_off(scene))
+        columns.push_back({{"drains_lost_s", "drains lost at", "s", 4}, [](const R& r) -> Cell {
+                               if (const auto at = water_of(r).drains_lost) return *at;
+                               return std::string("hold");
+                           }});
     if (rule == OpeningWater::reynolds)
         columns.push_back({{"reynolds_number", "largest Re", "–", 3}, figure(&JointWaterReport::reynolds_number, 1.0)});
     return table_of<R>(
@@ -109,6 +114,12 @@ std::vector<std::string> base_water_notes(const Scene& scene, const std::vector<
     const double length = scene.wedge ? 0.0 : base_length(scene.section);
     for (const ContactRun& run : with_water(runs)) {
         const JointWaterReport& w = water_of(run);
+        if (w.drains_lost)
+            notes.push_back(*w.drains_lost == 0.0
+                                ? run.label() + ": the drains were sheared off before: uplift without them"
+                                : fmt::format("{}: the drains sheared off at {:.4g} s, after {:g} mm of slip: uplift "
+                                              "without them from then on",
+                                              run.label(), *w.drains_lost, 1e3 * *scene.drains->lost_at_slip));
         if (w.cracked_through > 0.0)
             notes.push_back(
                 fmt::format("{}: the base was open from heel to toe for {:.3g} s in all, with uplift.opening = "

@@ -1,5 +1,6 @@
 #include "pages/fe/contact_tables.hpp"
 
+#include "core/units.hpp"
 #include "pages/scene/anchor_tables.hpp"
 
 #include <algorithm>
@@ -75,11 +76,15 @@ std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::En
 {
     using E = fe2d::Energy;
     std::vector<ColumnOf<E>> columns = energy_columns();
-    const auto add = [&](const char* key, const char* heading, double E::*term) {
-        if (std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; }))
-            columns.push_back({{key, heading, "J/m", 6}, term});
+    const auto any = [&](double E::*term) {
+        return std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; });
     };
-    add("joint_stored_J_m", "stored in joints", &E::joint_stored);
+    const auto add = [&](const char* key, const char* heading, double E::*term, bool shown = false) {
+        if (shown || any(term)) columns.push_back({{key, heading, "J/m", 6}, term});
+    };
+    // A bond that is broken, or a bar that has snapped, stores nothing any more.
+    add("joint_stored_J_m", "stored in joints", &E::joint_stored,
+        any(&E::bond_fracture) || any(&E::anchor_plastic) || any(&E::anchor_loss));
     add("bond_fracture_J_m", "bond fracture", &E::bond_fracture);
     add("anchor_plastic_J_m", "anchors plastic", &E::anchor_plastic);
     add("anchor_loss_J_m", "anchors snapped", &E::anchor_loss);
@@ -193,7 +198,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
     }
     return table_of<R>(
         "Static stages", columns, rows,
-        {"after the earthquake: residual friction, ruptured curtain, ineffective drains; slip since the start of the "
+        {"after the earthquake: cohesion lost where the joint has opened or slipped, friction of the path, curtain and drains of the post-seismic combination; slip since the start of the "
          "stages."});
 }
 
@@ -204,27 +209,27 @@ std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allo
         const std::optional<double> slip = r.rigid ? reported(r.rigid->status, r.rigid->slip) : std::nullopt;
         return slip ? Cell(1e3 * *slip) : Cell();
     };
-    return {
-        record_column,
-        polarity_column,
-        {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
-        {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
-        {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
-        {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
-        {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
-        {{"error_parts", "error holds"}, [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
-        {{"max_slip_m", "largest slip on the way", "m", 5},
-         [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
-        {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
-        {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
-        {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
-        {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
-        {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
-        {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
-        {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
-        {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
-        {{"walked_at_least_m", "walked ≥", "m", 5},
-         [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
+    return {record_column,
+            polarity_column,
+            {{"status", "status"}, [](const R& r) { return word(r.fe.status); }},
+            {{"slip_mm", "slip at end (mean of base)", "mm", 5}, [](const R& r) { return slip_cell(r, r.fe.slip); }},
+            {{"slip_error_mm", "± step", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).step); }},
+            {{"mesh_error_mm", "± mesh", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).mesh); }},
+            {{"total_error_mm", "± total", "mm", 2}, [](const R& r) { return slip_cell(r, slip_error(r).total); }},
+            {{"error_parts", "error includes"},
+             [](const R& r) { return has_slip(r) ? Cell(slip_error(r).parts()) : Cell(); }},
+            {{"max_slip_m", "largest slip on the way", "m", 5},
+             [](const R& r) { return optional_cell(reported(r.fe.status, r.fe.max_slip)); }},
+            {{"slip_rigid_mm", "rigid block at end", "mm", 5}, rigid_slip},
+            {{"verdict", "verdict"}, [=](const R& r) { return word(verdict_of(r, allowable)); }},
+            {{"steps", "steps"}, [](const R& r) { return r.fe.counts.steps; }},
+            {{"dt_s", "step", "s", 4}, [](const R& r) { return r.fe.dt; }},
+            {{"unresolved", "unresolved"}, [](const R& r) { return r.fe.counts.unresolved; }},
+            {{"residual", "residual", "–", 2}, [](const R& r) { return r.fe.counts.largest_residual; }},
+            {{"energy_error", "energy", "–", 2}, [](const R& r) { return r.fe.energy_error; }},
+            {{"seconds", "time", "s", 3}, [](const R& r) { return r.fe.seconds.statics + r.fe.seconds.dynamics; }},
+            {{"walked_at_least_m", "slid at least", "m", 5},
+             [](const R& r) { return optional_cell(walked_at_least(r.fe.status, r.fe.slip)); }}};
 }
 
 void write_walked_slips(Table& t)
@@ -237,7 +242,7 @@ void write_walked_slips(Table& t)
     const std::size_t walked = place("walked_at_least_m"), slip = place("slip_mm");
     for (std::vector<Cell>& row : t.rows)
         if (const double* metres = std::get_if<double>(&row[walked]))
-            row[slip] = fmt::format("walked ≥ {:.4g}", 1e3 * *metres);
+            row[slip] = fmt::format("at least {:.4g}", 1e3 * *metres);
 }
 
 Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional<double>& allowable)
@@ -366,8 +371,9 @@ Table contact_event_table(const std::vector<ContactRun>& runs)
     const auto of_rigid = [](const Row& r, double EventSlip::*value) {
         const auto place = static_cast<std::size_t>(&r.event - r.run.fe.events.data());
         const bool known = r.run.rigid && place < r.run.rigid->events.size();
-        return known && reported(r.run.rigid->status, r.run.rigid->slip) ? Cell(1e3 * r.run.rigid->events[place].*value)
-                                                                         : Cell();
+        if (!known) return Cell();
+        const EventSlip& event = r.run.rigid->events[place];
+        return reported(event.status, event.slip) ? Cell(1e3 * event.*value) : Cell();
     };
     return table_of<Row>(
         "Slip by event",
@@ -376,8 +382,9 @@ Table contact_event_table(const std::vector<ContactRun>& runs)
          {{"event", "event"}, [](const Row& r) { return r.event.name; }},
          {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
          {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
-         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.change); }},
-         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.slip); }},
+         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), units::mm); }},
+         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), units::mm); }},
+         {{"status", "status"}, [](const Row& r) { return word(r.event.status); }},
          {{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5},
           [=](const Row& r) { return of_rigid(r, &EventSlip::change); }}},
         rows, {"slip: mean of the base, positive downstream, the run to rest after each event included."});
@@ -472,15 +479,16 @@ Table run_out_table(const std::vector<ContactRun>& runs)
          {{"end_rate_mm_s", "rate at end", "mm/s", 3}, figure(&F::rate, 1e3)},
          {{"thrust_over_friction", "χ", "–", 3}, figure(&F::thrust_over_friction)},
          {{"energy_kept_J_m", "ΔE", "J/m", 3}, figure(&F::energy_kept)},
-         {{"hops", "hops"}, [](const R& r) { return r.fe.run_out.hops; }},
-         {{"hop_frequency_Hz", "of them", "Hz", 3}, figure(&F::hop_frequency)},
+         {{"hops", "lift-offs"}, [](const R& r) { return r.fe.run_out.hops; }},
+         {{"hop_frequency_Hz", "lift-offs", "Hz", 3}, figure(&F::hop_frequency)},
          {{"unloaded_share", "unloaded", "–", 3}, figure(&F::unloaded_share)},
          {{"sliding_factor", "FS at rest", "–", 4}, figure(&F::sliding_factor)}},
         runs | std::views::filter([](const R& r) { return !r.fe.history.time.empty(); }),
         {"slip while the ground moved, and with it at rest; χ: work of the static thrust on the slip over that of "
          "friction (1/FS where N' stays as it is; 1 or more with FS > 1: it slides by itself); ΔE: what the dam kept "
          "of "
-         "it; hops: times that the whole base was open; unloaded: share of the time with N' below 5 % of its static "
+         "it; lift-offs: times that the whole base was open; unloaded: share of the time with N' below 5 % of its "
+         "static "
          "value. Of the run-out; where sliding is self-excited χ, ΔE and unloaded of its last three windows."});
 }
 

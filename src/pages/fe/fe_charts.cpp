@@ -149,7 +149,7 @@ public:
         of_joints("bond, fracture", &fe2d::Energy::bond_fracture, 1);
         of_joints("anchors, plastic", &fe2d::Energy::anchor_plastic, 3);
         of_joints("anchors, snapped", &fe2d::Energy::anchor_loss, 2);
-        of_joints("landings", &fe2d::Energy::impact, 4);
+        of_joints("impacts", &fe2d::Energy::impact, 4);
         of_joints("water in joints", &fe2d::Energy::joint_water, 6);
         const std::size_t plain = before_joints + 2; // this one and the imbalance
         term("contact normal work", &fe2d::Energy::contact_normal, 7, Mark::dashed);
@@ -160,7 +160,7 @@ public:
                         view_.run.fe.energy_error);
         if (chart.curves.size() > plain)
             chart.note +=
-                " What bonds, anchors and landings store and spend counts on the left, the work of water in joints "
+                " What bonds, anchors and impacts store and spend counts on the left, the work of water in joints "
                 "on the right.";
         return chart;
     }

@@ -34,12 +34,20 @@ struct FeAnswer {
 /// Scene, base, effects and counts of the model.
 FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame);
 
+/// FAIL where the headline says so, of the slip or of the load combinations; else verdict_of() the runs.
+Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
+                       const std::optional<double>& allowable);
+
 /// Headline, verdict and worst run, in the object.
 void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
                  FeAnswer& answer);
 
 /// Messages last; in the text as notes.
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
+
+/// Name of a file of one run, without its ending: "history_El_Centro_NS_+1"; records whose names would give the same file are told apart.
+std::string run_file(const std::string& kind, const Scene& scene, const std::string& record,
+                     const std::string& suffix = "");
 
 /// fields_0000.vtu ... and fields.pvd of one run folder; nothing for an empty folder.
 class FieldSeries {

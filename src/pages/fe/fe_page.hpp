@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/fe/contact_run.hpp"
 #include "analysis/prepare/records.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
@@ -23,6 +24,11 @@ struct FePageFrame {
 
 /// Title, what the records say of themselves, the section with its mesh.
 Page begin_fe_page(const FePageFrame& frame);
+
+/// The sections of the worse polarity of each record, as many open as on every page. @param sections  one for each run
+/// @returns  those of the other polarity, folded: the appendix
+std::vector<Section> add_worse_polarities(const std::vector<ContactRun>& runs, std::vector<Section> sections,
+                                          Page& page);
 
 /// Records with spectra, effects, the model's counts and further tables, scene and provenance.
 void end_fe_page(const FePageFrame& frame, const std::vector<GroundMotion>& motions, const std::vector<Table>& tables,

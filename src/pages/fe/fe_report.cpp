@@ -8,10 +8,15 @@
 #include "scene/exact_contact.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/criteria.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <limits>
 
 namespace damslip::pages {
 
@@ -19,6 +24,7 @@ namespace {
 
 using units::mm;
 constexpr std::size_t stress_records = 4; ///< whose stresses are shown
+constexpr double no_slip = 1e-7;          ///< less is none [m]
 
 const ContactRun* find(const std::vector<ContactRun>& runs, auto&& condition)
 {
@@ -77,13 +83,23 @@ std::string error_text(const SlipError& e, const std::string& step)
     return fmt::format(", ± {} mm ({} {}, mesh {})", two_digits(e.total), step, two_digits(e.step), two_digits(e.mesh));
 }
 
+/// The smallest sliding factor after the earthquake of runs that stand then; infinite: none has one.
+double factor_after(const std::vector<ContactRun>& runs)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const ContactRun& r : runs)
+        if (has_slip(r) && !falls_after(r) && !open_after(r) && r.fe.after.sliding_factor > 0.0)
+            least = std::min(least, r.fe.after.sliding_factor);
+    return least;
+}
+
 std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     const ContactRun& worst = worst_of(runs);
     const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
     if (!most) return worst.label() + ": " + worst.fe.message;
     const double slip = std::abs(*most);
-    const std::string over = number_of(runs);
+    const std::string over = number_of(runs), unanswered = unanswered_words(runs);
     if (status_row(worst.fe.status).slip == SlipMeaning::lower_bound) // no error holds for what has not ended
         return fmt::format("The {} slides at least {:.4g} mm by finite elements and had not come to rest ({}){}.",
                            sliding_body(scene), slip / mm, record_of(worst),
@@ -91,12 +107,15 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                                ? fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm)
                                : "");
     std::string out =
-        slip < 1e-7 ? fmt::format("The {} does not slide in {}", sliding_body(scene),
-                                  over.empty() ? record_of(worst) : "any of " + over)
-                    : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
-                                  slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
+        !unanswered.empty()
+            ? fmt::format("No largest slip over {}: {}. The {} slides {:.4g} mm by finite elements in {}",
+                          over.empty() ? "the runs" : over, unanswered, sliding_body(scene), slip / mm, record_of(worst))
+        : slip < no_slip ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                    over.empty() ? record_of(worst) : "any of " + over)
+                      : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
+                                    slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
     out += error_text(slip_error(worst), step);
-    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > 1e-7)
+    if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > no_slip)
         out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
                            std::isfinite(lift.error) ? fmt::format(" ± {} mm", two_digits(lift.error)) : "");
     if (worst.rigid)
@@ -104,7 +123,22 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
             out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    if (const double after = factor_after(runs); std::isfinite(after))
+        out += fmt::format("; sliding factor after the earthquake {:.3g}", after);
     return out + ".";
+}
+
+/// The checks of the combinations that fail; of the sliding factor after the earthquake that of the runs, too.
+std::string failed_words(const Scene& scene, const std::vector<ContactRun>& runs,
+                         const std::vector<sliding::Equilibrium>& combinations)
+{
+    std::string words = sliding::failed_checks(combinations);
+    const Combination after = sliding::after_earthquake(scene);
+    const std::optional<double> required = sliding::requirements(scene, after).sliding;
+    if (const double factor = factor_after(runs); required && factor < *required)
+        words += fmt::format("{}{} by finite elements {}", words.empty() ? "" : "; ", after.name,
+                             sliding::unmet_words(factor, *required));
+    return words;
 }
 
 /// What a reader has to know beside the slip: runs that fail otherwise, and those without an answer.
@@ -149,7 +183,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         return known ? fmt::format("{:.4g} mm", *known / mm) : word(status);
     };
     const std::optional<double> walked = walked_at_least(worst.fe.status, worst.fe.slip);
-    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("walked ≥ {:.4g} mm", *walked / mm)
+    list.emplace_back("Largest slip on the way, FE", walked ? fmt::format("at least {:.4g} mm", *walked / mm)
                                                             : millimetres(worst.fe.status, worst.fe.max_slip));
     list.emplace_back("Rock", rock_words(scene));
     list.emplace_back("Worst run", worst.label());
@@ -159,8 +193,7 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
         list.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *scene.criteria.allowable_slip / mm));
     list.emplace_back("Friction μ", fmt::format("{:.4g}", scene.contact.friction));
     if (!worst.fe.stages.empty())
-        list.emplace_back("Stands without earthquake from μ",
-                          fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
+        list.emplace_back("Needs statically μ ≥", fmt::format("{:.4g}", worst.fe.stages.back().critical_friction));
     double open = 0.0;
     for (const ContactRun& r : runs)
         for (const double length : r.fe.history.open_length) open = std::max(open, length);
@@ -173,7 +206,10 @@ std::string headline_text(const Headline& headline)
     return headline.sentence + "\n" + headline.verdict + "\n";
 }
 
-Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+namespace {
+
+/// Without the load combinations.
+Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
@@ -187,8 +223,18 @@ Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, co
     if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
     if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
     if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS"};
+    if (find(runs, [](const ContactRun& run) { return run.leaves_out; }))
+        return {sentence, Outcome::unresolved, "undecided: they leave out what the scene asks for, see the notes"};
     const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
     return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
+}
+
+} // namespace
+
+Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
+                     const std::vector<sliding::Equilibrium>& combinations, const std::string& step)
+{
+    return with_failed_checks(slip_headline(scene, runs, step), failed_words(scene, runs, combinations));
 }
 
 FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
@@ -197,7 +243,7 @@ void FeReport::add(const ContactRun& run, const GroundMotion& motion)
 {
     if (motions_.empty() || motions_.back().name != motion.name) motions_.push_back(motion); // once for both polarities
     const std::size_t number = sections_.size() + 1;
-    Section section{"Record " + run.label(), {}, number <= open_records ? Fold::open : Fold::folded};
+    Section section{"Record " + run.label(), {}, Fold::open};
     if (!run.fe.message.empty()) section.parts.push_back(Paragraph{run.fe.message});
     if (run.fe.history.time.size() < 2 || run.fe.history.by_pair.pairs == 0) {
         sections_.push_back(std::move(section));
@@ -239,7 +285,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
 {
     const FePageFrame frame = contact_frame(in_);
     Page page = begin_fe_page(frame);
-    page.headline = fe_headline(in_.scene, runs);
+    page.headline = fe_headline(in_.scene, runs, in_.combinations);
     page.key_figures = fe_key_figures(in_.scene, runs);
     std::vector<std::string> warnings = messages;
     for (std::string& w : after_earthquake(runs)) warnings.push_back(std::move(w));
@@ -257,21 +303,24 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
     if (Table water = base_water_table(in_.scene, runs); !water.rows.empty())
         slip.parts.push_back(rows_part(std::move(water)));
     if (!spread.empty()) slip.parts.push_back(Paragraph{spread});
+    const bool slides = find(runs, [](const ContactRun& r) { return std::abs(r.fe.max_slip) >= no_slip; });
+    if (!slides) page.sections.push_back(statics_section(runs));
     page.sections.push_back(std::move(slip));
-    page.sections.push_back(statics_section(runs));
+    if (slides) page.sections.push_back(statics_section(runs));
     if (!stresses_.empty()) {
         MeshView view = stresses_.view();
         if (sections_.size() > stress_records_)
             view.note += fmt::format(" The first {} of {} runs.", stress_records_, sections_.size());
         page.sections.push_back({"Stresses", {std::move(view)}, Fold::open});
     }
-    for (const Section& section : sections_) page.sections.push_back(section);
+    std::vector<Section> appendix = add_worse_polarities(runs, sections_, page);
     std::vector<Table> how{without_seconds(solution_part(table))};
     if (with_exact_contact(in_.scene)) how.push_back(contact_law_table(runs));
     if (Table flow = joint_flow_table(runs); !flow.rows.empty()) how.push_back(std::move(flow));
     how.push_back(contact_energy_table(runs));
     how.push_back(contact_count_table(runs));
     end_fe_page(frame, motions_, how, page);
+    std::move(appendix.begin(), appendix.end(), std::back_inserter(page.sections));
     return page;
 }
 

@@ -129,7 +129,7 @@ std::string write_frames(const std::filesystem::path& folder, const FrameModel& 
 {
     const fe2d::FrameSpool* frames = run.fe.history.frames.get();
     if (!frames || frames->count() == 0) return {};
-    const std::string series = "frames_" + file_word(run.record) + run.suffix();
+    const std::string series = run_file("frames", of.scene, run.record, run.suffix());
     const FrameWriter writer(of, folder / series, run.fe.zero_displacement);
     std::vector<fe2d::PvdEntry> entries;
     for (std::size_t i = 0; i < frames->count(); ++i) {

@@ -62,13 +62,14 @@ StressView::StressView(const fe2d::EarthquakeRun& run) : run_(run)
     for (const fe2d::Element& e : mesh.elements) view_.elements.push_back(e.nodes);
     view_.front_nodes = static_cast<std::size_t>(mesh.dam_node_count);
     view_.fields = {{"major principal stress, tension positive", "MPa"},
-                    {"minor principal stress, tension positive", "MPa"},
+                    {"minor principal stress, tension positive", "MPa", true},
                     {"vertical stress, tension positive", "MPa"},
                     {"von Mises stress", "MPa"}};
     view_.note =
         "Total stresses: gravity, water and earthquake. Deformations are magnified, the dam's mean slip is drawn "
-        "to scale; dashed: the dam before any load. The colours end where 1 % of the dam's values lie beyond, "
-        "since stresses in corners grow with every finer mesh.";
+        "to scale; dashed: the dam before any load. First shown is the instant with the largest tension in the dam; "
+        "the envelope is of the instants that are kept of each run, so between them a stress may be larger. The "
+        "colours end where 1 % of the dam's values lie beyond, since stresses in corners grow with every finer mesh.";
 }
 
 void StressView::add(const std::string& record, const fe2d::RunResult& result)

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <ranges>
 
 namespace damslip::pages {
@@ -110,12 +111,13 @@ constexpr const char* error_source = "step and modes";
 
 } // namespace
 
-void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run)
+void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const ReducedRecord& run)
 {
     const ContactRun as_full = as_contact_run(run);
-    write_file(folder / ("history_" + file_word(run.record) + as_full.suffix() + ".csv"),
+    write_file(folder / (run_file("history", scene, run.record, as_full.suffix()) + ".csv"),
                csv(history_table(run.result.history),
-                   {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                   {"damslip " + program_version() + " fe --reduced", "scene " + hash,
                     "record " + as_full.label(), "status " + word(run.result.status)}));
 }
 
@@ -130,7 +132,7 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
 {
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     const std::vector<ContactRun> runs = as_contact_runs(in.runs);
-    const Headline headline = fe_headline(in.scene, runs, error_source);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations, error_source);
     const Table stages = contact_stage_table(runs), table = reduced_table(in.runs, allowable);
     FeAnswer answer = begin_fe_answer(FeKind::reduced, reduced_frame(in));
     answer.json["contact_pairs"] = in.full.structure().plane().pairs();
@@ -163,7 +165,7 @@ Page reduced_page(const ReducedReportInput& in)
         std::optional<sliding::SlideResult> rigid;
         if (in.rigid.state == sliding::StaticState::at_rest)
             rigid = slide_model(in.scene, in.rigid, r.motion, 1, sliding::HistoryOutput::samples);
-        Section section{"Record " + runs.back().label(), {}, runs.size() <= open_records ? Fold::open : Fold::folded};
+        Section section{"Record " + runs.back().label(), {}, Fold::open};
         if (!r.result.message.empty()) section.parts.push_back(Paragraph{r.result.message});
         const RunView view{runs.back(), rigid ? &*rigid : nullptr, in.scene.criteria.allowable_slip,
                            fmt::format("record{}", runs.size()), in.runs.size()};
@@ -171,7 +173,7 @@ Page reduced_page(const ReducedReportInput& in)
             for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
         sections.push_back(std::move(section));
     }
-    page.headline = fe_headline(in.scene, runs, error_source);
+    page.headline = fe_headline(in.scene, runs, in.combinations, error_source);
     page.key_figures = fe_key_figures(in.scene, runs);
     std::erase_if(page.key_figures,
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept
@@ -181,8 +183,9 @@ Page reduced_page(const ReducedReportInput& in)
     write_walked_slips(table);
     page.sections.push_back({"Slip", {rows_part(without_seconds(table)), rows_part(run_out_table(runs))}, Fold::open});
     page.sections.push_back({"Static stages", {rows_part(contact_stage_table(runs))}, Fold::open});
-    for (Section& section : sections) page.sections.push_back(std::move(section));
+    std::vector<Section> appendix = add_worse_polarities(runs, std::move(sections), page);
     end_fe_page(frame, motions, {}, page);
+    std::move(appendix.begin(), appendix.end(), std::back_inserter(page.sections));
     return page;
 }
 

@@ -13,12 +13,10 @@ struct FragilityView {
     std::string method;                           ///< "rigid-v", "fe"
     double unit = 1.0;                            ///< SI value of one unit of the levels
     std::string unit_text = "m/s2";               ///< "g"
-    const TwoLevelFragility* two_level = nullptr; ///< nullptr: one model
     const FragilityCauses* causes = nullptr;      ///< nullptr: none
     const ConditionedPlan* conditioned = nullptr; ///< nullptr: friction is drawn
     std::vector<std::pair<LimitInput, std::vector<NeededYield>>> needed_yields = {}; ///< of limits of slip
     std::vector<std::string> notes = {};
-    const MfmcFragility* mfmc = nullptr; ///< nullptr: not asked for
     /// Half-width over runs of this run's own first draws at the level with P nearest to 0.1, one estimator a limit; empty: not known.
     std::vector<IntervalPoint> own_cost = {};
 };
@@ -35,12 +33,10 @@ inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& p
             study.method.id,
             intensity.level_unit,
             intensity.level_unit_text,
-            answer.two_level ? &*answer.two_level : nullptr,
             answer.causes ? &*answer.causes : nullptr,
             answer.conditioned,
             answer.needed_yields,
             answer.notes,
-            answer.mfmc ? &*answer.mfmc : nullptr,
             answer.own_cost};
 }
 

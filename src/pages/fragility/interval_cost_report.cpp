@@ -56,7 +56,6 @@ Table interval_cost_table(const IntervalCostView& view)
         "What the interval costs",
         {{{"estimator", "estimator"}, &P::estimator},
          {{"runs", "runs"}, [](const P& p) { return count_cell(p.runs); }},
-         {{"cheap_runs", "cheaper runs"}, done([](const P& p) { return count_cell(p.cheap); })},
          {{"seconds", "processor time", "s", 3}, done([](const P& p) { return p.seconds; })},
          {{"probability", "P", "–"}, done([](const P& p) { return p.p; })},
          {{"lower", "2.5 %", "–", 3}, done([](const P& p) { return p.interval.lower; })},

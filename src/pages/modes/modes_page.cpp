@@ -64,7 +64,8 @@ Table natural_mode_table(const fe2d::NaturalModes& m)
         {"shares of everything that moves in that direction, added mass included; massless rock adds no modes."});
 }
 
-Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& leading)
+/// @param count  rows at most
+Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& leading, Mode count)
 {
     const std::vector<double> sum_x = sums_of(m.effective_share, 0);
     const auto chosen = [&](Mode i) {
@@ -77,7 +78,8 @@ Table coupled_mode_table(const fe2d::CoupledModes& m, const std::vector<Mode>& l
     columns.push_back({{"dam_share_x_percent", "of it the dam", "%", 4}, [&](Mode i) { return 100 * m.dam_share[i]; }});
     columns.push_back({{"leading", "leading"}, chosen});
     return table_of(
-        "Coupled modes of dam and water (tied base)", columns, std::views::iota(Mode{0}, m.frequency.size()),
+        "Coupled modes of dam and water (tied base)", columns,
+        std::views::iota(Mode{0}, std::min(count, m.frequency.size())),
         {fmt::format("real modes: far end closed, bottom rigid and still. leading: the first {} in which the dam's own "
                      "mass carries at least 0.1 % of the horizontal mass; damping.rayleigh_modes counts these.",
                      leading.size()),
@@ -130,12 +132,15 @@ std::vector<std::string> modes_notes(const Scene& given, const ModesResult& m)
                         m.radiating->resolved / two_pi));
     if (m.coupled && m.coupled->status != fe2d::CoupledModesStatus::ok)
         notes.push_back("not all coupled modes were found: " + m.coupled->solver.text());
+    else if (m.coupled && m.count && *m.count > m.coupled->frequency.size())
+        notes.push_back(fmt::format("{} of {} modes: with acoustic water those up to {:g} Hz are looked for",
+                                    m.coupled->frequency.size(), *m.count, coupled_modes_to));
     if (m.water) {
         notes.push_back(water_counts(*m.water));
         for (std::string& warning : reservoir_warnings(m.scene, coupled_modes_to)) notes.push_back(std::move(warning));
     } else if (m.modes.status != fe2d::ModesStatus::ok) {
-        notes.push_back(
-            fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count, m.modes.solver.text()));
+        notes.push_back(fmt::format("only {} of {} modes: {}", m.modes.frequency.size(), m.count.value_or(usual_modes),
+                                    m.modes.solver.text()));
     }
     if (m.scene.reservoir && m.modes.frequency.size() && !m.choice && !m.water)
         notes.push_back(criterion_sentence(m.scene, m.modes.frequency[0]));
@@ -156,7 +161,8 @@ void write_shapes(const std::filesystem::path& folder, const fe2d::Model& model,
 
 Table frequency_table(const ModesResult& m)
 {
-    return m.coupled ? coupled_mode_table(*m.coupled, m.leading) : natural_mode_table(m.modes);
+    return m.coupled ? coupled_mode_table(*m.coupled, m.leading, m.count.value_or(m.coupled->frequency.size()))
+                     : natural_mode_table(m.modes);
 }
 
 Table damping_table(const ModesResult& m)

@@ -1,7 +1,8 @@
 #include "pages/report/csv_lines.hpp"
 
 #include "core/append_number.hpp"
-#include "pages/report/escape.hpp"
+#include "core/csv.hpp"
+#include "core/text.hpp"
 
 #include <bit>
 #include <cmath>
@@ -9,12 +10,6 @@
 namespace damslip::pages {
 
 namespace {
-
-/// A spreadsheet takes a cell that begins so for a formula and runs it: an apostrophe in front says that it is text.
-std::string no_formula(const std::string& text)
-{
-    return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos ? "'" + text : text;
-}
 
 void add_csv_field(std::string& out, const Cell& cell)
 {
@@ -26,17 +21,7 @@ void add_csv_field(std::string& out, const Cell& cell)
             if (std::isfinite(v)) append_shortest(out, v);
         }
         void operator()(std::int64_t v) const { out += std::to_string(v); }
-        void operator()(const std::string& v) const
-        {
-            const std::string safe = no_formula(visible(v, LineEnds::replaced));
-            if (safe.find_first_of(",\"\n\r") == std::string::npos) {
-                out += safe;
-                return;
-            }
-            out += '"';
-            for (char c : safe) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-            out += '"';
-        }
+        void operator()(const std::string& v) const { out += csv_cell(v); }
         void operator()(bool v) const { out += v ? "true" : "false"; }
     };
     std::visit(Show{out}, cell);
@@ -57,7 +42,10 @@ std::string csv_head(const std::vector<Column>& columns, const std::vector<std::
 {
     std::string out;
     for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
-    for (std::size_t j = 0; j < columns.size(); ++j) out += (j ? "," : "") + columns[j].key;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        if (j) out += ',';
+        add_csv_field(out, columns[j].key); // the name of a variable may be a key
+    }
     return out + "\n";
 }
 

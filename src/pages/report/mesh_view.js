@@ -12,6 +12,14 @@ function damslip_mesh_view(figure, view, page) {
     const nodes = view.x.length, count = view.elements.length / 4;
     const element = e => view.elements.slice(4 * e, 4 * e + 4).filter(node => node >= 0);
     const elements = Array.from({length: count}, (_, e) => element(e));
+    // During the earthquake: for each node the largest value (of a field that is `least`, the smallest) of all states, and which state it is of.
+    const shaken = view.states.slice(1);
+    const envelope = shaken.length < 2 ? null : {name: "envelope of the " + shaken.length + " instants", shift: [0, 0], ux: Array(nodes).fill(0), uy: Array(nodes).fill(0)};
+    if (envelope) {
+        envelope.of = view.fields.map((field, f) => Array.from({length: nodes}, (_, i) => shaken.reduce((best, s) =>
+            (field.least ? s.values[f][i] < best.values[f][i] : s.values[f][i] > best.values[f][i]) ? s : best)));
+        envelope.values = view.fields.map((_, f) => envelope.of[f].map((s, i) => s.values[f][i]));
+    }
     const signed_colours = ["#053061", "#2166ac", "#4393c3", "#92c5de", "#d1e5f0", "#f7f7f7", "#fddbc7", "#f4a582", "#d6604d", "#b2182b", "#67001f"];
     const plain_colours = ["#fffbe6", "#fee6a8", "#fdc06a", "#fb8b3c", "#e4502a", "#b91f26", "#6d0a1f"];
 
@@ -85,7 +93,9 @@ function damslip_mesh_view(figure, view, page) {
         names.forEach((name, i) => input.add(new Option(name, i)));
         return labelled(text, input);
     }
-    const state_slider = range("State", view.states.length - 1, 1, 0);
+    const highest = s => Math.max(...s.values[0].slice(0, view.front));
+    const worst = shaken.reduce((w, s) => highest(s) > highest(w) ? s : w, shaken[0] ?? view.states[0]);
+    const state_slider = range("State", view.states.length - 1, 1, view.states.indexOf(worst));
     const field_choice = choice("Shown", view.fields.map(f => f.name));
     const part_choice = choice("Part", all.x1 - all.x0 > 1.01 * (front.x1 - front.x0) ? ["dam", "whole model"] : ["dam"]);
     const magnifier = range("Deformation", 2, 0.1, 1);
@@ -93,24 +103,29 @@ function damslip_mesh_view(figure, view, page) {
     mesh_box.type = "checkbox"; mesh_box.checked = true;
     labelled("Mesh", mesh_box);
 
-    const state = () => view.states[Number(state_slider.input.value)];
+    const state = () => view.states[Number(state_slider.input.value)] ?? envelope;
     const magnification = () => natural * Number(magnifier.input.value);
-    const state_name = s => s.name + ", " + page.number(s.time) + " s";
+    const state_name = s => s.name + (s === envelope ? "" : ", " + page.number(s.time) + " s");
     function show() {
+        // Where there is room for one panel only, the envelope is the last state.
+        state_slider.input.max = view.states.length - (envelope && !divided(canvas.width / window.devicePixelRatio) ? 0 : 1);
         state_slider.out.textContent = state_name(state());
         state_slider.input.setAttribute("aria-valuetext", state_name(state()));
         magnifier.out.textContent = "× " + page.number(magnification(), 3);
     }
 
     // ---- drawing ----------------------------------------------------------------------------------------------------
-    let frame = null, px = [], py = [];
-    function fit(width, height) {
+    // One panel, or two beside each other: the chosen state, and the envelope.
+    const head = 52; // of a panel: its name and extremes [px]
+    let panels = [], frame = null, px = [], py = [];
+    const divided = width => envelope && part_choice.input.value === "0" && width >= 560;
+    function fit(left, width, height) {
         const whole = part_choice.input.value === "1", b = whole ? all : front, margin = (whole ? 0.03 : 0.14) * size;
-        const scale = Math.min(width / (b.x1 - b.x0 + 2 * margin), height / (b.y1 - b.y0 + 2 * margin));
-        frame = {scale, left: width / 2 - scale * (b.x0 + b.x1) / 2, top: height / 2 + scale * (b.y0 + b.y1) / 2, width, height};
+        const scale = Math.min(width / (b.x1 - b.x0 + 2 * margin), (height - head) / (b.y1 - b.y0 + 2 * margin));
+        frame = {scale, from: left, left: left + width / 2 - scale * (b.x0 + b.x1) / 2, top: (height + head) / 2 + scale * (b.y0 + b.y1) / 2, width, height};
     }
-    function place_nodes() {
-        const s = state(), mag = magnification();
+    function place_nodes(s) {
+        const mag = magnification();
         px = new Float64Array(nodes); py = new Float64Array(nodes);
         for (let i = 0; i < nodes; ++i) {
             const shift = i < view.front ? s.shift : [0, 0];
@@ -118,7 +133,7 @@ function damslip_mesh_view(figure, view, page) {
             py[i] = frame.top - frame.scale * (view.y[i] + shift[1] + mag * s.uy[i]);
         }
     }
-    const outside = e => e.every(i => px[i] < 0) || e.every(i => px[i] > frame.width) || e.every(i => py[i] < 0) || e.every(i => py[i] > frame.height);
+    const outside = e => e.every(i => px[i] < frame.from) || e.every(i => px[i] > frame.from + frame.width) || e.every(i => py[i] < 0) || e.every(i => py[i] > frame.height);
 
     // Part of a convex polygon of [x, y, value] on one side of a value.
     function cut(polygon, value, side) {
@@ -137,8 +152,8 @@ function damslip_mesh_view(figure, view, page) {
         polygon.forEach((p, i) => i ? path.lineTo(p[0], p[1]) : path.moveTo(p[0], p[1]));
         path.closePath();
     }
-    function contours(ctx, f) {
-        const {step, low, high, colours} = bands[f], values = state().values[f], paths = colours.map(() => new Path2D());
+    function contours(ctx, f, s) {
+        const {step, low, high, colours} = bands[f], values = s.values[f], paths = colours.map(() => new Path2D());
         const band = v => Math.max(0, Math.min(high - low - 1, Math.floor(v / step) - low));
         for (const e of elements) {
             if (outside(e)) continue;
@@ -185,28 +200,41 @@ function damslip_mesh_view(figure, view, page) {
         ctx.fillStyle = page.css("--ink");
         ctx.fillText(text, x, y);
     }
-    // Largest and smallest value of the front body, where they are.
-    function extremes(ctx, f) {
-        const values = state().values[f].slice(0, view.front);
+    // Largest and smallest value of the front body: place and time above the picture, marked in it beside the body.
+    function extremes(ctx, f, s) {
+        const values = s.values[f].slice(0, view.front);
+        const middle = y => { // of the body at this elevation
+            const beside = view.x.slice(0, view.front).filter((_, i) => Math.abs(view.y[i] - y) < 0.03 * size);
+            return (Math.min(...beside) + Math.max(...beside)) / 2;
+        };
         let high = 0, low = 0;
         values.forEach((v, i) => { if (v > values[high]) high = i; if (v < values[low]) low = i; });
-        ctx.font = "12px system-ui, sans-serif"; ctx.textBaseline = "middle";
-        for (const [i, word] of [[high, "max "], [low, "min "]]) {
-            ctx.fillStyle = page.css("--ink");
+        const shown = s !== envelope ? [[high, "max"], [low, "min"]] : view.fields[f].least ? [[low, "min"]] : [[high, "max"]];
+        ctx.font = "12px system-ui, sans-serif"; ctx.textBaseline = "middle"; ctx.textAlign = "left";
+        ctx.fillStyle = page.css("--ink");
+        ctx.fillText(state_name(s), frame.from + 6, 10, frame.width - 12);
+        let last = null;
+        shown.forEach(([i, word], k) => {
+            const time = s === envelope ? ", " + page.number(s.of[f][i].time, 4) + " s" : "";
+            ctx.textAlign = "left"; ctx.fillStyle = page.css("--ink");
+            ctx.fillText(word + " " + page.number(values[i], 3) + " " + view.fields[f].unit + " at x " + page.number(view.x[i], 3) + ", y " + page.number(view.y[i], 3) + " m" + time,
+                         frame.from + 6, 26 + 16 * k, frame.width - 12);
             ctx.beginPath(); ctx.arc(px[i], py[i], 3, 0, 7); ctx.fill();
-            const right = px[i] < frame.width * 0.6;
+            const right = view.x[i] > middle(view.y[i]), close = last && Math.abs(py[i] - last.y) < 14 && right === last.right;
+            const y = close ? last.y - 14 : py[i] - 6;
             ctx.textAlign = right ? "left" : "right";
-            haloed(ctx, word + page.number(values[i], 3), px[i] + (right ? 8 : -8), py[i] + (i === low && low !== high ? 12 : -10));
-        }
+            haloed(ctx, word, px[i] + (right ? 8 : -8), y);
+            last = {y, right};
+        });
     }
     function colour_bar(ctx, f, top) {
         const {step, low, high, colours} = bands[f], field = view.fields[f];
-        const width = Math.min(420, frame.width - 40), left = (frame.width - width) / 2, cell = width / colours.length;
+        const whole = canvas.width / window.devicePixelRatio, width = Math.min(420, whole - 40), left = (whole - width) / 2, cell = width / colours.length;
         colours.forEach((c, k) => { ctx.fillStyle = c; ctx.fillRect(left + k * cell, top + 20, cell + 0.5, 13); });
         ctx.strokeStyle = page.css("--axis"); ctx.lineWidth = 1; ctx.strokeRect(left, top + 20, width, 13);
         ctx.fillStyle = page.css("--ink"); ctx.font = "12px system-ui, sans-serif"; ctx.textAlign = "center";
         ctx.textBaseline = "top";
-        ctx.fillText(field.name + (field.unit ? " (" + field.unit + ")" : ""), frame.width / 2, top + 2);
+        ctx.fillText(field.name + (field.unit ? " (" + field.unit + ")" : ""), whole / 2, top + 2);
         const every = Math.max(1, Math.ceil(colours.length * 42 / width));
         for (let k = low; k <= high; ++k)
             if (k % every === 0) ctx.fillText(page.number(k * step), left + (k - low) * cell, top + 37);
@@ -217,15 +245,19 @@ function damslip_mesh_view(figure, view, page) {
         ctx.setTransform(r, 0, 0, r, 0, 0);
         ctx.fillStyle = page.css("--paper");
         ctx.fillRect(0, 0, width, height);
-        fit(width, height - bar);
-        place_nodes();
-        ctx.save();
-        ctx.beginPath(); ctx.rect(0, 0, width, height - bar); ctx.clip();
-        contours(ctx, f);
-        if (mesh_box.checked) lines(ctx);
-        outlines(ctx);
-        extremes(ctx, f);
-        ctx.restore();
+        const shown = divided(width) ? [state(), envelope] : [state()], wide = width / shown.length;
+        panels = shown.map((s, k) => {
+            fit(k * wide, wide, height - bar);
+            place_nodes(s);
+            ctx.save();
+            ctx.beginPath(); ctx.rect(frame.from, 0, wide, height - bar); ctx.clip();
+            contours(ctx, f, s);
+            if (mesh_box.checked) lines(ctx);
+            outlines(ctx);
+            extremes(ctx, f, s);
+            ctx.restore();
+            return {s, px, py};
+        });
         colour_bar(ctx, f, height - bar);
     }
     function draw() {
@@ -242,15 +274,16 @@ function damslip_mesh_view(figure, view, page) {
     }
 
     canvas.addEventListener("pointermove", e => {
-        let best = -1, distance = 20;
-        for (let i = 0; i < nodes; ++i) {
-            const d = Math.hypot(px[i] - e.offsetX, py[i] - e.offsetY);
-            if (d < distance) { best = i; distance = d; }
-        }
+        let best = -1, distance = 20, s = null;
+        for (const panel of panels)
+            for (let i = 0; i < nodes; ++i) {
+                const d = Math.hypot(panel.px[i] - e.offsetX, panel.py[i] - e.offsetY);
+                if (d < distance) { best = i; distance = d; s = panel.s; }
+            }
         if (best < 0) { reading.textContent = ""; return; }
-        const f = Number(field_choice.input.value), s = state();
+        const f = Number(field_choice.input.value);
         reading.textContent = "x " + page.number(view.x[best], 4) + " m, y " + page.number(view.y[best], 4) + " m: " +
-            view.fields[f].name + " " + page.number(s.values[f][best], 4) + " " + view.fields[f].unit;
+            view.fields[f].name + " " + page.number(s.values[f][best], 4) + " " + view.fields[f].unit + (s === envelope ? ", " + state_name(s.of[f][best]) : "");
     });
     place.addEventListener("keydown", e => {
         const step = {ArrowLeft: -1, ArrowRight: 1}[e.key];

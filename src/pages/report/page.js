@@ -44,6 +44,12 @@
 
     const with_unit = axis => axis.label + (axis.unit && axis.unit !== "–" ? " (" + axis.unit + ")" : "");
 
+    const measure = document.createElement("canvas").getContext("2d");
+    function text_width(words) { // at 12 px
+        measure.font = "12px system-ui, sans-serif";
+        return measure.measureText(words).width;
+    }
+
     // ---- scales and ticks -------------------------------------------------------------------------------------------
     // Ticks at 0 and 1, 2, 5 times powers of ten where there is room; evenly spaced ones in a narrow part of a scale.
     function decades(low, high, from, most) {
@@ -110,36 +116,57 @@
         ctx.restore();
     }
 
-    // Lines across the chart with their labels, below the curves.
+    const crowded = new Set(); // labels that cover each other, or are cut off
+    // Lines across the chart with their labels, below the curves. A label stands where it covers no other label and least of the curves.
     function draw_lines(chart) {
         return u => in_box(u, (ctx, r, box) => {
+            const placed = [], drawn = [], high = 15 * r, gap = 5 * r;
             ctx.font = 12 * r + "px system-ui, sans-serif";
-            ctx.lineWidth = 1.3 * r;
-            ctx.strokeStyle = ctx.fillStyle = css("--mark");
-            ctx.setLineDash([6 * r, 4 * r]);
-            const text = (s, x, y, align) => {
-                ctx.textAlign = align;
-                ctx.lineWidth = 4 * r; ctx.strokeStyle = css("--paper"); ctx.setLineDash([]);
-                ctx.strokeText(s, x, y);
-                ctx.fillText(s, x, y);
-                ctx.lineWidth = 1.3 * r; ctx.strokeStyle = css("--mark"); ctx.setLineDash([6 * r, 4 * r]);
+            ctx.textAlign = "left"; ctx.textBaseline = "middle";
+            const meets = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
+            const covered = place => u.data.slice(1).reduce((sum, y, k) => sum + (u.series[k + 1].show && u.series[k + 1].class !== "helper" ?
+                [0, 0.25, 0.5, 0.75, 1].filter(q => {
+                    const x = u.posToVal((place.x + q * place.w - box.left) / r, "x"), i = u.valToIdx(x), j = x < u.data[0][i] ? i - 1 : i + 1;
+                    const v = j < 0 || j >= y.length || y[i] == null || y[j] == null ? y[i]
+                            : y[i] + (y[j] - y[i]) * (x - u.data[0][i]) / (u.data[0][j] - u.data[0][i] || 1);
+                    const at = v == null ? NaN : u.valToPos(v, "y", true);
+                    return at > place.y && at < place.y + place.h;
+                }).length : 0), 0);
+            const label = (words, places) => {
+                const w = ctx.measureText(words).width, inside = p => p.y >= box.top && p.y + p.h <= box.top + box.height;
+                const free = places.map(([x, y, turned]) => turned ? {x: x(high), y, w: high, h: w, turned}
+                    : {x: Math.max(box.left + gap, Math.min(box.left + box.width - w - gap, x(w))), y, w, h: high}).filter(inside);
+                const cost = p => 100 * placed.filter(o => meets(p, o)).length + 4 * drawn.filter(o => meets(p, o)).length + 3 * covered(p);
+                const best = free.reduce((a, p) => a && cost(a) <= cost(p) ? a : p, null);
+                if (!best || cost(best) >= 100) crowded.add(chart.title + ": " + words);
+                if (!best) return;
+                placed.push(best);
+                ctx.save();
+                ctx.translate(best.x + (best.turned ? high / 2 : 0), best.y + (best.turned ? w : high / 2));
+                if (best.turned) ctx.rotate(-Math.PI / 2);
+                ctx.setLineDash([]);
+                ctx.lineWidth = 4 * r; ctx.strokeStyle = css("--paper");
+                ctx.strokeText(words, 0, 0);
+                ctx.fillStyle = css("--mark");
+                ctx.fillText(words, 0, 0);
+                ctx.restore();
             };
-            chart.horizontal.forEach((line, i) => {
-                const y = u.valToPos(line.at, "y", true);
-                ctx.beginPath(); ctx.moveTo(box.left, y); ctx.lineTo(box.left + box.width, y); ctx.stroke();
-                const above = y - 6 * r > box.top + 14 * r;
-                ctx.textBaseline = above ? "bottom" : "top";
-                const left = i % 2 === 1; // labels of two lines close to each other stay apart
-                text(line.label, left ? box.left + 6 * r : box.left + box.width - 6 * r, above ? y - 3 * r : y + 3 * r, left ? "left" : "right");
-            });
-            chart.vertical.forEach((line, i) => {
-                const x = u.valToPos(line.at, "x", true);
-                if (x < box.left || x > box.left + box.width) return;
-                ctx.beginPath(); ctx.moveTo(x, box.top); ctx.lineTo(x, box.top + box.height); ctx.stroke();
-                const left = x > box.left + box.width / 2;
-                ctx.textBaseline = "top";
-                text(line.label, left ? x - 5 * r : x + 5 * r, box.top + (4 + 16 * i) * r, left ? "right" : "left");
-            });
+            const line = (x0, y0, x1, y1) => {
+                ctx.lineWidth = 1.3 * r; ctx.strokeStyle = css("--mark"); ctx.setLineDash([6 * r, 4 * r]);
+                ctx.beginPath(); ctx.moveTo(x0, y0); ctx.lineTo(x1, y1); ctx.stroke();
+            };
+            const horizontal = chart.horizontal.map(l => ({label: l.label, y: u.valToPos(l.at, "y", true)}));
+            const vertical = chart.vertical.map(l => ({label: l.label, x: u.valToPos(l.at, "x", true)}))
+                .filter(l => l.x >= box.left && l.x <= box.left + box.width);
+            for (const l of horizontal) line(box.left, l.y, box.left + box.width, l.y);
+            for (const l of vertical) line(l.x, box.top, l.x, box.top + box.height);
+            for (const l of horizontal) drawn.push({x: box.left, y: l.y - r, w: box.width, h: 2 * r});
+            for (const l of vertical) drawn.push({x: l.x - r, y: box.top, w: 2 * r, h: box.height});
+            for (const l of horizontal)
+                label(l.label, [0.98, 0.02, 0.75, 0.5, 0.25].flatMap(q => [l.y - high - 2 * r, l.y + 2 * r].map(y => [w => box.left + q * (box.width - w), y])));
+            for (const l of vertical)
+                label(l.label, [false, true].flatMap(turned => [...Array(Math.floor(box.height / high)).keys()].flatMap(k =>
+                    [w => l.x + gap, w => l.x - w - gap].map(x => [x, box.top + 3 * r + k * high, turned]))));
         });
     }
 
@@ -284,13 +311,16 @@
             x_axis.size = Math.min(190, 18 + longest * 7 * 0.66);
         }
         const height = printing ? Math.min(chart.height, 215) : chart.height; // three on a page
-        const along = Math.max(8, Math.min(12, Math.floor(12 * (height - 20) / (6.2 * with_unit(chart.yaxis).length)))); // px, whole: the label has room
+        const along = Math.max(7, Math.min(12, Math.floor(12 * (height - 64) / text_width(with_unit(chart.yaxis))))); // px, whole: the label fits the axis
         const y_axis = {
             stroke: ink, font, labelFont: along + "px system-ui, sans-serif", grid, ticks: grid, filter: (u, splits) => splits,
             label: with_unit(chart.yaxis), labelSize: 22,
             splits: ticks(chart.yaxis, "y"), values: labels(chart.yaxis),
             size: (u, values) => 16 + 7.2 * Math.max(5, ...(values ?? []).map(s => s.length)),
         };
+        if (text_width(with_unit(chart.yaxis)) * along > 12 * (height - 56)) crowded.add(chart.title + ": " + chart.yaxis.label);
+        const x = data[0], span = x[x.length - 1] - x[0], scatter = chart.curves.every(c => c.mark === "points"); // points at the ends are whole
+        const padded = (v, side) => !scatter || x_distr === 4 ? v : x_distr === 3 ? v * Math.pow(x[x.length - 1] / x[0], side * 0.03) : v + side * 0.03 * span;
         return {
             width, height: height + (tilted ? x_axis.size - 32 : 0),
             scales: {
@@ -298,7 +328,7 @@
                     range: (u, low, high) => names.length ? [Math.max(-0.5, low - 0.5), Math.min(names.length - 0.5, high + 0.5)]
                                            : low == null ? [x_low ?? 0, x_high ?? 1]
                                            : low === high ? [low - Math.abs(low || 1) / 2, high + Math.abs(high || 1) / 2]
-                                           : low === data[0][0] && high === data[0][data[0].length - 1] ? [x_low ?? low, x_high ?? high] : [low, high]},
+                                           : low === data[0][0] && high === data[0][data[0].length - 1] ? [x_low ?? padded(low, -1), x_high ?? padded(high, 1)] : [low, high]},
                 y: {distr: y_distr, asinh: chart.yaxis.linear_below, range: value_range(chart.yaxis, chart.horizontal.map(l => l.at))},
             },
             series, bands, axes: [x_axis, y_axis],
@@ -486,6 +516,8 @@
         d.dataset.errors = errors.join(" | ");
         if (location.hash === "#check") d.dataset.empty = charts.filter(is_empty).map(e => e.chart.title)
                 .concat(pictures.filter(p => p.drawn && p.is_empty()).map(p => p.title)).join(" | ");
+        d.dataset.crowded = [...crowded].join(" | ");
+        d.dataset.wide = [...document.querySelectorAll(".drawing .scroll")].filter(e => e.querySelector(".signs") && e.scrollWidth > e.clientWidth + 1).length;
         d.dataset.state = errors.length ? "failed" : finished ? "drawn" : "drawing";
     }
 

@@ -93,7 +93,7 @@ std::string mesh_view_json(const MeshView& view)
                       ",\"front\":" + std::to_string(view.front_nodes) + ",\"fields\":[";
     for (std::size_t i = 0; i < view.fields.size(); ++i)
         out += std::string(i ? "," : "") + "{\"name\":" + json_text(view.fields[i].name) +
-               ",\"unit\":" + json_text(view.fields[i].unit) + "}";
+               ",\"unit\":" + json_text(view.fields[i].unit) + (view.fields[i].least ? ",\"least\":true}" : "}");
     out += "],\"states\":[";
     for (std::size_t i = 0; i < view.states.size(); ++i) out += (i ? "," : "") + state_json(view.states[i]);
     return out + "]}";

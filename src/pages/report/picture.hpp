@@ -25,10 +25,12 @@ struct StateMap {
     std::string note;
 };
 
-/// A mesh in several states: deformed, with contours of fields on its nodes. A slider goes through the states.
+/// A mesh in several states: deformed, with contours of fields on its nodes. A slider goes through the states, from the one
+/// after the first whose first field is largest; beside it stands the envelope of all after the first.
 struct MeshView {
     struct Field {
         std::string name, unit;
+        bool least = false; ///< its smallest value is the one that matters: the envelope keeps it
     };
     struct State {
         std::string name;

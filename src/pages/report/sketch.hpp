@@ -31,6 +31,9 @@ public:
     /// Dimension line between two points with a head at both ends, moved sideways (to the left of the direction from
     /// `a` to `b`) by `offset_px`, with extension lines and its text in the middle.
     void dimension(Point a, Point b, double offset_px, const std::string& words);
+    /// Several marks as one: what is drawn until end_group() has this class, too.
+    void begin_group(const std::string& css) { body_ += "<g class=\"" + css + "\">\n"; }
+    void end_group() { body_ += "</g>\n"; }
     /// The triangle that marks a water level, its tip on the point.
     void level_mark(Point at, const std::string& words, Align align);
 

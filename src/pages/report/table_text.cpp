@@ -36,24 +36,57 @@ std::string padded(const std::string& s, std::size_t to, bool right)
 
 using TextLine = std::vector<std::string>;
 
-/// Columns padded to their widest entry, a rule below the first `header` lines.
-std::string aligned(const std::vector<TextLine>& lines, std::size_t header, const std::vector<bool>& right)
+constexpr std::size_t widest = 110; ///< line of a table in a terminal [characters]
+
+/// Of each column its widest entry.
+std::vector<std::size_t> widths_of(const std::vector<TextLine>& lines, std::size_t columns)
 {
-    std::vector<std::size_t> widths(right.size(), 0);
+    std::vector<std::size_t> widths(columns, 0);
     for (const TextLine& line : lines)
         for (std::size_t j = 0; j < line.size(); ++j) widths[j] = std::max(widths[j], width(line[j]));
+    return widths;
+}
+
+/// The columns in groups that fit a line, each with the first `again` columns in front.
+std::vector<std::vector<std::size_t>> column_groups(const std::vector<std::size_t>& widths, std::size_t again)
+{
+    std::vector<std::vector<std::size_t>> groups(1);
+    std::size_t used = 0, repeated = 0;
+    for (std::size_t j = 0; j < widths.size(); ++j) {
+        const std::size_t wanted = widths[j] + 2;
+        if (j < again) repeated += wanted;
+        if (j > again && used + wanted > widest + 2) {
+            groups.emplace_back();
+            for (std::size_t k = 0; k < again; ++k) groups.back().push_back(k);
+            used = repeated;
+        }
+        groups.back().push_back(j);
+        used += wanted;
+    }
+    return groups;
+}
+
+/// Columns padded to their widest entry, a rule below the first `header` lines; columns beyond the widest line go below.
+/// @param again  columns that every part begins with
+std::string aligned(const std::vector<TextLine>& lines, std::size_t header, const std::vector<bool>& right,
+                    std::size_t again)
+{
+    const std::vector<std::size_t> widths = widths_of(lines, right.size());
     std::string out;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        std::string line;
-        for (std::size_t j = 0; j < lines[i].size(); ++j)
-            line += (j ? "  " : "") + padded(lines[i][j], widths[j], right[j]);
-        while (!line.empty() && line.back() == ' ') line.pop_back();
-        out += line + "\n";
-        if (i + 1 != header) continue;
-        std::size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
-        for (const std::size_t w : widths) total += w;
-        for (std::size_t k = 0; k < total; ++k) out += "─";
-        out += "\n";
+    for (const std::vector<std::size_t>& group : column_groups(widths, again)) {
+        if (!out.empty()) out += "\n";
+        std::size_t total = 0;
+        for (const std::size_t j : group) total += widths[j] + 2;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            std::string line;
+            for (const std::size_t j : group)
+                line += (line.empty() ? "" : "  ") + padded(lines[i][j], widths[j], right[j]);
+            while (!line.empty() && line.back() == ' ') line.pop_back();
+            if (!line.empty() || i == 0 || i >= header) out += line + "\n"; // a part without units has no line for them
+            if (i + 1 != header) continue;
+            for (std::size_t k = 2; k < total; ++k) out += "─";
+            out += "\n";
+        }
     }
     return out;
 }
@@ -62,11 +95,27 @@ std::string aligned(const std::vector<TextLine>& lines, std::size_t header, cons
 std::string framed(const Table& table, const std::string& body)
 {
     std::string out = (table.title.empty() ? "" : visible(table.title, LineEnds::replaced) + "\n") + body;
-    for (const std::string& note : table.notes) out += "  " + visible(note, LineEnds::replaced) + "\n";
+    for (const std::string& note : table.notes) out += broken_lines(visible(note, LineEnds::replaced), "  ");
     return out;
 }
 
 } // namespace
+
+std::string broken_lines(const std::string& sentence, const std::string& indent)
+{
+    std::string out, line;
+    for (std::size_t from = 0; from <= sentence.size();) {
+        const std::size_t end = std::min(sentence.find(' ', from), sentence.size());
+        const std::string next = sentence.substr(from, end - from);
+        if (!line.empty() && width(line) + 1 + width(next) > widest) {
+            out += line + "\n";
+            line.clear();
+        }
+        line += (line.empty() ? indent : " ") + next;
+        from = end + 1;
+    }
+    return out + line + "\n";
+}
 
 std::string cell_text(const Cell& cell, int digits)
 {
@@ -87,6 +136,17 @@ bool is_number(const Cell& cell)
            std::holds_alternative<std::monostate>(cell);
 }
 
+Table verdict_after(Table table, std::size_t names)
+{
+    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
+                                 [](const Column& column) { return column.key == "verdict"; });
+    const auto k = at - table.columns.begin(), first = static_cast<std::ptrdiff_t>(names);
+    if (at == table.columns.end() || k <= first) return table;
+    std::rotate(table.columns.begin() + first, at, at + 1);
+    for (std::vector<Cell>& row : table.rows) std::rotate(row.begin() + first, row.begin() + k, row.begin() + k + 1);
+    return table;
+}
+
 std::string text(const Table& table)
 {
     const std::size_t n = table.columns.size();
@@ -104,7 +164,12 @@ std::string text(const Table& table)
         lines.emplace_back(n);
         for (std::size_t j = 0; j < n; ++j) lines.back()[j] = cell_text(row[j], table.columns[j].digits);
     }
-    return framed(table, aligned(lines, header, right));
+    const std::size_t names = n > 1 && !right[0] && table.columns[1].key == "polarity" ? 2 : 1;
+    const std::vector<std::size_t> widths = widths_of(lines, n);
+    if (column_groups(widths, std::min(n, names)).size() > 1)
+        if (const Table first = verdict_after(table, names); first.columns[names].key != table.columns[names].key)
+            return text(first);
+    return framed(table, aligned(lines, header, right, std::min(n, names)));
 }
 
 std::string texts(const std::vector<Table>& tables)
@@ -125,7 +190,7 @@ std::string text_by_columns(const Table& table, std::size_t labels)
     }
     std::vector<bool> right(2 + table.rows.size(), true);
     right[0] = right[1] = false;
-    return framed(table, aligned(lines, labels, right));
+    return framed(table, aligned(lines, labels, right, 2));
 }
 
 std::string csv(const Table& table, const std::vector<std::string>& comments)

@@ -13,14 +13,22 @@ std::string cell_text(const Cell& cell, int digits);
 /// A number or nothing: right-aligned.
 bool is_number(const Cell& cell);
 
+/// A sentence in lines of at most 110 characters, each after the indent.
+std::string broken_lines(const std::string& sentence, const std::string& indent);
+
 /// For a terminal: title, aligned columns with a unit line, notes. Numbers right-aligned with the column's digits; "–" for nothing.
+/// Columns beyond 110 characters follow below, each part with the first column (and the polarity beside it) again; the
+/// verdict is in the first part.
 std::string text(const Table& table);
+
+/// With the verdict behind the first `names` columns, where it is seen first.
+Table verdict_after(Table table, std::size_t names);
 
 /// Several, an empty line between them.
 std::string texts(const std::vector<Table>& tables);
 
-/// The same turned by a quarter, for tables of many quantities and few rows: one line per column with its unit, one column per row;
-/// a rule below the first `labels` lines.
+/// The same turned by a quarter, for tables of many quantities and few rows: one line per column with its unit, one column per row,
+/// in parts of at most 110 characters; a rule below the first `labels` lines.
 std::string text_by_columns(const Table& table, std::size_t labels);
 
 /// Header row of keys, one row per line, numbers as shortest exact text, RFC 4180 quoting; `comments` become "# ..." lines on top.

@@ -2,66 +2,72 @@
 
 #include "pages/scene/effect_table.hpp"
 #include "scene/rock_mass.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
 
 namespace damslip::pages {
 
 namespace {
 
-/// One assumption and where it ends.
+/// One assumption of a model.
 struct Limit {
-    std::string of, taken, ends;
+    std::string aspect, assumption, invalid_when, instead;
 };
 
 Limit rock_limit(const Scene& scene)
 {
     switch (rock_kind(scene)) {
     case RockKind::rigid:
-        return {"rock", "rigid: it moves as the record says.",
-                "Rock that gives way or lets waves leave changes the slip: give [foundation]."};
+        return {"rock", "rigid: it moves as the record does",
+                "the rock is about as soft as the dam, or takes up its waves: the slip changes either way",
+                "give [foundation]"};
     case RockKind::massless:
-        return {"rock", "elastic without mass.",
-                "It keeps every wave, which makes the dam hop and slide further than on rock that lets waves leave."};
+        return {"rock", "elastic, without mass",
+                "always: massless rock has no radiation damping, and slip is overestimated",
+                "foundation.mass = \"with-mass\""};
     case RockKind::boxed:
-        return {"rock", "elastic with mass, in a box.",
-                "Waves come back from the edges of the box as far as those do."};
+        return {"rock", "elastic with mass, in a box", "waves reflected by the box reach the dam again",
+                "a larger box, or rock that radiates"};
     case RockKind::radiating:
-        return {"rock", "an elastic half space of one kind of rock, through which waves leave.",
-                "Layers, faults and a valley's shape are not in it. The record is the motion of the rock's free "
-                "surface without the dam; waves come straight from below, the same along the base."};
+        return {"rock",
+                "an elastic half space of one kind of rock; the record is the motion of its free surface without the "
+                "dam, waves come vertically from below, the same along the base",
+                "layers, faults or the valley's shape matter; long bases; waves from the side",
+                "vary the rock's modulus"};
     }
     return {};
 }
 
 std::vector<Limit> block_limits(const Scene& scene)
 {
-    std::vector<Limit> list{
-        {"rigid block", "the mass moves as one piece and stays flat on its plane.",
-         "It knows no vibration of its own, which may make the slip smaller or larger than this: it is no upper bound. "
-         "Where the block tips first the report says so."},
-        {"regressions", "the horizontal component of the record and the yield acceleration.",
-         "Each holds within the data it was fitted to; those outside are named and not weighted. They check the "
-         "order of magnitude."}};
+    std::vector<Limit> list{{"rigid block", "the mass moves as one piece and stays flat on its plane",
+                             "the dam amplifies the shaking: slip may be larger or smaller, so this is no upper bound",
+                             "finite elements"},
+                            {"regressions", "the horizontal component of the record, and the yield acceleration",
+                             "outside the data each was fitted to; those are named and not weighted",
+                             "take them for the order of magnitude only"}};
     if (scene.wedge)
-        list.push_back(
-            {"wedge", "a rigid wedge on its plane or planes.", "It does not turn; no other plane is tried."});
+        list.push_back({"wedge", "a rigid wedge that translates on its plane or planes",
+                        "it turns, or another plane is weaker", "run the other planes as scenes of their own"});
     return list;
 }
 
 std::vector<Limit> element_limits(const Scene& scene)
 {
     std::vector<Limit> list{
-        {"materials", "concrete and rock are linear elastic.",
-         "They do not crack: stresses beyond the strength are shown, and nothing follows from them."},
+        {"materials", "concrete and rock are linear elastic",
+         "tension exceeds the strength, above all at neck and heel: stresses are shown, but nothing cracks",
+         "a lift joint where the crack would run"},
         rock_limit(scene),
-        {"joints", "they slide and open at their pairs of nodes.",
-         scene.contact.sliding == JointPath::small
-             ? "Nodes stay opposite each other: a slip is to be small against the length of the base."
-             : "The base slides as far as contact.max_slip_m; other joints little."},
-        {"±", "what the time step leaves open, and the change against elements of twice the size.",
-         "It does not hold what is not known of the dam: friction, uplift, level, record. A sweep does."}};
+        scene.contact.sliding == JointPath::small
+            ? Limit{"joints", "pairs of nodes that slide and open, opposite each other",
+                    "the slip is not small against the length of the base", "contact.sliding = \"finite\""}
+            : Limit{"joints", "the base slides as far as contact.max_slip_m; lift joints slide little",
+                    "a lift joint slides far", "a scene with that joint as its base"},
+        {"±", "error of time step and mesh: the change against elements of twice the size",
+         "the inputs are uncertain: ± excludes friction, uplift, water level and record", "sweep, fragility"}};
     if (scene.reservoir)
-        list.push_back({"water", "added mass or linear acoustic water, as the table of effects says.",
-                        "No cavitation, no wave over the crest, no water that follows the dam downstream."});
+        list.push_back({"water", "added mass or linear acoustic water, as the table of effects lists",
+                        "cavitation, waves over the crest, a dam that moves by metres", "a model with a free surface"});
     return list;
 }
 
@@ -69,29 +75,61 @@ std::vector<Limit> element_limits(const Scene& scene)
 
 Section limits_section(const Scene& scene, Method method)
 {
-    std::vector<Limit> rows{{"plane section", "one metre of the dam, the same along the axis.",
-                             "Abutments, arching and shear keys between monoliths are not in it."},
-                            {"slip plane",
-                             scene.wedge ? "the planes that are given."
-                             : method == Method::finite_elements && !scene.lift_joints.empty()
-                                 ? "the base and the lift joints."
-                                 : "the base alone.",
-                             "No other plane through rock or dam is looked for."},
-                            {"friction", "Coulomb's, the same all along a plane, as the list of inputs has it.",
-                             "It is measured or assumed, not computed; the slip depends on it as on little else."}};
+    std::vector<Limit> rows{
+        {"plane section", "one metre of the dam, the same along the axis",
+         "abutments, arching or shear keys between monoliths carry load", "a model in three dimensions"},
+        {"slip plane",
+         scene.wedge                                                       ? "the planes that are given"
+         : method == Method::finite_elements && !scene.lift_joints.empty() ? "the base and the lift joints"
+                                                                           : "the base alone",
+         "a seam below the base or another plane through the dam is weaker",
+         "name it as a lift joint, or run the block on the seam"},
+        {"friction", "Coulomb's law, the same along a plane, with the scene's value",
+         "strength varies along the plane, or is not known: the slip depends on it as on little else",
+         "run the lowest and the highest value (sweep)"}};
     if (scene.uplift && scene.uplift->water.opening == OpeningWater::unchanged)
-        rows.push_back({"uplift", "as before the earthquake, while the dam moves.",
-                        "Water that enters or leaves a joint as it opens changes it: uplift.opening."});
+        rows.push_back({"uplift", "as before the earthquake, while the dam moves",
+                        "water enters or leaves a joint as it opens", "uplift.opening"});
     if (method == Method::finite_elements)
         for (Limit& limit : element_limits(scene)) rows.push_back(std::move(limit));
     for (Limit& limit : block_limits(scene)) rows.push_back(std::move(limit));
     return {"Limits of validity",
             {rows_part(table_of<Limit>("Limits of validity",
-                                       {{{"of", "of"}, &Limit::of},
-                                        {{"taken", "is taken as"}, &Limit::taken},
-                                        {{"ends", "and ends where"}, &Limit::ends}},
+                                       {{{"aspect", "aspect"}, &Limit::aspect},
+                                        {{"assumption", "assumption"}, &Limit::assumption},
+                                        {{"invalid_when", "invalid when"}, &Limit::invalid_when},
+                                        {{"instead", "do instead"}, &Limit::instead}},
                                        rows))},
             Fold::open};
+}
+
+Section equilibrium_section(const std::vector<sliding::Equilibrium>& combinations)
+{
+    Section section{"Limit equilibrium", {}, Fold::open};
+    if (Table matrix = sliding::check_matrix(combinations); !matrix.rows.empty())
+        section.parts.push_back(rows_part(std::move(matrix)));
+    else
+        section.parts.push_back(Paragraph{
+            "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
+            "[[combination]]."});
+    Table quantities = sliding::equilibrium_table(combinations);
+    quantities.title = "Quantities of each combination";
+    section.parts.push_back(TablePart{
+        std::move(quantities),
+        Layout::columns,
+        3,
+        Fold::open,
+        {"N': normal force less uplift, compression positive; T: shear, positive downstream; U: uplift, positive up; "
+         "k_h: horizontal seismic coefficient, positive where it drives downstream; k_v: vertical, positive where it "
+         "makes the dam heavier. FS sliding: strength over shear; FS overturning: moments about the toe; eccentricity: "
+         "of the resultant from the middle of the base, positive downstream; stresses: effective, compression "
+         "positive. a_y: ground acceleration at which it starts to slide; tipping: at which it turns about its toe."}});
+    for (const sliding::Equilibrium& e : combinations) {
+        Table loads = sliding::load_table(e);
+        loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
+        section.parts.push_back(TablePart{std::move(loads), Layout::rows, 1, Fold::folded});
+    }
+    return section;
 }
 
 TablePart record_part(Table table)

@@ -2,13 +2,17 @@
 
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
+#include "sliding/equilibrium/combinations.hpp"
 
-/// What the numbers of a report hold for, and the words of tables that several reports share.
+/// What the numbers of a report hold for, and parts that several reports share.
 namespace damslip::pages {
 
 /// "Limits of validity": what each model of the method leaves out, for this scene.
 /// @param method  finite elements: the rigid block's rows, too, as it stands beside them
 Section limits_section(const Scene& scene, Method method);
+
+/// "Limit equilibrium": the checks of all load combinations as one matrix, their quantities, and the loads of each, folded.
+Section equilibrium_section(const std::vector<sliding::Equilibrium>& combinations);
 
 /// The table of records with what its measures mean.
 TablePart record_part(Table table);

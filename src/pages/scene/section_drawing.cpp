@@ -156,7 +156,7 @@ void draw_uplift(Sketch& sketch, const Scene& scene, const Frame& f, const Press
     if (points.back().pressure > 0.005 * largest)
         sketch.text(at(length, points.back().pressure), words(points.back().pressure), Align::start, 6, 6,
                     "small halo");
-    sketch.text(at(length, 0.8 * largest), fmt::format("uplift U = {:.4g} kN/m", resultant(profile).force / 1e3),
+    sketch.text(at(length, 0.8 * largest), fmt::format("uplift U = {:.0f} kN/m", resultant(profile).force / 1e3),
                 Align::start, 6, 0);
 }
 
@@ -298,15 +298,18 @@ Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const
     draw_anchors(sketch, scene, f);
     draw_forces(sketch, scene, f);
     draw_dimensions(sketch, scene, f);
+    sketch.begin_group("signs"); // a narrow screen has no room for them
     draw_signs(sketch, f);
+    sketch.end_group();
     Drawing drawing;
     drawing.title = "The section, to scale";
     drawing.svg = sketch.svg(fmt::format("Cross-section, {:.4g} m high, base {:.4g} m, with water levels and uplift "
                                          "pressure along the base",
                                          f.crest, base_length(scene.section)));
+    drawing.note = "x downstream, y up; a_h > 0: ground upstream, drives the dam downstream; slip > 0: downstream.";
     if (wet)
-        drawing.note = fmt::format("Below the base: uplift pressure as the {} uses it.",
-                                   mesh.empty() ? "yield acceleration" : "run before the earthquake");
+        drawing.note += fmt::format(" Below the base: uplift pressure {}.",
+                                    mesh.empty() ? "of the yield acceleration" : "before the earthquake");
     return drawing;
 }
 

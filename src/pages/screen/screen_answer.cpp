@@ -48,17 +48,7 @@ std::string effects_line(const EffectPlan& plan)
     std::string on;
     for (const PlannedEffect& e : plan.effects)
         if (e.on) on += (on.empty() ? "" : ", ") + e.name;
-    return "effects on: " + (on.empty() ? "none" : on) + "\n";
-}
-
-/// The verdicts that have a criterion.
-Table judged(Table verdicts)
-{
-    const auto column = std::find_if(verdicts.columns.begin(), verdicts.columns.end(),
-                                     [](const Column& c) { return c.key == "verdict"; });
-    const auto j = static_cast<std::size_t>(column - verdicts.columns.begin());
-    std::erase_if(verdicts.rows, [j](const auto& row) { return row[j] == Cell(std::string("no criterion")); });
-    return verdicts;
+    return broken_lines("effects on: " + (on.empty() ? "none" : on), "");
 }
 
 } // namespace
@@ -67,10 +57,6 @@ std::vector<std::string> screen_notes(const Ready& ready)
 {
     std::vector<std::string> notes = note_texts(ready.given.notes);
     if (!ready.flexible_modes.empty()) notes.push_back(ready.flexible_modes);
-    if (!ready.given.lift_joints.empty())
-        notes.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
-                                    "[[lift_joint]] is left to `damslip fe`.",
-                                    ready.given.lift_joints.size()));
     return notes;
 }
 
@@ -78,7 +64,7 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    auto j = json_header("screen", in.scene);
+    auto j = json_header("screen", in.scene, s.plan.scene_hash);
     j["records"] = record_provenance(in.records);
     j["effects"] = json_of(effect_table(s.plan));
     if (in.scene.wedge) {
@@ -106,6 +92,9 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s.regressions));
     if (in.spectrum) j["response_spectrum"] = spectrum_json(*in.spectrum);
+    const Headline headline = screen_headline(in.scene, s);
+    j["headline"] = headline.sentence;
+    j["verdict"] = headline.verdict;
     j["warnings"] = s.warnings;
     return j;
 }
@@ -115,7 +104,7 @@ std::string screen_text(const ScreenReportInput& in)
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     std::string out = in.scene.title + "   (" + in.scene.file.string() + ", scene " +
-                      scene_hash(in.scene).substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
+                      s.plan.scene_hash.substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out += text(table) + "\n";
     };
@@ -126,12 +115,13 @@ std::string screen_text(const ScreenReportInput& in)
         show(wedge_yield_table(in.scene, *model.wedge));
     } else {
         out += text_by_columns(sliding::equilibrium_table(s.combinations), 3) + "\n";
-        const Table verdicts = judged(sliding::verdict_table(s.combinations));
-        if (verdicts.rows.empty())
+        const Table checks = sliding::check_matrix(s.combinations);
+        if (checks.rows.empty())
             out += "verdicts: no required values are given; name criteria.document, or required_... in "
                    "[[combination]]\n\n";
-        show(verdicts);
-        show(yield_table(s));
+        else
+            out += text_by_columns(checks, 2) + "\n";
+        out += text_by_columns(yield_table(s), 1) + "\n";
         show(lift_joint_table(in.given));
         show(anchor_list_table(in.given));
         show(sliding::uplift_comparison_table(s.uplifts));
@@ -147,16 +137,23 @@ std::string screen_text(const ScreenReportInput& in)
     if (s.flexible) show(flexible_table(s, allowable));
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
+    const Headline headline = screen_headline(in.scene, s);
+    out += headline.sentence + "\n" + headline.verdict + "\n";
     for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
     return out;
 }
 
 void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in)
 {
-    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + scene_hash(in.scene)};
+    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + in.screening.plan.scene_hash};
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
+    if (!in.scene.wedge) {
+        write_file(folder / "equilibrium.csv", csv(sliding::equilibrium_table(in.screening.combinations), comments));
+        write_file(folder / "verdicts.csv", csv(sliding::verdict_table(in.screening.combinations), comments));
+        write_file(folder / "yield.csv", csv(yield_table(in.screening), comments));
+    }
     if (has_rocking(in.screening))
         write_file(folder / "rocking_block.csv", csv(rocking_table(in.screening, allowable), comments));
     if (const Table events = event_table(in.screening); !events.rows.empty())

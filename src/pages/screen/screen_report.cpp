@@ -103,6 +103,10 @@ std::string slip_sentence(const Scene& scene, const Screening& s)
     if (n > 1 && slip > 0 && without.empty())
         out += fmt::format(", median {:.4g} mm", percentile(worse_slips(s), 0.5) / mm);
     out += without;
+    if (!s.bases.front().model.wedge && !scene.section.rock_slope)
+        out += worst && worst->governing().method != "rigid" && worst->governing().method != "rocking"
+                   ? ", by a flexible block: no bound for a dam that opens and rocks"
+                   : ", by the rigid block: no bound for an elastic dam";
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
     return out + ".";
@@ -150,35 +154,6 @@ Section section_part(const Scene& scene, const Screening& s)
     return {"Section", {section_drawing(scene, state.base.profile)}, Fold::open};
 }
 
-Section equilibrium_section(const Screening& s)
-{
-    Section section{"Limit equilibrium", {}, Fold::open};
-    section.parts.push_back(TablePart{
-        sliding::equilibrium_table(s.combinations),
-        Layout::columns,
-        3,
-        Fold::open,
-        {"N': normal force less uplift, compression positive; T: shear, positive downstream; U: uplift, positive up; "
-         "k_h: horizontal seismic coefficient, positive where it drives downstream; k_v: vertical, positive where it "
-         "makes the dam heavier. FS sliding: strength over shear; FS overturning: moments about the toe; eccentricity: "
-         "of the resultant from the middle of the base, positive downstream; stresses: effective, compression "
-         "positive. a_y: ground acceleration at which it starts to slide; tipping: at which it turns about its toe."}});
-    Table verdicts = sliding::verdict_table(s.combinations);
-    const CheckCount checks = count_checks(s);
-    if (checks.judged == 0)
-        section.parts.push_back(Paragraph{
-            "No required values are given, so there are no verdicts: name criteria.document, or required_... in "
-            "[[combination]]."});
-    else
-        section.parts.push_back(rows_part(std::move(verdicts)));
-    for (const sliding::Equilibrium& e : s.combinations) {
-        Table loads = sliding::load_table(e);
-        loads.title += std::string(", crack rule ") + sliding::word(e.crack_rule);
-        section.parts.push_back(TablePart{std::move(loads), Layout::rows, 1, Fold::folded});
-    }
-    return section;
-}
-
 Section yield_section(const Scene& scene, const Screening& s)
 {
     Section section{"Yield acceleration", {}, Fold::open};
@@ -188,7 +163,7 @@ Section yield_section(const Scene& scene, const Screening& s)
         section.parts.push_back(wedge_yield_chart(wedge, s.largest_pga));
         return section;
     }
-    section.parts.push_back(rows_part(yield_table(s)));
+    section.parts.push_back(TablePart{yield_table(s), Layout::columns, 1, Fold::open});
     section.parts.push_back(yield_over_friction(scene, s));
     if (scene.reservoir) section.parts.push_back(yield_over_level(scene, s));
     if (!scene.anchors.empty()) section.parts.push_back(rows_part(anchor_list_table(scene)));
@@ -243,7 +218,7 @@ std::vector<Section> record_sections(const ScreenReportInput& in, const std::vec
 
 std::vector<std::pair<std::string, std::string>> provenance(const ScreenReportInput& in)
 {
-    std::vector<std::pair<std::string, std::string>> list = scene_provenance(in.scene);
+    std::vector<std::pair<std::string, std::string>> list = scene_provenance(in.scene, in.screening.plan.scene_hash);
     list.emplace_back("method", in.scene.sliding.scheme == SlidingScheme::exact
                                     ? "rigid block, events located exactly, acceleration linear between samples"
                                     : "rigid block, SLAMMER's trapezoid scheme");
@@ -261,7 +236,9 @@ std::vector<std::pair<std::string, std::string>> key_figures(const Scene& scene,
         list.emplace_back("Slides", direction_words(model.wedge->still.direction));
     } else {
         list.emplace_back("Friction μ", fmt::format("{:.4g}", model.block.friction));
-        list.emplace_back("Holds without earthquake from μ", fmt::format("{:.4g}", model.critical_friction));
+        list.emplace_back("Needs statically μ ≥", model.critical_friction == 0.0 && model.block.cohesion_force > 0.0
+                                                      ? "cohesion alone suffices"
+                                                      : fmt::format("{:.4g}", model.critical_friction));
     }
     if (!s.slips.empty()) {
         list.emplace_back("Largest PGA", metres_per_second2(s.largest_pga));
@@ -286,7 +263,10 @@ std::vector<std::string> all_warnings(const ScreenReportInput& in)
 
 } // namespace
 
-Headline screen_headline(const Scene& scene, const Screening& s)
+namespace {
+
+/// Without the load combinations whose checks fail.
+Headline slip_headline(const Scene& scene, const Screening& s)
 {
     const RigidModel& model = s.bases.front().model;
     const CheckCount checks = count_checks(s);
@@ -302,8 +282,7 @@ Headline screen_headline(const Scene& scene, const Screening& s)
                             sliding_body(scene)),
                 Outcome::fail, "FAIL"};
     if (model.state != sliding::StaticState::at_rest)
-        return {fmt::format("The {} slides without any earthquake: friction {:.4g} is below the {:.4g} that holds it.",
-                            sliding_body(scene), model.block.friction, model.critical_friction),
+        return {fmt::format("The {} slides without any earthquake: {}.", sliding_body(scene), model.why_it_fails()),
                 Outcome::fail, "FAIL"};
     if (overturns(s.bases.front()))
         return {
@@ -319,7 +298,9 @@ Headline screen_headline(const Scene& scene, const Screening& s)
                         sliding_body(scene), metres_per_second2(model.downstream.law.constant)) +
             checks_sentence(checks) + standing_sentence(s);
         if (checks.judged == 0) return {sentence, Outcome::none, "No criterion."};
-        return {sentence, checks.failed ? Outcome::fail : Outcome::pass, checks.failed ? "FAIL" : pass};
+        if (checks.failed)
+            return {sentence, Outcome::fail, "Load combinations: FAIL " + sliding::failed_checks(s.combinations)};
+        return {sentence, Outcome::pass, pass};
     }
     const std::string standing = standing_sentence(s);
     const std::vector<std::string> premises = broken_premises(s);
@@ -331,12 +312,14 @@ Headline screen_headline(const Scene& scene, const Screening& s)
         return std::any_of(s.slips.begin(), s.slips.end(),
                            [&](const SlipRow& row) { return judge(row, scene.criteria.allowable_slip) == verdict; });
     };
-    if (any(Verdict::fail) || checks.failed > 0) return {sentence, Outcome::fail, "FAIL"};
+    if (any(Verdict::fail)) return {sentence, Outcome::fail, "FAIL"};
     if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
     const bool broken = std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& row) {
         return !row.broken_premises.empty() && row.governing().method != "rocking";
     });
     if (broken) return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
+    if (any(Verdict::undecided) && s.slips.front().leaves_out)
+        return {sentence, Outcome::unresolved, "Undecided: it leaves out what the scene asks for, see the notes."};
     if (any(Verdict::undecided))
         return {sentence, Outcome::unresolved,
                 s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
@@ -349,19 +332,31 @@ Headline screen_headline(const Scene& scene, const Screening& s)
     return {sentence, Outcome::pass, pass};
 }
 
+} // namespace
+
+Headline screen_headline(const Scene& scene, const Screening& s)
+{
+    const Headline slip = slip_headline(scene, s);
+    return s.slips.empty() ? slip : with_failed_checks(slip, sliding::failed_checks(s.combinations));
+}
+
 Page screen_page(const ScreenReportInput& in)
 {
     std::vector<GroundMotion> motions;
     for (const RecordPair& pair : in.records) motions.push_back(ground_motion(in.scene, pair));
     const std::string body = in.scene.wedge ? "wedge. " : "block. ";
-    Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body);
+    Page page = begin_page(in.scene, "Sliding in an earthquake: screening with the rigid " + body,
+                           in.screening.plan.scene_hash);
     page.headline = screen_headline(in.scene, in.screening);
     page.key_figures = key_figures(in.scene, in.screening);
     page.warnings = all_warnings(in);
     page.sections.push_back(section_part(in.scene, in.screening));
+    const SlipRow* worst = largest(in.screening);
+    const bool slides = worst && worst->judged().max_slip > 0.0;
+    if (!in.scene.wedge && !slides) page.sections.push_back(equilibrium_section(in.screening.combinations));
     if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
     page.sections.push_back(yield_section(in.scene, in.screening));
-    if (!in.scene.wedge) page.sections.push_back(equilibrium_section(in.screening));
+    if (!in.scene.wedge && slides) page.sections.push_back(equilibrium_section(in.screening.combinations));
     if (in.spectrum) page.sections.push_back(spectrum_section(*in.spectrum));
     if (!motions.empty())
         for (Section& section : record_sections(in, motions)) page.sections.push_back(std::move(section));

@@ -118,7 +118,7 @@ Table yield_table(const Screening& s)
 {
     using R = BaseRow;
     const auto downstream = [](const R& r) { return r.model.downstream.law.constant; };
-    return table_of<R>(
+    Table t = table_of<R>(
         "Yield acceleration",
         {{{"base", "base"}, &R::base},
          {{"friction", "μ", "–", 4}, [](const R& r) { return r.model.block.friction; }},
@@ -132,10 +132,10 @@ Table yield_table(const Screening& s)
           [](const R& r) { return finite_cell(r.limits.yield_with_crack); }},
          {{"yield_with_crack_g", "a_y with crack", "g", 4},
           [](const R& r) { return finite_cell(r.limits.yield_with_crack / standard_gravity); }},
-         {{"tips_m_s2", "a tips", "m/s²", 4}, [](const R& r) { return r.limits.tips; }},
-         {{"tips_g", "a tips", "g", 4}, [](const R& r) { return r.limits.tips / standard_gravity; }},
-         {{"opens_m_s2", "a opens base", "m/s²", 4}, [](const R& r) { return r.limits.opens; }},
-         {{"opens_g", "a opens base", "g", 4}, [](const R& r) { return r.limits.opens / standard_gravity; }},
+         {{"tips_m_s2", "overturning at", "m/s²", 4}, [](const R& r) { return r.limits.tips; }},
+         {{"tips_g", "overturning at", "g", 4}, [](const R& r) { return r.limits.tips / standard_gravity; }},
+         {{"opens_m_s2", "full base opening at", "m/s²", 4}, [](const R& r) { return r.limits.opens; }},
+         {{"opens_g", "full base opening at", "g", 4}, [](const R& r) { return r.limits.opens / standard_gravity; }},
          {{"critical_friction", "critical μ", "–", 6}, [](const R& r) { return r.model.critical_friction; }},
          {{"state", "without earthquake"}, state_word}},
         s.bases,
@@ -143,9 +143,13 @@ Table yield_table(const Screening& s)
          "earthquake.",
          "a_y with crack: the same with the crack that this acceleration opens (by uplift.crack) and the bond of the "
          "rest.",
-         "a tips: constant ground acceleration at which the dam tips about its toe, uplift by uplift.opening; a opens "
-         "base: at "
-         "which its joint is open from heel to toe (by uplift.crack) and its bond lost."});
+         "overturning at: constant ground acceleration at which the dam tips about its toe, uplift by uplift.opening; "
+         "full base opening at: that at which its joint is open from heel to toe (by uplift.crack) and its bond "
+         "lost."});
+    if (std::ranges::any_of(
+            s.bases, [](const R& r) { return r.model.critical_friction == 0.0 && r.model.block.cohesion_force > 0.0; }))
+        t.notes.push_back("critical μ 0: cohesion alone suffices.");
+    return t;
 }
 
 Table lift_joint_table(const Scene& scene)
@@ -231,8 +235,8 @@ Table slip_table(const Screening& s, const std::optional<double>& allowable)
     const sliding::SlipStages& stages = s.bases.front().model.stages;
     if (!stages.empty() && stages.front().restitution > 0.0) {
         const std::vector<ColumnOf<R>> rebounds{
-            {{"landings", "landings"}, [](const R& r) { return count_cell(r.rigid().landings); }},
-            {{"impact_J_m", "lost in landings", "J/m", 4}, [](const R& r) { return r.rigid().impact_loss; }}};
+            {{"landings", "impacts"}, [](const R& r) { return count_cell(r.rigid().landings); }},
+            {{"impact_J_m", "lost in impacts", "J/m", 4}, [](const R& r) { return r.rigid().impact_loss; }}};
         columns.insert(columns.end() - 2, rebounds.begin(), rebounds.end());
     }
     Table t = table_of<R>(wedge ? "Displacement of the wedge" : "Rigid-block displacement", columns, s.slips);
@@ -273,9 +277,10 @@ Table event_table(const Screening& s)
                           {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
                           {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
                           {{"slip_of_event_mm", "slip of it", "mm", 5},
-                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.change / mm); }},
+                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), mm); }},
                           {{"slip_so_far_mm", "slip so far", "mm", 5},
-                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.slip / mm); }}},
+                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), mm); }},
+                          {{"status", "status"}, [](const Row& r) { return word(r.event.status); }}},
                          rows,
                          {"slip: positive downstream, the run to rest after each event included; with the vertical "
                           "component where the records have one."});
@@ -371,9 +376,9 @@ Table rocking_table(const Screening& s, const std::optional<double>& allowable)
           [=](const R& r) { return opening(r, r.rocking->max_toe_rotation); }},
          {{"toe_opening_mm", "toe opens", "mm", 4},
           [=](const R& r) { return opening(r, r.rocking->max_heel_rotation); }},
-         {{"landings", "landings"}, [](const R& r) { return count_cell(r.rocking->landings); }},
+         {{"landings", "impacts"}, [](const R& r) { return count_cell(r.rocking->landings); }},
          {{"friction_work_kJ_m", "friction", "kJ/m", 4}, [=](const R& r) { return lost(r.rocking->energy.friction); }},
-         {{"landing_loss_kJ_m", "landing loss", "kJ/m", 4},
+         {{"landing_loss_kJ_m", "impact loss", "kJ/m", 4},
           [=](const R& r) { return lost(r.rocking->energy.landings); }},
          {{"energy_imbalance", "energy imbalance", "–", 1}, [](const R& r) { return r.rocking->energy.imbalance; }},
          {{"status", "status"}, [=](const R& r) { return word(slide(r).status); }},
@@ -384,7 +389,7 @@ Table rocking_table(const Screening& s, const std::optional<double>& allowable)
     if (allowable)
         t.notes.push_back("verdict: of the slip alone; a base that opens may pass water, whatever the slip.");
     t.notes.push_back(
-        "energy imbalance: what ground and loads put in less kinetic energy, friction and landings, over the "
+        "energy imbalance: what ground and loads put in less kinetic energy, friction and impacts, over the "
         "largest of them.");
     return t;
 }

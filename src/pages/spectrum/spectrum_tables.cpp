@@ -1,5 +1,6 @@
 #include "pages/spectrum/spectrum_tables.hpp"
 
+#include "core/number.hpp"
 #include "core/units.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
@@ -26,10 +27,10 @@ Table spectrum_table(const SpectrumLevel& level)
         fmt::format("modes of dam and massless rock on a bonded base with {}, {:.3g} % damping; CQC of Der Kiureghian "
                     "(1981), the mass that the modes leave moves with the ground; horizontal component alone{}.",
                     level.water, 100.0 * level.ratio, level.vertical_mass > 0.0 ? ", both in the next table" : ""),
-        fmt::format("without earthquake: T {:.4g} kN/m, N' {:.4g} kN/m, sliding factor {:.3g}, overturning factor "
-                    "{:.3g}, heel {:.3g} MPa, toe {:.3g} MPa (compression positive, no crack).",
-                    level.static_shear / kilo, level.static_normal / kilo, level.static_sliding,
-                    level.static_overturning, level.static_heel / MPa, level.static_toe / MPa),
+        fmt::format("without earthquake: T {:.4g} kN/m, N' {:.4g} kN/m, sliding factor {}, overturning factor "
+                    "{}, heel {:.3g} MPa, toe {:.3g} MPa (compression positive, no crack).",
+                    level.static_shear / kilo, level.static_normal / kilo, factor_text(level.static_sliding),
+                    factor_text(level.static_overturning), level.static_heel / MPa, level.static_toe / MPa),
         "factors: static loads and the peak of the earthquake downstream together; a factor below 1 at one instant is "
         "not yet a failure: how far the dam slides is the question of the other levels."};
     notes.insert(notes.end(), level.notes.begin(), level.notes.end());

@@ -1,7 +1,9 @@
 #include "pages/sweep/needed_friction_table.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -16,15 +18,6 @@ struct Worst {
     double slip = 0.0; ///< with its error; infinite: no slip or no answer [m]
     std::string record;
     int polarity = 1;
-};
-
-struct Needed {
-    std::string variant, method;
-    std::optional<double> more;    ///< highest friction of the grid that slips more; none: all hold
-    std::optional<double> holds;   ///< the next one; none: even the highest slips more
-    std::optional<double> between; ///< where the slip, linear in friction between the two, is the allowable one
-    std::string record;
-    std::optional<int> polarity;
 };
 
 double counted_slip(const SweepRow& row)
@@ -57,9 +50,9 @@ std::vector<Worst> worst_by_friction(const SweepView& view, std::size_t variant,
     return list;
 }
 
-Needed needed_of(const std::vector<Worst>& list, double allowable)
+NeededFriction needed_of(const std::vector<Worst>& list, double allowable)
 {
-    Needed needed;
+    NeededFriction needed;
     for (std::size_t i = list.size(); i-- > 0;) {
         if (list[i].slip <= allowable) {
             needed.holds = list[i].friction;
@@ -79,42 +72,46 @@ Needed needed_of(const std::vector<Worst>& list, double allowable)
 
 } // namespace
 
+std::vector<NeededFriction> needed_frictions(const SweepView& view, const std::optional<double>& allowable)
+{
+    std::vector<NeededFriction> list;
+    if (!allowable || view.frictions.size() < 2) return list;
+    for (std::size_t v = 0; v < view.variants.size(); ++v)
+        for (const std::string& method : view.methods) {
+            const std::vector<Worst> worst = worst_by_friction(view, v, method);
+            if (worst.size() < 2) continue;
+            NeededFriction needed = needed_of(worst, *allowable);
+            needed.variant = view.variant_names[v];
+            needed.method = method;
+            list.push_back(std::move(needed));
+        }
+    return list;
+}
+
 Table needed_friction_table(const SweepView& view, const std::optional<double>& allowable)
 {
-    std::vector<Needed> rows;
-    if (allowable && view.frictions.size() > 1)
-        for (std::size_t v = 0; v < view.variants.size(); ++v)
-            for (const std::string& method : view.methods) {
-                const std::vector<Worst> list = worst_by_friction(view, v, method);
-                if (list.size() < 2) continue;
-                Needed needed = needed_of(list, *allowable);
-                needed.variant = view.variant_names[v];
-                needed.method = method;
-                rows.push_back(std::move(needed));
-            }
-    const auto best = [](const Needed& n) { return n.between ? n.between : n.holds; };
-    std::vector<ColumnOf<Needed>> columns{
-        {{"method", "method"}, &Needed::method},
-        {{"friction", "friction", "–", 4},
-         [=](const Needed& n) { return n.more && n.holds ? optional_cell(best(n)) : Cell(); }},
-        {{"friction_low", "slips more at", "–", 4}, [](const Needed& n) { return optional_cell(n.more); }},
-        {{"friction_high", "holds from", "–", 4}, [](const Needed& n) { return optional_cell(n.holds); }},
+    using N = NeededFriction;
+    const std::vector<N> list = needed_frictions(view, allowable);
+    std::vector<ColumnOf<N>> columns{
+        {{"method", "method"}, &N::method},
+        {{"friction", "friction", "–", 4}, [](const N& n) { return optional_cell(n.friction()); }},
+        {{"friction_low", "slips more at", "–", 4}, [](const N& n) { return optional_cell(n.more); }},
+        {{"friction_high", "holds from", "–", 4}, [](const N& n) { return optional_cell(n.holds); }},
         {{"friction_error", "±", "–", 2},
-         [=](const Needed& n) {
-             return n.more && n.holds ? Cell(std::max(*best(n) - *n.more, *n.holds - *best(n))) : Cell();
+         [](const N& n) {
+             return n.friction() ? Cell(std::max(*n.friction() - *n.more, *n.holds - *n.friction())) : Cell();
          }},
-        {{"record", "governed by"}, &Needed::record},
-        {{"polarity", "polarity"}, [](const Needed& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
-    if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &Needed::variant});
-    Table table = table_of(fmt::format("Friction for a slip of {:.4g} mm at most", allowable.value_or(0.0) / units::mm),
-                           columns, rows);
-    table.notes.push_back(
-        "all motions together: at \"holds from\" and every friction of the grid above it the largest slip, with its "
-        "error "
-        "where it has one, is no more. friction: between the two, the slip taken as linear in it; ±: to "
-        "the farther of the two. Nothing in \"slips more at\": the lowest friction of the grid holds already; "
-        "nothing in \"holds from\": the highest does not.");
-    return table;
+        {{"record", "governed by"}, &N::record},
+        {{"polarity", "polarity"}, [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
+    if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &N::variant});
+    return table_of(
+        fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
+                    list.empty() ? "" : ", " + polarity_words(view.polarities)),
+        columns, list,
+        {"all motions together: at \"holds from\" and every friction of the grid above it the largest slip, with its "
+         "error where it has one, is no more. friction: between the two, the slip taken as linear in it; ±: to the "
+         "farther of the two. Nothing in \"slips more at\": the lowest friction of the grid holds already; nothing in "
+         "\"holds from\": the highest does not."});
 }
 
 } // namespace damslip::pages

@@ -1,6 +1,7 @@
 #include "pages/sweep/sweep_report.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace damslip::pages {
 
@@ -90,7 +92,7 @@ Table method_table(const SweepView& view, const std::optional<double>& allowable
                      "without an earthquake; without a slip: by status."});
 }
 
-/// The variants with the friction from which they stand.
+/// The variants with the friction that each needs without an earthquake.
 Table variant_table(const SweepView& view)
 {
     using V = SweepVariant;
@@ -100,10 +102,12 @@ Table variant_table(const SweepView& view)
                                       [&](const SweepRow& r) { return r.variant == number && r.critical_friction; });
         return row == view.rows.end() ? Cell() : Cell(*row->critical_friction);
     };
-    std::vector<ColumnOf<V>> columns{
-        {{"level_m", "level", "m", 4}, &V::level},  {{"uplift", "uplift"}, &V::uplift},
-        {{"reservoir", "water"}, &V::reservoir},    {{"size", "size", "–", 4}, &V::size},
-        {{"scale", "motion ×", "–", 4}, &V::scale}, {{"critical_friction", "stands from μ", "–", 5}, stands_from}};
+    std::vector<ColumnOf<V>> columns{{{"level_m", "level", "m", 4}, &V::level},
+                                     {{"uplift", "uplift"}, &V::uplift},
+                                     {{"reservoir", "water"}, &V::reservoir},
+                                     {{"size", "size", "–", 4}, &V::size},
+                                     {{"scale", "motion ×", "–", 4}, &V::scale},
+                                     {{"critical_friction", "needs statically μ ≥", "–", 5}, stands_from}};
     if (!view.variants.empty() && !view.variants.front().opening.empty())
         columns.insert(columns.begin() + 2, {{"opening_water", "opening water"}, &V::opening});
     const auto any = [&](auto V::*member) {
@@ -133,14 +137,49 @@ const SweepRow* worst_of(const SweepView& view)
     return worst;
 }
 
+/// The variant that needs most friction by the main method; null: the sweep does not say.
+const NeededFriction* most_needed(const std::vector<NeededFriction>& all, const std::string& method)
+{
+    const auto wanted = [](const NeededFriction& n) {
+        return !n.more ? 0.0 : n.friction().value_or(std::numeric_limits<double>::infinity());
+    };
+    const NeededFriction* most = nullptr;
+    for (const NeededFriction& n : all)
+        if (n.method == method && (!most || wanted(n) > wanted(*most))) most = &n;
+    return most;
+}
+
+/// "0.895", "below 0.65", "above 1": where the grid does not bracket it.
+std::string friction_words(const NeededFriction& n, const SweepView& view)
+{
+    return !n.more    ? fmt::format("below {:.4g}", view.frictions.front())
+           : !n.holds ? fmt::format("above {:.4g}", view.frictions.back())
+                      : fmt::format("{:.4g}", *n.friction());
+}
+
+/// What the sweep is for, first of all.
+std::string needed_sentence(const SweepView& view, const std::optional<double>& allowable)
+{
+    const std::vector<NeededFriction> all = needed_frictions(view, allowable);
+    const NeededFriction* n = all.empty() ? nullptr : most_needed(all, main_method(view));
+    if (!n) return "";
+    std::string out = fmt::format("A slip of {:.4g} mm at most needs a friction of {} ({}", *allowable / mm,
+                                  friction_words(*n, view), n->method);
+    if (!n->variant.empty()) out += ", " + n->variant;
+    if (n->more) out += fmt::format(", governed by record {}, polarity {:+d}", n->record, n->polarity.value_or(1));
+    if (n->friction()) out += fmt::format("; {:.4g} slips more, {:.4g} holds", *n->more, *n->holds);
+    return out + "). ";
+}
+
 Headline headline(const SweepView& view, const std::optional<double>& allowable)
 {
     const std::string unanswered = unanswered_words(view);
     const SweepRow* worst = worst_of(view);
     std::string sentence =
-        worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.all(),
-                            std::abs(*worst->slip) / mm, worst->method, worst->friction, worst->record)
-              : fmt::format("{} rows: none has a slip", view.all());
+        needed_sentence(view, allowable) +
+        (worst ? fmt::format("{} rows: the largest slip is {:.4g} mm ({}, μ = {:.4g}, record {})", view.all(),
+                             std::abs(*worst->slip) / mm, worst->method, worst->friction, worst->record)
+               : fmt::format("{} rows: none has a slip", view.all()));
     double critical = 0.0;
     std::size_t failing = 0;
     for (const SweepRow& r : view.rows) {
@@ -163,6 +202,8 @@ Headline headline(const SweepView& view, const std::optional<double>& allowable)
                                 *allowable / mm);
     }
     sentence += ".";
+    if (!view.polarities.empty()) sentence += " Run: " + polarity_words(view.polarities) + ".";
+    if (worst && !worst->finite_elements()) sentence += " By " + std::string(worst->method) + ": no bound for an elastic dam.";
     if (!unanswered.empty()) return {sentence, Outcome::unresolved, unanswered + "."};
     return {sentence, Outcome::none, ""};
 }
@@ -237,14 +278,13 @@ std::optional<Section> history_section(const SweepView& view, const std::vector<
 
 Section variant_section(const SweepView& view, const std::optional<double>& allowable)
 {
-    Section section{"Variants",
-                    {rows_part(variant_table(view),
-                               {"Level: water above the heel; size: factor on all lengths of the scene; motion ×: "
-                                "factor on the records; stands from μ: friction that just holds the dam without an "
-                                "earthquake."})},
-                    Fold::open};
-    if (Table needed = needed_friction_table(view, allowable); !needed.rows.empty())
-        section.parts.push_back(rows_part(std::move(needed)));
+    Section section{
+        "Variants",
+        {rows_part(variant_table(view),
+                   {"Level: water above the heel; size: factor on all lengths of the scene; motion ×: "
+                    "factor on the records; needs statically μ ≥: friction that just holds the dam without an "
+                    "earthquake."})},
+        Fold::open};
     if (view.variants.size() > 1)
         for (const std::string& method : view.methods) {
             if (method.rfind("fe", 0) != 0 && method != "rigid" && method != "rigid-v") continue;
@@ -349,12 +389,20 @@ Page sweep_page(const SweepReportInput& in)
     page.subtitle = about + "damslip " + program_version();
     if (in.scene) page = begin_page(*in.scene, about);
     page.headline = headline(view, allowable);
-    page.key_figures = {{"Rows", fmt::format("{}", view.all())},
-                        {"Variants", fmt::format("{}", view.variants.size())},
-                        {"Frictions", fmt::format("{}", view.frictions.size())},
-                        {"Records", fmt::format("{}", view.records.size())},
-                        {"Methods", fmt::format("{}", view.methods.size())}};
+    const std::vector<NeededFriction> needed = needed_frictions(view, allowable);
+    const NeededFriction* most = needed.empty() ? nullptr : most_needed(needed, main_method(view));
+    if (most) page.key_figures.emplace_back("Friction needed, " + most->method, friction_words(*most, view));
+    if (most && most->more)
+        page.key_figures.emplace_back("Governed by",
+                                      fmt::format("{}, polarity {:+d}", most->record, most->polarity.value_or(1)));
     if (allowable) page.key_figures.emplace_back("Allowable slip", fmt::format("{:.4g} mm", *allowable / mm));
+    for (auto& count :
+         std::vector<std::pair<std::string, std::string>>{{"Rows", fmt::format("{}", view.all())},
+                                                          {"Variants", fmt::format("{}", view.variants.size())},
+                                                          {"Frictions", fmt::format("{}", view.frictions.size())},
+                                                          {"Records", fmt::format("{}", view.records.size())},
+                                                          {"Methods", fmt::format("{}", view.methods.size())}})
+        page.key_figures.push_back(std::move(count));
     if (in.scene) {
         const std::optional<std::string> rigid_base = base_note(*in.scene);
         if (rigid_base &&
@@ -367,6 +415,8 @@ Page sweep_page(const SweepReportInput& in)
     for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
     if (view.rows.empty()) return page;
 
+    if (Table table = needed_friction_table(view, allowable); !table.rows.empty())
+        page.sections.push_back({"Friction needed", {rows_part(std::move(table))}, Fold::open});
     page.sections.push_back(friction_section(view, allowable));
     if (auto more = further_variants(view, allowable)) page.sections.push_back(std::move(*more));
     if (auto histories = history_section(view, in.histories)) page.sections.push_back(std::move(*histories));

@@ -3,6 +3,7 @@
 #include "pages/sweep/opening_water_table.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "scene/plausible.hpp"
@@ -85,10 +86,11 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
         {{"status", "status"}, [](const L& l) { return l.results.status.empty() ? Cell() : Cell(l.results.status); }},
         {{"lift_joint_slip_m", "lift joints", "m", 5}, given(&R::lift_slip)},
         {{"remark", "remark"}, remark},
-        {{"walked_at_least_m", "walked ≥", "m", 5}, given(&R::walked)},
+        {{"walked_at_least_m", "slid at least", "m", 5}, given(&R::walked)},
         {{"thrust_over_friction", "χ", "–", 3}, given(&R::thrust_over_friction)},
-        {{"hops", "hops"}, [](const L& l) { return l.results.hops ? Cell(std::llround(*l.results.hops)) : Cell(); }},
-        {{"hop_frequency_Hz", "hops", "Hz", 3}, given(&R::hop_frequency)},
+        {{"hops", "lift-offs"},
+         [](const L& l) { return l.results.hops ? Cell(std::llround(*l.results.hops)) : Cell(); }},
+        {{"hop_frequency_Hz", "lift-offs", "Hz", 3}, given(&R::hop_frequency)},
         {{"unloaded_share", "unloaded", "–", 3}, given(&R::unloaded_share)},
         {{"end_rate_m_s", "rate at end", "m/s", 3}, given(&R::end_rate)},
         {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
@@ -216,7 +218,7 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
         all.insert(all.begin() + 3,
                    {{"opening_water", "opening water"}, [&](const C& c) { return axes.opening[c.at.opening]; }});
     return table_of<C>(
-        "Slip by finite elements against the rigid block", all, compared,
+        "Slip by finite elements against the rigid block, " + polarity_words(axes.polarity), all, compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
          "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
 }

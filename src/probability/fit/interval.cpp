@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gsl/gsl_cdf.h>
 #include <vector>
 
 namespace damslip::probability {
@@ -21,6 +22,15 @@ Interval wilson_by_quantile(double z, double n, double k)
     const double p = z / n, s = k * k / n;
     const double centre = (p + 0.5 * s) / (1.0 + s), half = k / (1.0 + s) * std::sqrt(p * (1.0 - p) / n + 0.25 * s / n);
     return {z <= 0.0 ? 0.0 : std::max(0.0, centre - half), z >= n ? 1.0 : std::min(1.0, centre + half)};
+}
+
+Interval wilson_of_estimate(double p, double se, double n, double degrees, double confidence)
+{
+    const double inner = std::clamp(p, 0.5 / n, 1.0 - 0.5 / n); // p (1 - p) of a number of trials is 0 beyond the ends
+    const double most = 20.0 * n;
+    const double trials = se > 0.0 ? std::min(most, inner * (1.0 - inner) / (se * se)) : most;
+    return wilson_by_quantile(std::clamp(p, 0.0, 1.0) * trials, trials,
+                              gsl_cdf_tdist_Pinv(0.5 + 0.5 * confidence, degrees));
 }
 
 Interval jeffreys(double z, double n, double confidence)

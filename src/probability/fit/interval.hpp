@@ -20,6 +20,11 @@ Interval wilson(double z, double n, double confidence = 0.95);
 /// The same for a given quantile k, where it is not that of the normal distribution.
 Interval wilson_by_quantile(double z, double n, double k);
 
+/// Of an estimate p with a standard error: Wilson's with n_eff = p (1 - p) / se^2 trials, at most 20 n, and the quantile of Student's t. At p <= 0
+/// or >= 1, where that is no number of trials, p is taken at 1 / (2 n) from the end.
+/// @param degrees  of freedom of se, n - 1 of independent samples with normal errors
+Interval wilson_of_estimate(double p, double se, double n, double degrees, double confidence = 0.95);
+
 /// Beta(z + 1/2, n - z + 1/2) at both ends, 0 at z = 0 and 1 at z = n (Brown, Cai & DasGupta 2001).
 Interval jeffreys(double z, double n, double confidence = 0.95);
 

@@ -55,16 +55,18 @@ void check_nu(const HazardCurve& curve, const std::optional<double>& nu)
                              fmt::format("at least the curve's first rate, {:g}", curve.rate().front()));
 }
 
-/// Bounds from the ends: P between p_first (below: at most) and p_last (above: at least).
-void add_ends(AnnualRate& r, double p_first, double h_first, double p_last, double h_last,
+/// Bounds of what lies outside a ... b. @param p_below  P below a is at most that @param p_above  P above b is at least that
+void add_ends(AnnualRate& r, const HazardCurve& curve, double p_below, double h_a, double p_above, double h_b,
               const std::optional<double>& nu)
 {
-    r.p_first = p_first;
-    r.above_lower = p_last * h_last;
-    r.above_upper = h_last;
-    if (nu) r.below_upper = p_first * (*nu - h_first);
+    r.p_first = p_below;
+    r.x_first = curve.x().front();
+    r.all_events = nu || p_below == 0.0;
+    r.above_lower = p_above * h_b;
+    r.above_upper = h_b;
+    r.below_upper = p_below * (nu.value_or(curve.rate().front()) - h_a);
     r.lower = r.inside + r.above_lower;
-    r.upper = r.inside + r.above_upper + r.below_upper.value_or(0.0);
+    r.upper = r.inside + r.above_upper + r.below_upper;
 }
 
 void tell_share(AnnualRate& r, double tested)
@@ -94,13 +96,14 @@ AnnualRate annual_rate(const HazardCurve& curve, double median, double beta, dou
         else if (from < to)
             tested += lognormal_segment(from, to, h[i] * std::pow(from / x[i], -k), k, median, beta);
     }
-    add_ends(r, lognormal_p(x.front(), median, beta), h.front(), lognormal_p(x.back(), median, beta), h.back(), nu);
+    add_ends(r, curve, lognormal_p(x.front(), median, beta), h.front(), lognormal_p(x.back(), median, beta), h.back(),
+             nu);
     tell_share(r, tested);
     return r;
 }
 
 AnnualRate annual_rate(const HazardCurve& curve, std::span<const double> x, std::span<const double> p,
-                       std::optional<double> nu)
+                       std::optional<double> nu, bool growing)
 {
     check_nu(curve, nu);
     if (x.empty() || x.size() != p.size())
@@ -135,7 +138,8 @@ AnnualRate annual_rate(const HazardCurve& curve, std::span<const double> x, std:
         r.parts.push_back({a, b, linear_segment(a, b, h_a, k, p_at(a), p_at(b))});
         r.inside += r.parts.back().rate;
     }
-    add_ends(r, p_at(low), curve.rate_at(low), p_at(high), curve.rate_at(high), nu);
+    add_ends(r, curve, growing ? p_at(low) : 1.0, curve.rate_at(low), growing ? p_at(high) : 0.0, curve.rate_at(high),
+             nu);
     tell_share(r, r.inside);
     return r;
 }

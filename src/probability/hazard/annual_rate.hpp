@@ -14,15 +14,19 @@ struct RatePart {
     double rate = 0.0; ///< [1/a]
 };
 
-/// lambda = integral of P |dH| [1/a], with bounds for what lies outside.
+/// lambda = integral of P |dH| [1/a], with bounds for what lies outside: P grows with the intensity, so that it is at most P_a below the lowest
+/// intensity a of the integral (0 ... P_a), and at least P_b above the highest, b (P_b ... 1).
 struct AnnualRate {
-    double inside = 0.0; ///< over the points of the curve (and the tested levels, of raw stripes)
-    double above_lower = 0.0, above_upper = 0.0; ///< beyond the last point: P_n H_n ... H_n
-    std::optional<double>
-        below_upper;             ///< below the first point: 0 ... P_1 (nu - H_1); absent: nu is not known, no bound
-    double p_first = 0.0;        ///< P_1, for "unbounded below, P_1 = ..."
+    double inside = 0.0; ///< from a to b: over the points of the curve (and the tested levels, of raw stripes)
+    double above_lower = 0.0, above_upper = 0.0; ///< above b: P_b H_b ... H_b
+    double below_upper =
+        0.0;              ///< below a: 0 ... P_a (H_1 - H_a), H_1 the curve's first rate; nu for H_1 where it is known
+    double p_first = 0.0; ///< P_a
+    double x_first = 0.0; ///< first point of the curve
+    bool all_events =
+        true; ///< false: nu is not known and P_a > 0, earthquakes weaker than the curve's first point are not in the bounds
     double lower = 0.0;          ///< inside + above_lower
-    double upper = 0.0;          ///< inside + above_upper + below_upper, where there is one
+    double upper = 0.0;          ///< inside + above_upper + below_upper
     double outside_share = 0.0;  ///< of `upper` that stems from outside the tested levels [-]
     bool mostly_tested = true;   ///< outside_share <= 10 %
     std::vector<RatePart> parts; ///< of `inside`, segment by segment
@@ -37,10 +41,11 @@ struct AnnualRate {
 AnnualRate annual_rate(const HazardCurve& curve, double median, double beta, double tested_lower, double tested_upper,
                        std::optional<double> nu = {});
 
-/// Of raw stripes: P linear in ln x between them, exact with the curve's segments. Outside the stripes, or the curve, bounds with the P there.
+/// Of raw stripes: P linear in ln x between them, exact with the curve's segments; outside the stripes, or the curve, the bounds.
 /// @param x, p  stripes, rising x; one at least within the curve
+/// @param growing  false: P is not known to grow with x, and is 0 ... 1 outside the stripes
 AnnualRate annual_rate(const HazardCurve& curve, std::span<const double> x, std::span<const double> p,
-                       std::optional<double> nu = {});
+                       std::optional<double> nu = {}, bool growing = true);
 
 /// H = k_0 x^-k and a lognormal fragility: k_0 theta^-k e^(k^2 beta^2 / 2) (Kennedy & Short 1994; Cornell et al. 2002).
 double kennedy_rate(double k0, double k, double median, double beta);

@@ -1,0 +1,20 @@
+# The Python of the module and of its tests: of the caller's (-DPython3_EXECUTABLE), the system's, which apt's python3-dev and python3-numpy are
+# for, and those on the path, the first that has numpy and its own development files; where none has, the first there is.
+find_program(DAMSLIP_PATH_PYTHON NAMES python3)
+set(damslip_first_python "")
+foreach(candidate IN ITEMS "${Python3_EXECUTABLE}" /usr/bin/python3 "${DAMSLIP_PATH_PYTHON}")
+  if(candidate AND EXISTS "${candidate}")
+    if(NOT damslip_first_python)
+      set(damslip_first_python "${candidate}")
+    endif()
+    execute_process(COMMAND "${candidate}" -c "import numpy, os, sysconfig; open(os.path.join(sysconfig.get_paths()['include'], 'Python.h'))"
+                    RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
+    if(NOT lacks)
+      set(damslip_first_python "${candidate}")
+      break()
+    endif()
+  endif()
+endforeach()
+if(damslip_first_python)
+  set(Python3_EXECUTABLE "${damslip_first_python}")
+endif()
