@@ -60,8 +60,8 @@ void check_flags(const SweepArguments& a, Form form)
         refuse_usage("--mean-polarity with a part or a plan of a sweep.",
                      "a whole sweep: a part may hold one polarity alone", "delete --mean-polarity");
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
-        refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are put together as a CSV file",
-                     "delete --json");
+        refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"),
+                     "parts are put together as a CSV file", "delete --json");
 }
 
 void put(const std::filesystem::path& file, const std::string& text, const Streams& streams)
@@ -168,8 +168,12 @@ int merge(const SweepArguments& arguments, const Streams& streams)
     out.finish();
     if (reported)
         put_pages(arguments,
-                  {scene ? &*scene : nullptr, table, {},
-                   scene ? *load_records(*scene, Method::rigid_block) : std::vector<RecordPair>(), arguments.out, histories},
+                  {scene ? &*scene : nullptr,
+                   table,
+                   {},
+                   scene ? *load_records(*scene, Method::rigid_block) : std::vector<RecordPair>(),
+                   arguments.out,
+                   histories},
                   streams);
     if (!arguments.out.empty()) whole->mark_done();
     if (!streams.quiet)
@@ -252,7 +256,8 @@ void put_report(const Job& job, const std::vector<RecordPair>& records, const Ta
     if (!reports(job.arguments) || job.shard || table.rows.size() > largest_report) return;
     std::vector<Table> tables;
     if (outcome.fe) tables = {compared, count_table(*outcome.fe)};
-    put_pages(job.arguments, {&job.scene, table, tables, records, job.arguments.out, histories_of(wanted, outcome)}, streams);
+    put_pages(job.arguments, {&job.scene, table, tables, records, job.arguments.out, histories_of(wanted, outcome)},
+              streams);
 }
 
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,

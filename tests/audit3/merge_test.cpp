@@ -15,7 +15,8 @@ namespace {
 
 TEST(Audit3, D9_MergeOfADeviceReadsNothing)
 {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("merge" + std::to_string(::getpid()));
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("merge" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
     const std::string pipe = folder / "pipe", text = folder / "text.csv", out = folder / "m.csv";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0); // to open it would wait for a writer
@@ -23,7 +24,8 @@ TEST(Audit3, D9_MergeOfADeviceReadsNothing)
     for (const std::string& part : {std::string("/dev/zero"), std::string("/dev/null"), pipe, text}) {
         const ProgramAnswer answer = answer_of({"sweep", "--merge", part, "--out", out});
         EXPECT_EQ(answer.code, 3) << part;
-        EXPECT_NE(answer.talk.find(part + ": error: this is not a database of a sweep"), std::string::npos) << answer.talk;
+        EXPECT_NE(answer.talk.find(part + ": error: this is not a database of a sweep"), std::string::npos)
+            << answer.talk;
         EXPECT_FALSE(std::filesystem::exists(out));
     }
     std::filesystem::remove_all(folder);

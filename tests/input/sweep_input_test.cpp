@@ -136,7 +136,8 @@ TEST_F(SweepInput, AnUnfinishedSweepIsNotBegunAgain)
     const std::string table = content("r.csv");
     std::filesystem::remove(out);
     says({scene, "--friction", "0.5,0.6", "--out", out}, 3, "1 rows of this sweep are finished here.");
-    says({scene, "--friction", "0.5,0.6", "--out", out, "--resume"}, 0, "1 damaged rows of the database are computed again");
+    says({scene, "--friction", "0.5,0.6", "--out", out, "--resume"}, 0,
+         "1 damaged rows of the database are computed again");
     EXPECT_EQ(content("r.csv"), table);
 }
 

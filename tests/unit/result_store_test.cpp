@@ -94,7 +94,8 @@ TEST_F(ResultStoreFile, ManyRowsInAnyOrder)
     for (std::size_t k = 0; k < many.rows; k += 5) written[k].results.opening = 0.25;
     {
         ResultStore store(file(), many, {}, StoreStart::fresh);
-        for (std::size_t first = 0; first < many.rows; first += 250) store.append(std::span(written).subspan(first, 250));
+        for (std::size_t first = 0; first < many.rows; first += 250)
+            store.append(std::span(written).subspan(first, 250));
     }
     std::sort(written.begin(), written.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     const ResultStore store(file(), many, {}, StoreStart::resume);
@@ -132,8 +133,9 @@ TEST_F(ResultStoreFile, OnlyBegunRowsAreNothingToLose)
 // Any column of a row that another hand changed: the row is left out and may be written anew.
 TEST_F(ResultStoreFile, AChangedRowIsLeftOut)
 {
-    for (const char* change : {"slip_m = 0.26", "slip_m = NULL", "hops = 1.0", "status = 'sliding at end'", "id = 5",
-                               "checksum = checksum + 1", "history = '[]'", "slip_m = max_slip_m, max_slip_m = slip_m"}) {
+    for (const char* change :
+         {"slip_m = 0.26", "slip_m = NULL", "hops = 1.0", "status = 'sliding at end'", "id = 5",
+          "checksum = checksum + 1", "history = '[]'", "slip_m = max_slip_m, max_slip_m = slip_m"}) {
         FinishedRow whole = row_of(2, 0.25);
         whole.results.max_slip = 0.5;
         write_rows({row_of(1, 0.5), whole, row_of(3, 0.125)});
@@ -196,7 +198,8 @@ TEST_F(ResultStoreFile, RefusesWhatIsNoStoreAndAnotherFormat)
     write_rows({row_of(1, 0.5)}, true);
     for (const char* change : {"PRAGMA user_version = 6", "PRAGMA user_version = 7; PRAGMA application_id = 1"}) {
         sql(file(), change);
-        EXPECT_NE(refusal(identity, {}, StoreStart::fresh).find("this is not a database of a sweep"), std::string::npos);
+        EXPECT_NE(refusal(identity, {}, StoreStart::fresh).find("this is not a database of a sweep"),
+                  std::string::npos);
     }
 }
 
@@ -246,7 +249,8 @@ TEST_F(ResultStoreFile, AFreshStartTakesNothingThatIsUnfinished)
     EXPECT_EQ(refusal(other, {}, StoreStart::fresh), "taken"); // the table of the other sweep is written
     ResultStore store(file(), other, {}, StoreStart::resume);
     EXPECT_EQ(store.finished(), 0u);
-    EXPECT_NE(refusal(other, {}, StoreStart::resume).find("another process has this database open."), std::string::npos);
+    EXPECT_NE(refusal(other, {}, StoreStart::resume).find("another process has this database open."),
+              std::string::npos);
 }
 
 // What docs/sweeps.md promises to those who ask the database themselves: the values of the CSV by their names.
@@ -265,7 +269,8 @@ TEST_F(SweepScene, TheViewHasTheRowsOfTheTable)
         if (&list == &names) continue;
         ++rows;
         for (std::size_t i = 0; i < fields.size(); ++i) {
-            if (names[i] == "level_m" || names[i] == "yield_coefficient_g" || names[i] == "remark") continue; // not stored
+            if (names[i] == "level_m" || names[i] == "yield_coefficient_g" || names[i] == "remark")
+                continue; // not stored
             const std::string stored =
                 sql(folder / "r.sqlite", fmt::format("SELECT {} FROM results WHERE id = {}", names[i], fields[0]));
             char* end = nullptr;

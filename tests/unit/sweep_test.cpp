@@ -285,8 +285,8 @@ TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
     std::mt19937 random(20260);
     int kills = 0;
     for (int i = 0; i < 5; ++i)
-        kills += WIFSIGNALED(run_and_signal(stopped, path("stopped.sqlite"),
-                                            std::uniform_int_distribution<int>(1, 5)(random), SIGKILL));
+        kills += WIFSIGNALED(
+            run_and_signal(stopped, path("stopped.sqlite"), std::uniform_int_distribution<int>(1, 5)(random), SIGKILL));
     EXPECT_GE(kills, 3);
     EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
     const Answer last = answer_of(stopped);

@@ -81,8 +81,8 @@ bool has(const std::optional<double>& number)
     return number && !std::isnan(*number);
 }
 
-/// A step takes different numbers to different ones, so damage within one word is always found; the shift brings high bits
-/// down, without which damage of two words could cancel out.
+/// A step takes different numbers to different ones, so damage within one word is always found; the shift brings high
+/// bits down, without which damage of two words could cancel out.
 class Checksum {
 public:
     void add(std::uint64_t word)
@@ -172,8 +172,9 @@ void refuse_old_journal(fs::path file)
     const std::string now = file.filename().string();
     for (const char* ending : {".csv.journal", ".json.journal"})
         if (fs::exists(file.replace_extension().concat(ending)))
-            refuse(file, "this journal is of an earlier version, and is not read any more.", "a database " + now,
-                   "finish the sweep with the version that began it, or delete the journal: its rows are computed again");
+            refuse(
+                file, "this journal is of an earlier version, and is not read any more.", "a database " + now,
+                "finish the sweep with the version that began it, or delete the journal: its rows are computed again");
 }
 
 } // namespace
@@ -268,7 +269,8 @@ public:
     std::string text(std::size_t i) const
     {
         const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), static_cast<int>(i)));
-        return {text ? text : "", static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), static_cast<int>(i)))};
+        return {text ? text : "",
+                static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), static_cast<int>(i)))};
     }
 
 private:
@@ -308,7 +310,7 @@ std::optional<FinishedRow> row_of(const Statement& columns)
 
 } // namespace
 
-/// Writes rows, many by one statement, which takes half the time of one by one. Columns that no row has had are left out.
+/// Writes rows, many by one statement: half the time of one by one. Columns that no row has had are left out.
 class RowInserter {
 public:
     explicit RowInserter(const Database& database) : database_(database) {}
@@ -490,8 +492,7 @@ void ResultStore::read_rows()
         else
             damaged_.push_back(columns.integer(0));
     Statement begun(*database_, "SELECT id, times FROM begun WHERE id NOT IN (SELECT id FROM rows)");
-    while (begun.next())
-        stopped_[static_cast<std::size_t>(begun.integer(0))] = static_cast<int>(begun.integer(1));
+    while (begun.next()) stopped_[static_cast<std::size_t>(begun.integer(0))] = static_cast<int>(begun.integer(1));
 }
 
 std::vector<FinishedRow> ResultStore::rows(std::size_t first, std::size_t last) const
@@ -527,7 +528,8 @@ void ResultStore::append(std::span<const FinishedRow> rows)
     constexpr std::chrono::milliseconds longest_wait(100);
     {
         const std::lock_guard lock(waiting_mutex_);
-        if (waiting_.size() + rows.size() < most_waiting && std::chrono::steady_clock::now() - written_ < longest_wait) {
+        if (waiting_.size() + rows.size() < most_waiting &&
+            std::chrono::steady_clock::now() - written_ < longest_wait) {
             waiting_.insert(waiting_.end(), rows.begin(), rows.end());
             return;
         }

@@ -3,7 +3,6 @@
 #include "analysis/sweep/slip_history.hpp"
 #include "analysis/sweep/sweep_identity.hpp"
 
-
 #include <array>
 #include <chrono>
 #include <map>
@@ -57,27 +56,27 @@ struct RowNumber {
     std::optional<double> RowResults::*value;
 };
 
-inline constexpr auto row_numbers = std::to_array<RowNumber>(
-    {{"yield_acceleration_m_s2", &RowResults::yield},
-     {"slip_m", &RowResults::slip},
-     {"max_slip_m", &RowResults::max_slip},
-     {"upstream_slip_m", &RowResults::upstream_slip},
-     {"slip_low_m", &RowResults::slip_low},
-     {"slip_high_m", &RowResults::slip_high},
-     {"slip_error_m", &RowResults::slip_error},
-     {"truncation_error_m", &RowResults::truncation_error},
-     {"critical_friction", &RowResults::critical_friction},
-     {"lift_joint_slip_m", &RowResults::lift_slip},
-     {"walked_at_least_m", &RowResults::walked},
-     {"thrust_over_friction", &RowResults::thrust_over_friction},
-     {"hops", &RowResults::hops},
-     {"hop_frequency_Hz", &RowResults::hop_frequency},
-     {"unloaded_share", &RowResults::unloaded_share},
-     {"end_rate_m_s", &RowResults::end_rate},
-     {"shaking_slip_m", &RowResults::slip_shaking},
-     {"run_out_slip_m", &RowResults::slip_at_rest},
-     {"opening_m", &RowResults::opening},
-     {"factor_after", &RowResults::factor_after}});
+inline constexpr auto row_numbers =
+    std::to_array<RowNumber>({{"yield_acceleration_m_s2", &RowResults::yield},
+                              {"slip_m", &RowResults::slip},
+                              {"max_slip_m", &RowResults::max_slip},
+                              {"upstream_slip_m", &RowResults::upstream_slip},
+                              {"slip_low_m", &RowResults::slip_low},
+                              {"slip_high_m", &RowResults::slip_high},
+                              {"slip_error_m", &RowResults::slip_error},
+                              {"truncation_error_m", &RowResults::truncation_error},
+                              {"critical_friction", &RowResults::critical_friction},
+                              {"lift_joint_slip_m", &RowResults::lift_slip},
+                              {"walked_at_least_m", &RowResults::walked},
+                              {"thrust_over_friction", &RowResults::thrust_over_friction},
+                              {"hops", &RowResults::hops},
+                              {"hop_frequency_Hz", &RowResults::hop_frequency},
+                              {"unloaded_share", &RowResults::unloaded_share},
+                              {"end_rate_m_s", &RowResults::end_rate},
+                              {"shaking_slip_m", &RowResults::slip_shaking},
+                              {"run_out_slip_m", &RowResults::slip_at_rest},
+                              {"opening_m", &RowResults::opening},
+                              {"factor_after", &RowResults::factor_after}});
 
 struct FinishedRow {
     std::size_t id = 0;
@@ -96,14 +95,14 @@ class RowInserter;
 
 /// Finished rows of a sweep in an SQLite database, so that a stop at any moment loses none of them (docs/sweeps.md).
 ///
-/// Tables: `sweep` (identity, part and axes, one row), `rows` (a column for each result), `axis` (the values of the axes),
-/// `begun` (runs that were stopped); the view `results` has rows beside their values on the axes. Doubles keep their bits; NaN
-/// is stored as none. Each row has a checksum over its columns: a damaged row is computed again, a damaged file refused. One
-/// process at a time has the database open.
+/// Tables: `sweep` (identity, part and axes, one row), `rows` (a column for each result), `axis` (values of the axes),
+/// `begun` (runs that were stopped); the view `results` has rows beside their values on the axes. Doubles keep their
+/// bits; NaN is stored as none. Each row has a checksum over its columns: a damaged row is computed again, a damaged
+/// file refused. One process at a time has the database open.
 class ResultStore {
 public:
-    /// @throws InputError for a store of other inputs (names those that differ), for one that another process has open, for
-    /// an unfinished one when starting fresh, for what is no store, and where it cannot be written.
+    /// @throws InputError for a store of other inputs (names those that differ), for one that another process has open,
+    /// for an unfinished one when starting fresh, for what is no store, and where it cannot be written.
     ResultStore(const std::filesystem::path& file, const SweepIdentity& identity, const Shard& shard, StoreStart start);
     /// One that is there, to be read. @throws InputError
     explicit ResultStore(const std::filesystem::path& file);
@@ -115,7 +114,7 @@ public:
     const std::string& axes() const { return axes_; } ///< as described
     bool done() const { return done_; }
 
-    std::size_t finished() const { return finished_; }       ///< whole rows as found when opened
+    std::size_t finished() const { return finished_; }      ///< whole rows as found when opened
     std::size_t damaged() const { return damaged_.size(); } ///< rows that are not as they were written: left out
     /// Finished rows with ids first ... last, ascending. @throws InputError for a damaged one
     std::vector<FinishedRow> rows(std::size_t first, std::size_t last) const;
@@ -125,7 +124,7 @@ public:
 
     /// Rows that go through the earthquake together from now on. From any thread; in the file when this returns.
     void begin(std::span<const std::size_t> ids);
-    /// From any thread. In the file after some thousand rows, with a row a second later, or at the next begin() or flush().
+    /// From any thread. In the file with the thousandth row, with one a tenth of a second later, or at the next begin() or flush().
     /// @throws InputError when the disk is full
     void append(std::span<const FinishedRow> rows);
     void flush(); ///< all rows are in the file

@@ -91,8 +91,8 @@ private:
     std::vector<char> finished_;
 };
 
-FeSweepCounts run_fe_rows(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
-                          WantedRows& store)
+FeSweepCounts run_fe_rows(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& missing, int jobs,
+                          Watch& watch, WantedRows& store)
 {
     const auto threads = static_cast<std::size_t>(thread_count(jobs));
     const std::vector<FeGroup> groups =
@@ -179,8 +179,8 @@ const FinishedRow* SweepOutcome::find(std::size_t id) const
     return at != rows.end() && at->id == id ? &*at : nullptr;
 }
 
-SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
-                       ResultStore* kept, int jobs, Watch& watch)
+SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
+                       int jobs, Watch& watch)
 {
     if (kept) kept->describe(axes_json(grid));
     WantedRows store(wanted, kept, watch);
@@ -200,8 +200,8 @@ SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<
     return outcome;
 }
 
-SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted,
-                           ResultStore* kept, int jobs, Watch& watch, const TakePart& take)
+SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
+                           int jobs, Watch& watch, const TakePart& take)
 {
     std::size_t rows_at_once = 1024; // up to 4096, as long as they take no second: what a kill may lose
     SweepTotals totals;

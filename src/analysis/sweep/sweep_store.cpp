@@ -139,8 +139,7 @@ MergedSweep merge_parts(const std::vector<fs::path>& paths, const fs::path& file
         if (!part.done() || part.damaged())
             refuse(name,
                    part.damaged() ? fmt::format("{} rows are damaged.", part.damaged()) : "this part is not finished.",
-                   "parts that ran to their end",
-                   fmt::format("go on with  --shard {} --resume", named(part.shard())));
+                   "parts that ran to their end", fmt::format("go on with  --shard {} --resume", named(part.shard())));
         const auto [there, fresh] = parts.emplace(part.shard().index, name);
         if (!fresh)
             refuse(name,
