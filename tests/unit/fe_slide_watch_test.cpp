@@ -411,7 +411,7 @@ TEST(SelfExcited, a_sweep_counts_it_by_name_and_resumes_with_it)
         std::ifstream in(file);
         return nlohmann::json::parse(in, nullptr, false)["rows"];
     };
-    for (const char* file : {"rows.json", "rows.json.journal"}) std::filesystem::remove(folder / file);
+    for (const char* file : {"rows.json", "rows.sqlite"}) std::filesystem::remove(folder / file);
     std::vector<std::string> command{
         "sweep", scene, "--method", "fe", "--friction", "0.70,1.2", "--json", "--out", (folder / "rows.json").string()};
     const ProgramAnswer answer = answer_of(command);
@@ -430,7 +430,7 @@ TEST(SelfExcited, a_sweep_counts_it_by_name_and_resumes_with_it)
     std::filesystem::remove(folder / "rows.json");
     command.push_back("--resume");
     EXPECT_EQ(answer_of(command).code, exit_no_answer);
-    EXPECT_EQ(rows_of(folder / "rows.json"), rows); // the journal keeps every column
+    EXPECT_EQ(rows_of(folder / "rows.json"), rows); // the database keeps every column
 }
 
 } // namespace
