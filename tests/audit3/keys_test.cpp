@@ -427,6 +427,32 @@ TEST_F(Audit3Keys, D10_HashDoesNotDependOnTheFileName)
                scene_hash(read_scene(folder / "two.toml"))));
 }
 
+/// One hash of the input in every command, whatever was chosen for it; what was chosen has a hash of its own.
+TEST_F(Audit3Keys, A6_OneHashInEveryCommand)
+{
+    Tables dam = small_dam();
+    set(dam, "reservoir.model", "\"auto\"");
+    set(dam, "motion.vertical", "false");
+    set(dam, "contact.cohesion_kPa", "0");
+    const std::string toml = toml_of(dam);
+    const auto hash = [&](std::vector<std::string> command, const char* key = "hash") {
+        return json(std::move(command), toml)["scene"][key].get<std::string>();
+    };
+    const std::string of_screen = hash({"screen"});
+    EXPECT_EQ(of_screen, scene_hash(read_scene(folder / "dam.toml")));
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"fe", "--no-mesh-error"},
+          {"fe", "--reduced", "--no-mesh-error"},
+          {"fe", "--base", "tied"},
+          {"modes"},
+          {"mesh"},
+          {"explain"},
+          {"explain", "--method", "fe"},
+          {"sweep", "--friction", "0.8"}})
+        EXPECT_EQ(hash(command), of_screen) << command.front();
+    EXPECT_NE(hash({"fe", "--no-mesh-error"}, "resolved_hash"), of_screen);
+}
+
 /// Ice is in the response-spectrum level as in the slips.
 TEST_F(Audit3Keys, A1_IceInTheResponseSpectrum)
 {
