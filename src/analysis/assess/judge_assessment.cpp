@@ -274,6 +274,7 @@ const ContactRun& governing_run(const Assessment& a)
 void judge_assessment(Assessment& a)
 {
     a.levels = levels_of(a);
+    a.recommended.reset();
     if (!a.interrupted) a.recommended = a.runs.empty() ? by_blocks(a) : by_finite_elements(a);
     a.disagreements = disagreements_of(a);
     const RigidModel& model = a.screening.bases.front().model;
