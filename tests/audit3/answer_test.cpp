@@ -23,7 +23,7 @@ using namespace damslip;
 using nlohmann::json;
 
 /// Pulses of 0.4 s, stronger to one side than to the other, so that the polarities slip differently.
-class Audit3 : public ::testing::Test {
+class Audit3Answer : public ::testing::Test {
 protected:
     std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("damslip_audit3_answer_" + std::to_string(::getpid()));
@@ -95,7 +95,7 @@ double screened(const json& j, int polarity)
     return -1.0;
 }
 
-TEST_F(Audit3, A12_OneMeaningOfPolarity)
+TEST_F(Audit3Answer, A12_OneMeaningOfPolarity)
 {
     const std::string as_filed = write("filed", dam("friction = 0.8", pushed()));
     const std::string flipped = write("flipped", dam("friction = 0.8", pushed() + "[motion]\npolarity = -1"));
@@ -135,7 +135,7 @@ TEST_F(Audit3, A12_OneMeaningOfPolarity)
     EXPECT_NEAR(1e3 * own[0]["slip_m"].get<double>(), minus, 1e-9);
 }
 
-TEST_F(Audit3, A12_AssessRunsBothPolaritiesOfFiniteElements)
+TEST_F(Audit3Answer, A12_AssessRunsBothPolaritiesOfFiniteElements)
 {
     const std::string flipped = write("flipped", dam("friction = 0.8", pushed() + "[motion]\npolarity = -1"));
     Watch nobody;
@@ -148,7 +148,7 @@ TEST_F(Audit3, A12_AssessRunsBothPolaritiesOfFiniteElements)
     EXPECT_EQ(a.runs.front().polarity, 1);
 }
 
-TEST_F(Audit3, A2_SweepRunsBothPolaritiesAndSaysSo)
+TEST_F(Audit3Answer, A2_SweepRunsBothPolaritiesAndSaysSo)
 {
     const std::string scene = write("dam", dam("friction = 0.6", "[reservoir]\nlevel_m = 14\nmodel = \"added-mass\"\n[uplift]\nmodel = \"linear\"\n[criteria]\nallowable_slip_mm = 20"));
     const ProgramAnswer plain = answer_of({"sweep", scene, "--friction", "0.4:0.9:0.1", "--out", folder / "rows.csv"});
@@ -165,7 +165,7 @@ TEST_F(Audit3, A2_SweepRunsBothPolaritiesAndSaysSo)
 }
 
 /// A dam whose base opens in the earthquake and does not slide: its bond is gone where it has opened.
-TEST_F(Audit3, A3_BondIsLostWhereTheJointHasOpened)
+TEST_F(Audit3Answer, A3_BondIsLostWhereTheJointHasOpened)
 {
     const std::string strength = "friction = 0.9\ncohesion_kPa = 900", fixed = "\n[motion]\nscale = 0.5\n[time]\nsubsteps = 1\n";
     const auto after = [&](const std::string& crack) {
@@ -187,7 +187,7 @@ TEST_F(Audit3, A3_BondIsLostWhereTheJointHasOpened)
     EXPECT_LT(wet, dry);
 }
 
-TEST_F(Audit3, A3_HeadlineJoinsSlipAndLoadCombinations)
+TEST_F(Audit3Answer, A3_HeadlineJoinsSlipAndLoadCombinations)
 {
     const std::string more = water() + "[criteria]\nallowable_slip_mm = 5000\n[[combination]]\nname = \"usual\"\n"
                                        "required_sliding_factor = 30\n";
@@ -204,13 +204,13 @@ TEST_F(Audit3, A3_HeadlineJoinsSlipAndLoadCombinations)
     EXPECT_TRUE(says(assessed["headline"].get<std::string>(), words.substr(words.find("load combinations"))));
 }
 
-TEST_F(Audit3, A5_HeadlineOfTheRigidBlockIsNoBound)
+TEST_F(Audit3Answer, A5_HeadlineOfTheRigidBlockIsNoBound)
 {
     const json screen = answer({"screen", write("dam", dam("friction = 0.6", "[criteria]\nallowable_slip_mm = 5000"))});
     EXPECT_TRUE(says(screen["headline"].get<std::string>(), "by the rigid block: no bound for an elastic dam"));
 }
 
-TEST_F(Audit3, A8_GateOrOvertoppedIsAsked)
+TEST_F(Audit3Answer, A8_GateOrOvertoppedIsAsked)
 {
     const auto scene = [&](const std::string& how) {
         return write("gated", "[section]\npolygon_m = [[0,0],[20,0],[9,14],[5,16],[0,16]]\n[dam]\ndensity_kg_m3 = 2400\n"
@@ -236,7 +236,7 @@ TEST_F(Audit3, A8_GateOrOvertoppedIsAsked)
 }
 
 /// Aftershock on a base that has lost its uplift relief: the main shock's slip is known.
-TEST_F(Audit3, A9_MainShockKeepsItsSlip)
+TEST_F(Audit3Answer, A9_MainShockKeepsItsSlip)
 {
     const std::string text = "[section]\nheight_m = 20\nbase_m = 16\ncrest_m = 4\n[dam]\ndensity_kg_m3 = 2400\n"
                              "[reservoir]\nlevel_m = 19.5\nmodel = \"hydrostatic\"\n[uplift]\nmodel = \"drains\"\n"
@@ -258,7 +258,7 @@ TEST_F(Audit3, A9_MainShockKeepsItsSlip)
     EXPECT_TRUE(fails) << j["displacements"].dump(1);
 }
 
-TEST_F(Audit3, A10_CompressedLength)
+TEST_F(Audit3Answer, A10_CompressedLength)
 {
     const json rows = answer({"screen", write("cracked", dam("friction = 0.9", water() + "crack = \"static\""))})
         ["limit_equilibrium"];
@@ -271,7 +271,7 @@ TEST_F(Audit3, A10_CompressedLength)
     }
 }
 
-TEST_F(Audit3, C_MessagesAsk)
+TEST_F(Audit3Answer, C_MessagesAsk)
 {
     const std::string degrees = refusal({"screen", write("deg", dam("friction = 45"))});
     EXPECT_TRUE(says(degrees, "degrees? write  friction_deg = 45")) << degrees;
@@ -302,7 +302,7 @@ ContactRun run_of(int polarity, Status status, double slip_mm)
     return r;
 }
 
-TEST_F(Audit3, D1_NoLargestSlipWhereAPolarityHasNoAnswer)
+TEST_F(Audit3Answer, D1_NoLargestSlipWhereAPolarityHasNoAnswer)
 {
     const Scene scene = read_scene(write("dam", dam("friction = 0.6")));
     const std::vector<ContactRun> runs{run_of(1, Status::at_rest, 184.2), run_of(-1, Status::self_excited, 409.4)};
@@ -331,7 +331,7 @@ TEST_F(Audit3, D1_NoLargestSlipWhereAPolarityHasNoAnswer)
 }
 
 /// A flexible block that takes longer than the budget does not keep the finite elements from running.
-TEST_F(Audit3, D7_FiniteElementsBeforeADearFlexibleBlock)
+TEST_F(Audit3Answer, D7_FiniteElementsBeforeADearFlexibleBlock)
 {
     // 4,000 samples and water that enters the opening base at its mouth: the dearest law of the block that vibrates.
     std::ofstream motion(folder / "long.csv");
@@ -349,7 +349,7 @@ TEST_F(Audit3, D7_FiniteElementsBeforeADearFlexibleBlock)
     EXPECT_EQ(a["recommended"]["level"], "finite elements");
 }
 
-TEST_F(Audit3, D2_InterruptedAssessmentRecommendsNothing)
+TEST_F(Audit3Answer, D2_InterruptedAssessmentRecommendsNothing)
 {
     const std::string scene = write("long", dam("friction = 0.5", water() + "[time]\ndt_s = 0.0002"));
     std::thread signal([] {
