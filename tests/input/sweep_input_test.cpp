@@ -92,7 +92,7 @@ TEST_F(SweepInput, PartFilesThatAreNone)
 {
     const std::string scene = path("block.toml"), out = path("r.csv");
     for (const char* shard : {"0/2", "1/2"})
-        says({scene, "--friction", "0.5,0.6", "--out", out, "--shard", shard}, 0, "1 rows in");
+        says({scene, "--friction", "0.5,0.6", "--polarity", "1", "--out", out, "--shard", shard}, 0, "1 rows in");
     const std::string first = path("r.0-of-2.sqlite"), second = path("r.1-of-2.sqlite"), whole = path("whole.csv");
     says({"--merge", first, second, "--out", whole}, 0, "2 rows of 2 parts");
     const std::string table = content("whole.csv");
@@ -115,7 +115,7 @@ TEST_F(SweepInput, PartFilesThatAreNone)
     says({"--merge", first, second}, 3, "this database is damaged");
     std::ofstream(first, std::ios::binary) << content("r.1-of-2.sqlite");
     says({"--merge", first, second}, 3, "part 1/2 is given twice");
-    says({scene, "--friction", "0.5,0.7", "--out", path("o.csv"), "--shard", "0/2"}, 0, "1 rows in");
+    says({scene, "--friction", "0.5,0.7", "--polarity", "1", "--out", path("o.csv"), "--shard", "0/2"}, 0, "1 rows in");
     says({"--merge", path("o.0-of-2.sqlite"), second}, 3, "is not of the same sweep as");
     std::ofstream(first, std::ios::binary) << good;
     says({"--merge", first}, 3, "1 of 2 parts are missing: 1/2.");
@@ -131,12 +131,13 @@ TEST_F(SweepInput, PartFilesThatAreNone)
 TEST_F(SweepInput, AnUnfinishedSweepIsNotBegunAgain)
 {
     const std::string scene = path("block.toml"), out = path("r.csv");
-    says({scene, "--friction", "0.5,0.6", "--out", out}, 0, "2 rows in");
+    says({scene, "--friction", "0.5,0.6", "--polarity", "1", "--out", out}, 0, "2 rows in");
     sql(path("r.sqlite"), "UPDATE sweep SET done = 0; UPDATE rows SET slip_m = 1 WHERE id = 1"); // stopped, and damaged
     const std::string table = content("r.csv");
     std::filesystem::remove(out);
-    says({scene, "--friction", "0.5,0.6", "--out", out}, 3, "1 rows of this sweep are finished here.");
-    says({scene, "--friction", "0.5,0.6", "--out", out, "--resume"}, 0,
+    says({scene, "--friction", "0.5,0.6", "--polarity", "1", "--out", out}, 3,
+         "1 rows of this sweep are finished here.");
+    says({scene, "--friction", "0.5,0.6", "--polarity", "1", "--out", out, "--resume"}, 0,
          "1 damaged rows of the database are computed again");
     EXPECT_EQ(content("r.csv"), table);
 }

@@ -407,17 +407,23 @@ TEST(SelfExcited, a_sweep_counts_it_by_name_and_resumes_with_it)
 {
     const std::string scene = walking_scene("sweep");
     const std::filesystem::path folder = std::filesystem::path(scene).parent_path();
-    const auto rows_of = [](const std::filesystem::path& file) {
-        std::ifstream in(file);
-        return nlohmann::json::parse(in, nullptr, false)["rows"];
-    };
-    for (const char* file : {"rows.json", "rows.sqlite"}) std::filesystem::remove(folder / file);
-    std::vector<std::string> command{
-        "sweep", scene, "--method", "fe", "--friction", "0.70,1.2", "--json", "--out", (folder / "rows.json").string()};
+    const auto rows_of = [](const std::string& json) { return nlohmann::json::parse(json, nullptr, false)["rows"]; };
+    for (const char* file : {"rows.csv", "rows.sqlite"}) std::filesystem::remove(folder / file);
+    std::vector<std::string> command{"sweep",
+                                     scene,
+                                     "--method",
+                                     "fe",
+                                     "--friction",
+                                     "0.70,1.2",
+                                     "--polarity",
+                                     "1",
+                                     "--json",
+                                     "--out",
+                                     (folder / "rows.csv").string()};
     const ProgramAnswer answer = answer_of(command);
     EXPECT_EQ(answer.code, exit_no_answer) << answer.talk;
     EXPECT_NE(answer.talk.find("1 self-excited"), std::string::npos) << answer.talk;
-    const auto rows = rows_of(folder / "rows.json");
+    const auto rows = rows_of(answer.out);
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0]["status"], "self-excited");
     EXPECT_TRUE(rows[0]["slip_m"].is_null());
@@ -427,10 +433,11 @@ TEST(SelfExcited, a_sweep_counts_it_by_name_and_resumes_with_it)
     EXPECT_TRUE(rows[1]["walked_at_least_m"].is_null());
     EXPECT_NEAR(rows[1]["shaking_slip_m"].get<double>() + rows[1]["run_out_slip_m"].get<double>(),
                 rows[1]["slip_m"].get<double>(), 1e-12);
-    std::filesystem::remove(folder / "rows.json");
+    std::filesystem::remove(folder / "rows.csv");
     command.push_back("--resume");
-    EXPECT_EQ(answer_of(command).code, exit_no_answer);
-    EXPECT_EQ(rows_of(folder / "rows.json"), rows); // the database keeps every column
+    const ProgramAnswer again = answer_of(command);
+    EXPECT_EQ(again.code, exit_no_answer);
+    EXPECT_EQ(rows_of(again.out), rows); // the database keeps every column
 }
 
 } // namespace

@@ -392,7 +392,7 @@ TEST_F(SweepScene, EventsAndAnchorsHaveColumns)
         return text.replace(text.find('@'), 1, strain);
     };
     write("block.toml", with_rupture("0.5"));
-    const std::vector<std::string> grid{"--friction", "0.1,0.12", "--method", "rigid,fe"};
+    const std::vector<std::string> grid{"--friction", "0.1,0.12", "--polarity", "1", "--method", "rigid,fe"};
     const Answer a = sweep(with(grid, {"--json"}));
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto rows = nlohmann::json::parse(a.out)["rows"];
