@@ -65,7 +65,6 @@ anchor[].limit_force : "prestress" | "yield" : anchor[].inclination_deg=30; anch
 uplift.model : "linear" | "none"
 uplift.curtain_ratio : 0.66 | 0.3 : uplift.model="curtain"; curtain.distance_m=4
 uplift.points_m : [[0,1],[24,0]] | [[0,1],[10,0.2],[24,0]] : uplift.model="points"
-uplift.crack : "none" | "seismic-full" : reservoir.level_m=30
 uplift.opening : "unchanged" | "full"
 uplift.opening : "unchanged" | "zero"
 uplift.after : "unchanged" | "full" : motion.sequence=["a","a"]
