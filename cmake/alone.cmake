@@ -9,7 +9,7 @@ set(DAMSLIP_ALONE
 
 # Files of folders that are cold otherwise, through which every row of a sweep goes: compiled like the hot ones, by themselves.
 set(DAMSLIP_PER_ROW
-  src/analysis/prepare/rigid_model.cpp src/analysis/sweep/sweep_journal.cpp src/analysis/sweep/sweep_rows.cpp
+  src/analysis/prepare/rigid_model.cpp src/analysis/sweep/result_store.cpp src/analysis/sweep/sweep_rows.cpp
   src/analysis/sweep/sweep_run.cpp src/analysis/sweep/sweep_tasks.cpp
   src/pages/report/csv_lines.cpp src/pages/sweep/sweep_rows_view.cpp src/pages/sweep/sweep_tables.cpp)
 

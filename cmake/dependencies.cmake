@@ -9,6 +9,7 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(Spectra REQUIRED)
 find_package(BLAS REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(SQLite3 REQUIRED)
 
 # SuiteSparse before 6 ships no CMake configuration: found by header and library.
 if(NOT TARGET damslip_suitesparse)

@@ -106,7 +106,7 @@ def run(program, side, folder, name, scene):
     """Processor seconds, wall seconds, largest memory [MB] of one run."""
     file = folder / f"{name}.toml"
     file.write_text(changed_scene((ROOT / scene).read_text(), side.changes))
-    for left in folder.glob("rows*"):  # a sweep goes on from its own journal alone
+    for left in folder.glob("rows*"):  # a sweep goes on from its own database alone
         left.unlink()
     words = [word.format(scene=file, folder=folder) for word in side.words]
     begin = time.monotonic()

@@ -33,7 +33,7 @@ try {
         std::printf("%-5s mu = %.2f: slip %.4f mm, %s\n", axes.method[at.method].id.c_str(),
                     axes.friction[at.friction], 1e3 * row.results.slip.value_or(0.0), row.results.status.c_str());
     }
-    return outcome.complete() ? exit_ok : exit_no_answer; // a run_sweep() with a Journal can go on later
+    return outcome.complete() ? exit_ok : exit_no_answer; // a run_sweep() with a ResultStore can go on later
 } catch (const std::exception& error) { // bad input, with file, line and fix; or a solver without an answer
     std::fprintf(stderr, "%s\n", error.what());
     return exit_input;

@@ -19,6 +19,7 @@ struct DrainLoss {
     PressureProfile before;      ///< without a crack
     CrackedUplift cracked;       ///< as WetJoint::cracked
     CrackedUplift cracked_after; ///< as RunOptions::cracked_uplift_after; empty: the crack does not matter then
+    CrackedUplift uplift_after;  ///< as RunOptions::uplift_after
 };
 
 /// A joint with water in it, as the laws of that water see it.
@@ -48,6 +49,8 @@ Eigen::VectorXd pair_pressure(const WetJoint& joint, const PressureProfile& prof
 struct CrackLengths {
     double upstream = 0.0, downstream = 0.0;
 };
+/// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
+using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
 /// @param opening, states  of the joint's pairs
 CrackLengths crack_lengths(const WetJoint& joint, const Eigen::VectorXd& opening, const ContactStates& states);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace damslip::fe2d {
@@ -103,11 +104,28 @@ void add_crest_water(const Scene& scene, const Model& model, StaticLoads& loads)
     const double upstream = mesh.nodes[mesh.crest.back()].y, downstream = mesh.nodes[mesh.crest.front()].y;
     const double dry = std::min(upstream, downstream);
     double level = dry;
-    if (scene.reservoir && scene.reservoir->level > upstream) level = std::max(level, scene.reservoir->level);
+    if (scene.reservoir && !scene.gate && scene.reservoir->level > upstream) level = std::max(level, scene.reservoir->level);
     if (scene.tailwater && scene.tailwater->level > downstream) level = std::max(level, scene.tailwater->level);
     const double density = water_density(scene);
     if (level > dry)
         loads.impounding.push_back(water("water on the crest", model, mesh.crest, level, density * scene.gravity));
+}
+
+/// Thrust of the gates at the upstream end of the crest, and its moment there as a pressure that is linear over the crest and has no
+/// resultant: the piers bring it in.
+void add_gates(const Scene& scene, const Model& model, StaticLoads& loads)
+{
+    const Point sill = model.mesh.nodes[model.mesh.crest.back()], end = model.mesh.nodes[model.mesh.crest.front()];
+    const double depth = scene.reservoir->level - sill.y, width = std::hypot(end.x - sill.x, end.y - sill.y);
+    if (!(depth > 0.0)) return;
+    const double thrust = 0.5 * water_unit_weight(scene) * depth * depth, moment = thrust * depth / 3.0;
+    loads.impounding.push_back(concentrated("gates", scene, model, sill, {thrust, 0.0}, "gate"));
+    loads.impounding.push_back(make("moment of the gates", model, [&](const DofMap& dofs) {
+        return pressure_load(model.mesh, dofs, model.mesh.crest, [&](Point p) {
+            const double from_middle = std::hypot(p.x - sill.x, p.y - sill.y) - 0.5 * width;
+            return 12.0 * moment / (width * width * width) * from_middle;
+        });
+    }));
 }
 
 } // namespace
@@ -119,6 +137,7 @@ StaticLoads static_loads(const Scene& scene, const Model& model)
     if (scene.stages.gravity == GravityStage::dam_and_rock && model.mesh.has_rock())
         loads.gravity.push_back(weight("weight of the rock", scene, model, {Region::rock, Region::curtain}));
     if (scene.reservoir) add_upstream_water(scene, model, loads);
+    if (scene.reservoir && scene.gate) add_gates(scene, model, loads);
     if (scene.tailwater) add_tailwater(scene, model, loads);
     add_crest_water(scene, model, loads);
     if (scene.silt) loads.impounding.push_back(silt(scene, model));

@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -34,30 +35,11 @@ private:
     std::string bytes_;
 };
 
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text) switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    return result;
-}
-
 std::string header(const char* type, const std::string& name, int components, std::size_t offset)
 {
     return fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-        escaped(name), components, offset);
+        xml_text(name), components, offset);
 }
 
 std::string array(const VtuArray& a, Appended& data)
@@ -192,8 +174,8 @@ void write_vtm(const std::filesystem::path& path, const std::vector<VtmBlock>& b
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
                        "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
     for (std::size_t i = 0; i < blocks.size(); ++i)
-        text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", i, escaped(blocks[i].name),
-                            escaped(blocks[i].file));
+        text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", i, xml_text(blocks[i].name),
+                            xml_text(blocks[i].file));
     write_file(path, text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
 }
 
@@ -202,7 +184,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                        "byte_order=\"LittleEndian\">\n<Collection>\n";
     for (const PvdEntry& e : entries)
-        text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", shortest(e.time), escaped(e.file));
+        text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", shortest(e.time), xml_text(e.file));
     write_file(path, text + "</Collection>\n</VTKFile>\n");
 }
 

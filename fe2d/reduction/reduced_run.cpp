@@ -159,12 +159,14 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     result.seconds.dynamics = clock.seconds();
 
     clock = Stopwatch();
-    const Eigen::VectorXd after = load_with(stages_, full_.model(), options_.uplift_after);
     ContactMemory end = start.rest;
     end.force = result.pair_force;
     end.slip = start.rest.slip + result.pair_slip;
     end.opening = result.pair_opening;
-    result.after = solve_stage(statics, structure, "after the earthquake", structure.split(after), strength, end);
+    const auto load = [&](const PressureProfile& uplift) {
+        return structure.split(load_with(stages_, full_.model(), uplift));
+    };
+    result.after = stage_after(statics, structure, options_.uplift_after, strength.opened(), load, strength, end);
     result.seconds.statics += clock.seconds();
 
     if (result.status != Status::interrupted && result.counts.unresolved > 0) result.status = Status::not_resolved;

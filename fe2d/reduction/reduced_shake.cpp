@@ -52,7 +52,8 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
     };
     const auto record_steps = static_cast<long>(std::ceil(ground.duration() / dt - 1e-9));
     const auto all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / dt - 1e-9));
-    const auto rest_steps = static_cast<long>(std::ceil(options_.rest_time / dt - 1e-9));
+    const double rest_time = options_.rest_time.value_or(full_.rest_time());
+    const auto rest_steps = static_cast<long>(std::ceil(rest_time / dt - 1e-9));
     result.history = {};
     reserve(result.history, static_cast<std::size_t>(record_steps + rest_steps) + 1);
     if (balance) {
@@ -84,7 +85,7 @@ ReducedState ReducedRun::shake(const Motion& motion, const ReducedModel& model, 
             break;
         }
         if (n + 1 >= record_steps + rest_steps &&
-            at_rest(result.history.time, result.history.slip, options_.rest_time)) {
+            at_rest(result.history.time, result.history.slip, rest_time)) {
             result.status = Status::at_rest;
             break;
         }

@@ -8,8 +8,7 @@
 /// Water under the dam that follows the opening of the base, or loses its drains.
 namespace damslip::fe2d {
 
-/// The law of uplift.opening and drains.lost_at_slip; null: the water stays as it is, and nothing asks for the crack
-/// afterwards.
+/// The law of uplift.opening and drains.lost_at_slip; null: the water does not follow, and nothing asks for the crack afterwards.
 /// @param uplift  before the earthquake @param cracked  the same with cracks
 std::unique_ptr<CrackWater> base_water(const Scene& scene, const Plane& base, const PressureProfile& uplift,
                                        const CrackedUplift& cracked, const std::optional<DrainLoss>& drain_loss);

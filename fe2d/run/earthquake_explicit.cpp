@@ -54,7 +54,7 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
     const GroundInput ground(motion, damping_.mass, damping_.constants.mass);
     const auto record_steps = std::lround(duration / row);
     const long all_steps = record_steps + static_cast<long>(std::ceil(scene_.sliding.run_out_max / row - 1e-9));
-    const long rest_steps = static_cast<long>(std::ceil(options_.rest_time / row - 1e-9));
+    const long rest_steps = static_cast<long>(std::ceil(rest_time() / row - 1e-9));
     ExplicitContact dynamics(explicit_, split(stages_.loads.size() - 1), lane.start, lane.memory);
     Strength strength = lane.strength;
     RunResult result = lane.result;
@@ -88,7 +88,7 @@ RunResult EarthquakeRun::shake_explicitly(int halvings, const Lane& lane) const
             result.status = Status::interrupted;
         else if (has_diverged(dynamics, result.history.energy.front().strain))
             result.status = Status::diverged;
-        else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, options_.rest_time))
+        else if (n + 1 >= record_steps + rest_steps && at_rest(result.history, rest_time()))
             result.status = Status::at_rest;
         else if (watch.self_excited())
             result.status = Status::self_excited;

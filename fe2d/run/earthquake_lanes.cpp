@@ -154,7 +154,7 @@ double EarthquakeRun::frame_interval(double record_end) const
 /// The steps of a pass over the lane's motion.
 PassSteps EarthquakeRun::pass_steps(const Lane& lane, int parts) const
 {
-    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, options_.rest_time};
+    return {scene_.time.dt.value_or(lane.motion->dt), parts, scene_.sliding.run_out_max, rest_time()};
 }
 
 bool EarthquakeRun::adapts_steps(const Lane& lane) const
@@ -260,22 +260,10 @@ std::vector<RunResult> EarthquakeRun::shake_in_step(int halvings, std::span<Lane
     return results;
 }
 
-/// Pressure with cracks after an earthquake, with what it has left of the drains; empty: cracks do not matter then.
+/// Pressure with cracks between two records, with what the first has left of the drains; empty: cracks do not matter then.
 const CrackedUplift& EarthquakeRun::cracked_after(const JointWaterReport& water) const
 {
     return water.drains_lost ? options_.drain_loss->cracked_after : options_.cracked_uplift_after;
-}
-
-/// The pressure under the base after the earthquake, as the options have it or with all that has cracked under full head. What
-/// the water in the joint has come to goes into the result.
-PressureProfile EarthquakeRun::water_after(const ContactMemory& end, RunResult& result) const
-{
-    const auto* water = end.laws.find<CrackWater>();
-    if (!water) return options_.uplift_after;
-    result.base_water = water->report();
-    if (!options_.cracked_uplift_after) return options_.uplift_after;
-    const CrackLengths& crack = result.base_water->largest;
-    return cracked_after(*result.base_water)(crack.upstream, crack.downstream);
 }
 
 bool EarthquakeRun::rests_between(const GroundMotion& motion) const
@@ -427,22 +415,27 @@ void EarthquakeRun::end_lane(const ContactMotion& dynamics, const Strength& stre
     result.bytes = dynamics.bytes();
     result.seconds.contact += result.counts.contact_seconds;
 
-    const PressureProfile uplift_after = water_after(end.contact, result);
-    const VectorXd after = load_with(stages_, *model_, uplift_after);
+    CrackLengths crack = strength_at_end.opened();
+    if (const auto* water = end.contact.laws.find<CrackWater>()) {
+        result.base_water = water->report();
+        if (options_.cracked_uplift_after) crack = result.base_water->largest;
+    }
     if (result.status == Status::left_plane) return;
-    Strength strength = strength_at_end;
-    ContactMemory memory = end.contact;
     std::optional<StaticContact> statics;
     if (structure_->slides_far())
         statics.emplace(*structure_, scene_.contact, options_.contact, planes.mean(0, end.contact.slip));
     else
         statics.emplace(statics_, scene_.contact, options_.contact);
-    SplitLoad load = structure_->split(after);
+    const auto load = [&](const PressureProfile& uplift) {
+        SplitLoad split = structure_->split(load_with(stages_, *model_, uplift));
+        let_water_ride(*structure_, uplift.empty() ? options_.uplift : uplift, split);
+        return split;
+    };
     const SplitLoad before = load_of(lane);
-    let_water_ride(*structure_, uplift_after.empty() ? options_.uplift : uplift_after, load);
-    result.after = solve_stage(*statics, *structure_, "after the earthquake", load, strength, memory, &before,
-                               structure_->slides_far() ? LetGo{} : letting_go());
-    if (result.base_water && options_.cracked_uplift_after) result.after.water = water_in(result.base_water->largest);
+    const bool drains_lost = result.base_water && result.base_water->drains_lost;
+    const CrackedUplift& uplift_after = drains_lost ? options_.drain_loss->uplift_after : options_.uplift_after;
+    result.after = stage_after(*statics, *structure_, uplift_after, crack, load, strength_at_end, end.contact,
+                               &before, structure_->slides_far() ? LetGo{} : letting_go());
 }
 
 SlideWatch EarthquakeRun::slide_watch(const Lane& lane, double record_end) const

@@ -351,6 +351,8 @@ void EarthquakeRun::judge(RunResult& result) const
         result.status = Status::runs_away;
         result.message = away;
     }
+    const std::string event = judge_events(result.status, structure_->planes()[0].length(), result.events);
+    if (!event.empty() && !result.message.empty()) result.message = "In \"" + event + "\": " + result.message;
     switch (result.status) {
     case Status::at_rest:
         result.message = fmt::format("Slip {:.4g} mm, at rest at {:.2f} s.", 1e3 * result.slip, result.end_time);

@@ -31,9 +31,9 @@ struct PassSteps;
 struct RunOptions {
     AddedMassLaw added_mass;            ///< of the upstream face (ModelOptions::added_mass); empty: none
     PressureProfile uplift;             ///< under the base before the earthquake; empty: none
-    PressureProfile uplift_after;       ///< the same after it; empty: as before
+    CrackedUplift uplift_after;         ///< the same after it, where the base has cracked; empty: as before
     CrackedUplift cracked_uplift;       ///< `uplift` where the base has cracked, for uplift.opening
-    CrackedUplift cracked_uplift_after; ///< `uplift_after` where it has; empty: it stays as it is
+    CrackedUplift cracked_uplift_after; ///< between the records of a sequence; empty: it stays as it is
     std::optional<DrainLoss> drain_loss; ///< of `uplift`, while it shakes; none: the drains hold
     /// Forces of the water in the rock on all unknowns of the model [N/m], constant from the uplift on; empty: none.
     std::function<Eigen::VectorXd(const Model&)> water_in_rock;
@@ -42,7 +42,7 @@ struct RunOptions {
     std::filesystem::path rock_cache; ///< folder of reduced rock (RockStore); empty: none
     int largest_halvings = 5;         ///< of sub-steps that are chosen
     double smallest_slip = 1e-6;      ///< errors below time.slip_tolerance of this do not matter [m]
-    double rest_time = 0.5;           ///< the run-out ends when the dam has not slid for this long [s]
+    std::optional<double> rest_time;  ///< the run-out ends when the dam has not slid for this long; none: window() [s]
     ContactOptions contact;
     std::optional<RunState> start; ///< as RunResult::state of a run before; none: a dam that no earthquake has shaken
     PairSeries pair_series = PairSeries::none;
@@ -150,6 +150,7 @@ public:
     double seconds() const { return seconds_; }             ///< that making it ready took
     /// Of the windows in which sliding after the record is looked at (slide_window) [s]; found by the first run that asks.
     double window() const;
+    double rest_time() const { return options_.rest_time ? *options_.rest_time : window(); } ///< [s]
     int factorisations() const { return operators_ ? operators_->made() : 0; } ///< step sizes of all runs so far
 
     /// @param contact  strength; default: the scene's
@@ -210,7 +211,6 @@ private:
     std::vector<RunResult> shake(int halvings, std::span<Lane* const> lanes) const;
     std::vector<RunResult> shake_in_step(int halvings, std::span<Lane* const> lanes) const;
     RunResult shake_explicitly(int halvings, const Lane& lane) const;
-    PressureProfile water_after(const ContactMemory& end, RunResult& result) const;
     const CrackedUplift& cracked_after(const JointWaterReport& water) const;
     void end_lane(const ContactMotion& dynamics, const Strength& strength, const Lane& lane, RunResult& result) const;
     RunProgress progress_of(const Lane& lane, int halvings, long record_steps, long step, double dt) const;

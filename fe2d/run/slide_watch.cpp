@@ -19,7 +19,7 @@ constexpr double smallest_change = 1e-9; ///< of times [s]; of work: lifts of th
 
 double slide_window(double first_frequency)
 {
-    return first_frequency > 0.0 ? std::max(1.0, 5.0 / first_frequency) : 1.0;
+    return first_frequency > 0.0 ? 5.0 / first_frequency : 1.0;
 }
 
 bool RunOutFigures::walked() const
@@ -64,7 +64,6 @@ void SlideWatch::add(const SlideInstant& now)
         hops_shaking_ = next.hops;
         return;
     }
-    if (now.time < edges_.front().time + slide_window(0.0) - smallest_change) return;
     if (window_ == 0.0) window_ = find_window_();
     if (now.time < window_end() - smallest_change) return;
     edges_.push_back(next);

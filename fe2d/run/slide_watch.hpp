@@ -34,8 +34,8 @@ struct SlideInstant {
     double sliding_factor = 0.0; ///< static FS with the strength of this instant, least of all planes [-]
 };
 
-/// Length of the windows after the record: max(1 s, 5/f₁), five periods of the dam at least [s].
-/// @param first_frequency  f₁ of the dam on its bonded base [Hz]; 0: not known
+/// Length of the windows after the record, and of the rest that ends a run: five periods of the dam, 5/f₁ [s].
+/// @param first_frequency  f₁ of the dam on its bonded base [Hz]; 0: not known, 1 s
 double slide_window(double first_frequency);
 
 /// What is watched for.
@@ -80,7 +80,7 @@ struct RunOutFigures {
 /// deceleration from the rate, so a dam that slows down falls by more from some window on.
 class SlideWatch {
 public:
-    /// @param window  gives slide_window() of the dam; asked once, when the first second after the record has passed
+    /// @param window  gives slide_window() of the dam; asked once, after the record
     SlideWatch(const SlideLimits& limits, std::function<double()> window);
 
     void add(const SlideInstant& now);         ///< after a step; the start first

@@ -167,16 +167,23 @@ PlaneBalance balance(const ContactStructure& structure, Index index, const Vecto
     return result;
 }
 
-void read_state(const ContactPlanes& planes, Index index, const ContactMemory& memory, PlaneBalance& result)
+/// Where the solver has opened the joint there is no cohesion.
+void read_state(const ContactPlanes& planes, Index index, const ContactMemory& memory, const ContactLaw& law,
+                PlaneBalance& result)
 {
     const Index first = planes.first(index);
     const Plane& plane = planes[index];
     result.slip = planes.mean(index, memory.slip);
+    double without = 0.0;
     for (Index i = 0; i < plane.pairs(); ++i) {
         const ContactState state = memory.states[static_cast<std::size_t>(first + i)];
-        if (state == ContactState::open) result.open_length += plane.area[i];
+        if (state == ContactState::open) {
+            result.open_length += plane.area[i];
+            without += law.cohesion[first + i];
+        }
         if (is_slip(state)) result.slipping_length += plane.area[i];
     }
+    if (std::isfinite(result.sliding_factor)) result.sliding_factor -= without / std::abs(result.resultant.shear_force);
 }
 
 } // namespace
@@ -214,6 +221,30 @@ SplitLoad between(const SplitLoad& before, const SplitLoad& load, double t)
         return (1.0 - t) * a + t * b;
     };
     return {mean(before.dam, load.dam), mean(before.rock, load.rock), mean(before.joint, load.joint)};
+}
+
+constexpr int tried_shares = 16; ///< of a load that is not carried, each brought on at once
+
+/// Largest share of the load that the bond carries when it comes at once; 0: none of those tried.
+/// @param memory  before the load @param least  shares below are of no interest
+double carried_at_once(StaticContact& statics, const SplitLoad& before, const SplitLoad& load, const ContactLaw& law,
+                       const ContactMemory& memory, double least)
+{
+    const auto stands = [&](double t) {
+        ContactMemory trial = memory;
+        return statics.solve(between(before, load, t), law, trial).resolved();
+    };
+    constexpr double part = 1.0 / tried_shares;
+    double low = 0.0;
+    for (int k = tried_shares - 1; k > 0 && low == 0.0 && k * part > least; --k)
+        if (stands(k * part)) low = k * part;
+    if (low == 0.0) return 0.0;
+    double high = low + part;
+    while (high - low > 1e-3 * high) {
+        const double middle = 0.5 * (low + high);
+        (stands(middle) ? low : high) = middle;
+    }
+    return low;
 }
 
 constexpr double first_jump = 1e-3; ///< load beyond the limit point with which the dam is let go; doubled each time [-]
@@ -278,18 +309,50 @@ StageResult solve_stage(StaticContact& statics, const ContactStructure& structur
         if (!follow_bond(statics, structure, *before, load, law, trial, result) &&
             !(let_go && jump(statics, *before, load, law, let_go, trial, *result.bond, result.contact))) {
             result.status = StageStatus::progressive;
+            BondLoad& bond = *result.bond;
+            bond.largest = std::max(bond.largest, bond.carried);
+            bond.largest = std::max(bond.largest, carried_at_once(statics, *before, load, law, memory, bond.largest));
             return result;
         }
+        result.bond->largest = 1.0;
     } else if (!result.contact.resolved()) {
         result.status = StageStatus::not_resolved;
         return result;
     }
     memory = std::move(trial);
-    strength.follow(memory);
-    read_state(planes, 0, memory, result);
+    read_state(planes, 0, memory, law, result);
     for (Index k = 1; k < planes.count(); ++k)
-        read_state(planes, k, memory, result.lifts[static_cast<std::size_t>(k - 1)]);
+        read_state(planes, k, memory, law, result.lifts[static_cast<std::size_t>(k - 1)]);
+    strength.follow(memory);
     return result;
+}
+
+StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
+                        const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
+                        Strength strength, const ContactMemory& memory, const SplitLoad* before, const LetGo& let_go)
+{
+    const auto uplift_of = [&](const CrackLengths& crack) {
+        return uplift ? uplift(crack.upstream, crack.downstream) : PressureProfile();
+    };
+    strength.lose_broken();
+    CrackLengths crack = cracked;
+    PressureProfile profile = uplift_of(crack);
+    for (Index round = 0;; ++round) { // a crack that takes water may open further under it
+        Strength left = strength;
+        ContactMemory at_rest = memory;
+        StageResult result = solve_stage(statics, structure, "after the earthquake", load(profile), left, at_rest,
+                                         before, let_go);
+        if (profile.points != uplift_of({}).points)
+            result.water = fmt::format("full head on {:.4g} m of the base", crack.upstream + crack.downstream);
+        const CrackLengths &was = strength.opened(), &now = left.opened();
+        if (now.upstream > was.upstream) crack.upstream = std::max(crack.upstream, now.upstream);
+        if (now.downstream > was.downstream) crack.downstream = std::max(crack.downstream, now.downstream);
+        PressureProfile next = uplift_of(crack);
+        if (result.status != StageStatus::ok || round == structure.plane().pairs() ||
+            next.points == profile.points)
+            return result;
+        profile = std::move(next);
+    }
 }
 
 Status status_of(StageStatus stage)
@@ -339,8 +402,8 @@ std::string StageResult::text() const
                            body, forces, r.position, is_base ? "heel" : "upstream face", is_base ? "base" : "joint");
     case StageStatus::progressive:
         return fmt::format(
-            "{}: the bond breaks progressively and does not carry the load, {}: at most {:.4g} of the "
-            "stage's load is in equilibrium, {:.3g} with all strength at once, and let go {}the dam does not "
+            "{}: the bond breaks progressively and does not carry the load, {}: no state was found "
+            "in equilibrium under more than {:.4g} of the stage's load, {:.3g} with all strength at once, and released {}the dam does not "
             "come to rest; give more strength or fracture energy.",
             stage, forces, bond ? bond->largest : 0.0, bond ? bond->limit : 0.0,
             bond && bond->jumps > 0 ? fmt::format("at {:.4g}, after {} {}, ", bond->carried, bond->jumps,

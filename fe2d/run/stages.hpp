@@ -47,7 +47,7 @@ struct PlaneBalance {
 
 /// How much of a stage's load a bond carries.
 struct BondLoad {
-    double largest = 1.0; ///< t_max: largest share of the load on the way in equilibrium, before any jump [-]
+    double largest = 1.0; ///< t_max: largest share of the load found in equilibrium on any path [-]
     double carried = 1.0; ///< share with the equilibria found by jumps; 1: the stage holds [-]
     double limit = 0.0;   ///< t_LP: upper bound with all of the bond's strength at once (limit_load()) [-]
     int events = 0;       ///< damage updates on the way; 0: found without following the load
@@ -105,5 +105,14 @@ using LetGo = std::function<Release(const SplitLoad& load, const StaticState& st
 StageResult solve_stage(StaticContact& statics, const ContactStructure& structure, const std::string& name,
                         const SplitLoad& load, Strength& strength, ContactMemory& memory,
                         const SplitLoad* before = nullptr, const LetGo& let_go = {});
+
+/// The static state after an earthquake: cohesion is lost where the joint has opened or slipped, friction is that of the path,
+/// and the uplift has its crack where the base has opened, in the earthquake or under these loads.
+/// @param uplift  under a base with cracks from heel and toe; empty: as before the earthquake @param cracked  at least
+/// @param strength, memory  at the end of the earthquake; @param load  of all but the uplift's change: load_with() another uplift
+StageResult stage_after(StaticContact& statics, const ContactStructure& structure, const CrackedUplift& uplift,
+                        const CrackLengths& cracked, const std::function<SplitLoad(const PressureProfile&)>& load,
+                        Strength strength, const ContactMemory& memory, const SplitLoad* before = nullptr,
+                        const LetGo& let_go = {});
 
 } // namespace damslip::fe2d

@@ -38,11 +38,37 @@ void Strength::add(const Contact& contact, Index first, const Eigen::VectorXd& a
     }
     if (!friction.constant() || part.loss) constant_ = false;
     parts_.push_back(std::move(part));
+    if (first == 0) base_area_ = area;
+    broken_.assign(static_cast<std::size_t>(law_.pairs()), 0);
     last_slip_ = accumulated_ = Eigen::VectorXd::Zero(law_.pairs());
+}
+
+void Strength::note_cracks(const ContactStates& states)
+{
+    const std::size_t base = static_cast<std::size_t>(base_area_.size());
+    const auto open = [&](std::size_t i) { return states[i] == ContactState::open; };
+    const auto area = [&](std::size_t i) { return base_area_[static_cast<Index>(i)]; };
+    CrackLengths now;
+    for (std::size_t i = 0; i < base && open(i); ++i) now.upstream += area(i);
+    for (std::size_t i = base; i > 0 && open(i - 1); --i) now.downstream += area(i - 1);
+    opened_ = {std::max(opened_.upstream, now.upstream), std::max(opened_.downstream, now.downstream)};
+    for (std::size_t i = 0; i < broken_.size(); ++i)
+        if (states[i] != ContactState::stick) broken_[i] = 1;
+}
+
+void Strength::lose_broken()
+{
+    for (Part& part : parts_)
+        for (Index i = part.first; part.loss && i < part.first + part.pairs; ++i) {
+            if (!broken_[static_cast<std::size_t>(i)]) continue;
+            law_.cohesion[i] = 0.0;
+            if (part.cohesion.size() > 0) part.cohesion[i - part.first] = 0.0;
+        }
 }
 
 void Strength::follow(const ContactMemory& memory)
 {
+    note_cracks(memory.states);
     if (constant_) return;
     for (Part& part : parts_) {
         if (part.loss == BondLoss::together && part.cohesion.size() > 0 && lose_together(part, memory))
@@ -76,8 +102,10 @@ bool Strength::lose_together(const Part& part, const ContactMemory& memory) cons
 
 void Strength::save(RunState& state) const
 {
+    Strength left = *this;
+    left.lose_broken();
     state.path = accumulated_;
-    state.cohesion = law_.cohesion;
+    state.cohesion = left.law_.cohesion;
 }
 
 void Strength::restore(const RunState& state)
@@ -86,10 +114,16 @@ void Strength::restore(const RunState& state)
     last_slip_ = state.slip;
     law_.cohesion = state.cohesion;
     for (Part& part : parts_) {
-        for (Index i = part.first; i < part.first + part.pairs; ++i)
-            law_.friction[i] = part.friction.at(accumulated_[i]);
         if (part.cohesion.size() > 0 && (state.cohesion.segment(part.first, part.pairs).array() == 0.0).all())
             part.cohesion.resize(0);
+        for (Index i = part.first; i < part.first + part.pairs; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            law_.friction[i] = part.friction.at(accumulated_[i]);
+            broken_[at] = part.loss && state.cohesion[i] == 0.0;
+            // A bond that is lost together acts again where the joint has shut, until the plane reaches its strength.
+            if (part.cohesion.size() > 0 && state.states[at] != ContactState::open)
+                law_.cohesion[i] = part.cohesion[i - part.first];
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe2d/contact/joint_water.hpp"
 #include "fe2d/run/run_state.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "scene/friction_over_slip.hpp"
@@ -21,7 +22,11 @@ public:
     const ContactLaw& law() const { return law_; }
     bool constant() const { return constant_; }
     void follow(const ContactMemory& memory); ///< after a step
-    void save(RunState& state) const;         ///< path and cohesion
+    /// After the earthquake: cohesion that slip destroys is gone where a pair has opened or slipped, though it sticks again.
+    void lose_broken();
+    /// Longest stretches of the base that were open at one time, from heel and toe [m].
+    const CrackLengths& opened() const { return opened_; }
+    void save(RunState& state) const; ///< path, and the cohesion that is left
     void restore(const RunState& state);
 
 private:
@@ -33,10 +38,14 @@ private:
     };
     void add(const Contact& contact, Eigen::Index first, const Eigen::VectorXd& area);
     bool lose_together(const Part& part, const ContactMemory& memory) const;
+    void note_cracks(const ContactStates& states);
 
     std::vector<Part> parts_; ///< by plane
     ContactLaw law_;
     bool constant_ = true;
+    std::vector<char> broken_; ///< pairs that have opened or slipped
+    Eigen::VectorXd base_area_; ///< [m]
+    CrackLengths opened_;
     Eigen::VectorXd last_slip_, accumulated_; ///< [m]
 };
 

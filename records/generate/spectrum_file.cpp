@@ -46,12 +46,10 @@ SpectrumColumn spectrum_column(const RecordText& text, std::size_t line, std::st
 }
 
 /// The two headings above the numbers, and their line; other lines of words there are remarks, but for one that speaks of frequencies.
-std::pair<std::vector<std::string_view>, std::size_t> headings_of(const RecordText& text, const NumberTable& table)
+std::pair<std::vector<std::string>, std::size_t> headings_of(const RecordText& text, const NumberTable& table)
 {
     if (!table.headings.empty() || table.skipped_lines.empty()) return {table.headings, table.heading_line};
     const std::size_t line = table.skipped_lines.back();
-    std::vector<std::string_view> fields = fields_of(text.lines[line - 1], {'\t', false});
-    if (fields.size() == 2) return {std::move(fields), line};
     const std::string words = lower(text.lines[line - 1]);
     if (contains(words, "hz") || contains(words, "freq"))
         refuse(text, {line, 0},

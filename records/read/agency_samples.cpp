@@ -25,6 +25,19 @@ std::vector<double> samples_of(const RecordText& text, std::span<const double> v
     return accel;
 }
 
+TimeColumn times_of_pairs(const RecordText& text, const FieldFormat& format, std::size_t first,
+                          std::span<const double> time)
+{
+    TimeColumn times{time, 0, [format, first](std::size_t k) { return place_of(format, first, 2 * k); }};
+    for (std::size_t k = 0; k < time.size(); ++k) {
+        const Place place = times.place(k);
+        const std::string_view line = text.lines[place.line - 1];
+        times.digits = std::max(times.digits,
+                                significant_digits(line.substr(std::min(line.size(), place.column - 1), format.width)));
+    }
+    return times;
+}
+
 void demand_end_of_block(const RecordText& text, std::size_t line, const Stated<std::size_t>& stated,
                          std::string_view key)
 {
@@ -44,14 +57,6 @@ std::size_t checked_sample_count(const RecordText& text, double count, Place pla
         refuse(text, place, fmt::format("{} = {} is not allowed.", key, shortest(count)),
                fmt::format("a whole number from 2 to {}", max_samples), "check that the file is complete");
     return static_cast<std::size_t>(count);
-}
-
-void warn_if_down(Record& record)
-{
-    const std::string name = lower(record.source.component);
-    if (name == "down" || name.starts_with("down "))
-        record.warnings.push_back("the component is positive downwards; as a vertical motion it has to be positive up: "
-                                  "`record scale --factor -1`");
 }
 
 void check_stated_peak(const RecordText& text, Record& record, const StatedPeak& stated)
@@ -83,7 +88,7 @@ std::vector<Record> chosen_channels(const RecordText& text, std::vector<Record> 
     if (options.column.empty()) return records;
 
     const std::string wanted = lower(trimmed(options.column));
-    const auto first_word = [](const std::string& name) { return name.substr(0, name.find(' ')); };
+    const auto first_word = [](const std::string& name) { return name.substr(0, name.find_first_of(" ,")); };
     std::vector<std::size_t> same, alike;
     for (std::size_t k = 0; k < records.size(); ++k) {
         const std::string name = lower(records[k].source.component);

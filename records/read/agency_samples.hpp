@@ -2,6 +2,7 @@
 
 #include "records/read/fixed_fields.hpp"
 #include "records/read/samples.hpp"
+#include "records/read/time_column.hpp"
 
 #include <span>
 
@@ -13,15 +14,16 @@ namespace damslip::records {
 std::vector<double> samples_of(const RecordText& text, std::span<const double> values, const AccelerationUnit& unit,
                                const FieldFormat& format, std::size_t first_line, std::optional<double> gap = {});
 
+/// The times of pairs (time, acceleration) that stand in fields from line `first` on. @param time  every second field; outlives the result
+TimeColumn times_of_pairs(const RecordText& text, const FieldFormat& format, std::size_t first,
+                          std::span<const double> time);
+
 /// The next line that is not blank must not go on with numbers. @throws InputError naming the stated count.
 void demand_end_of_block(const RecordText& text, std::size_t line, const Stated<std::size_t>& stated,
                          std::string_view key);
 
 /// A count from 2 to max_samples. @throws InputError at `place`.
 std::size_t checked_sample_count(const RecordText& text, double count, Place place, std::string_view key);
-
-/// Adds a warning to a component whose name says that it is positive downwards.
-void warn_if_down(Record& record);
 
 /// A peak that a file states beside its samples.
 struct StatedPeak {

@@ -245,7 +245,6 @@ Record read_channel(const RecordText& text, const CosmosChannel& channel, const 
     check_peak(text, channel, unit, record);
     warn_of_length(channel, dt, record);
     warn_of_site(channel, record);
-    warn_if_down(record);
     return record;
 }
 

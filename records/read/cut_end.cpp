@@ -4,13 +4,14 @@
 #include "records/read/header.hpp"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace damslip::records {
 
 namespace {
 
-constexpr std::size_t lines_before = 50, least_others = 3;
+constexpr std::size_t lines_before = 50, least_others = 3, whole_in_any_case = 4; // "-0.3"
 
 /// How a number is written.
 struct Written {
@@ -69,13 +70,13 @@ bool all_same(const std::vector<Written>& numbers, Value value)
 
 } // namespace
 
-void refuse_cut_end(const RecordText& text, std::size_t first_line)
+std::string refuse_cut_end(const RecordText& text, std::size_t first_line)
 {
     std::size_t last_line = text.lines.size();
     while (last_line >= first_line && last_line > 0 && trimmed(text.lines[last_line - 1]).empty()) --last_line;
-    if (last_line < first_line || last_line == 0 || is_comment(text.lines[last_line - 1])) return;
+    if (last_line < first_line || last_line == 0 || is_comment(text.lines[last_line - 1])) return "";
     const std::vector<Written> of_last_line = numbers_of(text.lines[last_line - 1]);
-    if (of_last_line.empty()) return;
+    if (of_last_line.empty()) return "";
     const Written& last = of_last_line.back();
     const std::size_t place = of_last_line.size() - 1;
 
@@ -103,7 +104,22 @@ void refuse_cut_end(const RecordText& text, std::size_t first_line)
     const bool cut_decimals =
         open_end && less_than_all(last, others, decimals) && all_same(others, decimals) && decimals(others.front()) > 1;
     const bool cut_column = open_end && less_than_all(last, same_place, end) && all_same(same_place, end);
-    if (!cut_exponent && !cut_decimals && !cut_column) return;
+    if (!cut_exponent && !cut_decimals && !cut_column) {
+        const auto as_last = [&](auto value) {
+            return all_same(others, value) && value(others.front()) == value(last);
+        };
+        const bool whole = others.size() >= least_others && as_last(decimals) && as_last(exponent);
+        // Cut short, a number loses its exponent first.
+        const auto as_long_power = [&](const Written& w) {
+            return w.exponent_digits == 0 || exponent(w) == exponent(last);
+        };
+        const bool whole_power = last.exponent_digits > 0 && std::all_of(others.begin(), others.end(), as_long_power) &&
+                                 std::any_of(others.begin(), others.end(), exponent);
+        const bool short_enough = last.text.size() <= whole_in_any_case;
+        if (!open_end || whole || whole_power || short_enough) return "";
+        return "the file does not end with a line end: its last number, " + std::string(last.text) +
+               ", may have been cut";
+    }
     refuse(text, {last_line, last.begin + 1},
            "the last number, " + in_quotes(last.text) + ", is shorter than all before it: the file looks cut here.",
            cut_exponent ? "an exponent of as many digits as the others have" : "as many digits as the others have",

@@ -107,7 +107,7 @@ std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
     const Stated<std::size_t> count{checked_sample_count(text, number_of(text, header, "ndata"), count_place, "NDATA"),
                                     count_place.line};
     std::vector<double> accel = read_values(text, header + 1, unit);
-    refuse_cut_end(text, header + 1);
+    const std::string open_end = refuse_cut_end(text, header + 1);
     check_count(text, count, accel.size(), "NDATA");
 
     const auto words = [&](std::string_view key) {
@@ -124,6 +124,7 @@ std::vector<Record> read_esm(const RecordText& text, const ReadOptions& options)
     source.first_line = header + 1;
     source.last_line = text.lines.size();
     Record record = finished_record(text, std::move(accel), dt, std::move(source));
+    if (!open_end.empty()) record.warnings.push_back(open_end);
     for (std::size_t k = 0; k < header; ++k) // "PGA_CM/S^2: -46.4"
         if (lower(text.lines[k]).starts_with("pga_")) {
             const AccelerationUnit peak_unit = unit_of_key(text.lines[k]).value_or(unit);

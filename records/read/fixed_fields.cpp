@@ -76,6 +76,7 @@ std::vector<double> read_fields(const RecordText& text, std::size_t first, std::
     for (std::size_t line = first; line <= text.lines.size() && values.size() < count; ++line) {
         const std::string_view s = text.lines[line - 1];
         const std::string word = lower(trimmed(s).substr(0, 4));
+        if (word.starts_with('/')) break; // "/&" ends a channel
         if (has_words(s) && !contains(word, "nan") && !contains(word, "inf")) break;
         for (std::size_t k = 0; k < format.per_line && values.size() < count; ++k) {
             const std::size_t at = std::min(k * format.width, s.size());

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace damslip::records {
 
@@ -14,21 +15,25 @@ struct Stated {
     std::size_t line = 0;
 };
 
-/// What the comment lines "# key: value" of a text file say.
+/// What the labelled lines of a text file say: comment lines "# key: value", and lines of words above the numbers, "Label : value",
+/// "label = value", or a known label and a number. The labels: `labels` in header.cpp.
 struct TextHeader {
-    std::optional<Stated<std::string>> unit;    ///< "units", "unit": as written
-    std::optional<Stated<double>> dt;           ///< "dt", "time step" [s]
-    std::optional<Stated<std::size_t>> samples; ///< "n", "npts", "samples"
-    std::string component;                      ///< "component", "channel"
-    std::string name;                           ///< "name"
+    std::optional<Stated<std::string>> unit;    ///< as written; of a sentence the word ("Acceleration in units of g")
+    std::optional<Stated<double>> dt;           ///< [s]
+    std::optional<Stated<std::size_t>> samples; ///< of each component
+    std::optional<Stated<double>> peak;         ///< where its label names the unit [m/s^2]
+    std::optional<Stated<std::string>> columns; ///< the names of the columns, in their order
+    std::string component;
+    std::string name;
     std::string title; ///< "title", "event"; else the first comment line that is no "key: value" known here
+    std::vector<std::size_t> understood; ///< lines of words that said one of these
 };
 
 /// A line that starts with # or %.
 bool is_comment(std::string_view line);
 
-/// Reads all comment lines. @throws InputError for a known key with an unreadable value, or stated twice with different
-/// values.
-TextHeader read_text_header(const RecordText& text);
+/// Reads all comment lines, and the lines of words above `first_number_line`. @throws InputError for a known key of a comment with an
+/// unreadable value, or stated twice with different values.
+TextHeader read_text_header(const RecordText& text, std::size_t first_number_line);
 
 } // namespace damslip::records

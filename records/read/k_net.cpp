@@ -140,7 +140,7 @@ std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& option
     const Direction direction = direction_of(text, value("dir."));
 
     std::vector<double> accel = read_counts(text, header + 1, count);
-    refuse_cut_end(text, header + 1);
+    const std::string open_end = refuse_cut_end(text, header + 1);
     check_count(text, count, accel.size(), "number of samples (frequency times duration)");
     for (double& a : accel) a = checked_sample(text, a * gal, unit, {header + 1, 0});
     const double offset = remove_offset(accel, dt);
@@ -153,6 +153,7 @@ std::vector<Record> read_k_net(const RecordText& text, const ReadOptions& option
     source.first_line = header + 1;
     source.last_line = text.lines.size();
     Record record = finished_record(text, std::move(accel), dt, std::move(source));
+    if (!open_end.empty()) record.warnings.push_back(open_end);
     record.warnings.push_back(fmt::format(
         "sensor offset of {:.4g} m/s2 taken off: the mean of {}", offset,
         record.duration() + dt >= shortest_with_quiet_start ? "the first 10 s" : "the record (under 20 s)"));

@@ -4,6 +4,7 @@
 #include "records/read/cut_end.hpp"
 #include "records/read/header.hpp"
 #include "records/read/samples.hpp"
+#include "records/read/unit.hpp"
 #include "records/transform/transform.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace damslip::records {
 
 namespace {
 
-constexpr std::size_t lines_looked_at = 60;          // for the first numbers
+constexpr std::size_t lines_looked_at = 200;         // for the first numbers
 constexpr std::size_t most_values = 6 * max_samples; // of all columns
 
 bool is_number_character(char c)
@@ -32,15 +33,26 @@ bool is_number_line(std::string_view line)
            std::string_view("eEdD,;").find(first) == std::string_view::npos;
 }
 
+/// Where numbers begin that go on: up to five lines of numbers with words below them belong to the header.
 std::optional<std::size_t> first_number_line(const RecordText& text)
 {
-    std::size_t words = 0;
+    constexpr std::size_t most_in_header = 5, least_of_record = 10;
+    std::optional<std::size_t> first; // of the present run of numbers
+    std::size_t words = 0, run = 0;
     for (std::size_t k = 0; k < text.lines.size() && words < lines_looked_at; ++k) {
         if (is_comment(text.lines[k]) || trimmed(text.lines[k]).empty()) continue;
-        if (is_number_line(text.lines[k])) return k + 1;
-        ++words;
+        if (is_number_line(text.lines[k])) {
+            if (run++ == 0) first = k + 1;
+            if (run > most_in_header) return first;
+        } else {
+            std::size_t below = 0; // lines of numbers, as far as they count
+            for (std::size_t next = k; run > 0 && next < text.lines.size() && below < least_of_record; ++next)
+                below += is_number_line(text.lines[next]);
+            if (run > 0 && below < least_of_record) return first;
+            run = 0, ++words;
+        }
     }
-    return std::nullopt;
+    return run > 0 ? first : std::nullopt;
 }
 
 struct CommaCount {
@@ -92,22 +104,26 @@ void read_row(const RecordText& text, std::size_t line, std::vector<std::string_
     fields_of(whole, table.dialect, fields);
     for (const std::string_view field : fields) {
         const Place place{line, static_cast<std::size_t>(field.data() - whole.data()) + 1};
-        std::size_t used = 0;
-        double value = 0.0;
+        std::string_view rest = field;
         if (table.dialect.decimal_comma) {
             copy = field;
             if (contains(copy, ".") && contains(copy, ","))
                 refuse(text, place, fmt::format("{} has both a comma and a point.", in_quotes(field)),
                        "one decimal sign, no thousands separators", "rewrite the number");
             std::replace(copy.begin(), copy.end(), ',', '.');
-            value = number_at(text, copy, place, used);
-        } else {
-            value = number_at(text, field, place, used);
+            rest = copy;
         }
-        if (used != field.size())
-            refuse(text, place, fmt::format("{} is not a number.", in_quotes(field)), "a finite decimal number",
-                   "correct it, or start the line with # if it is a remark");
-        table.values.push_back(value);
+        do {
+            std::size_t used = 0;
+            const double value = number_at(text, rest, place, used);
+            const bool touches = used < rest.size() && (rest[used] == '-' || rest[used] == '+') &&
+                                 contains(rest.substr(0, used), ".") && table.dialect.separator == ' ';
+            if (used != rest.size() && !touches)
+                refuse(text, place, fmt::format("{} is not a number.", in_quotes(field)), "a finite decimal number",
+                       "correct it, or start the line with # if it is a remark");
+            table.values.push_back(value);
+            rest.remove_prefix(used);
+        } while (!rest.empty());
     }
     table.row_begin.push_back(table.values.size());
     table.row_line.push_back(static_cast<std::uint32_t>(line));
@@ -116,39 +132,57 @@ void read_row(const RecordText& text, std::size_t line, std::vector<std::string_
                fmt::format("at most {} samples", max_samples), "cut the record");
 }
 
-/// A line of words right above the numbers that has as many fields as they have is their heading.
+/// A broken first row of numbers must not pass for a heading.
+void refuse_row_of_numbers(const RecordText& text, std::size_t line, const std::vector<std::string>& fields)
+{
+    for (const std::string& field : fields) {
+        const std::string word = lower(field);
+        const bool value = parse_number(word).has_value() || word == "nan" || word.starts_with("inf") ||
+                           word.find_first_not_of("*") == std::string::npos;
+        if (!value) continue;
+        std::size_t used = 0;
+        (void)number_at(text, field, {line, text.lines[line - 1].find(field) + 1}, used);
+        refuse(text, {line, 0},
+               fmt::format("{} is neither a row of numbers nor a heading.", in_quotes(trimmed(text.lines[line - 1]))),
+               "names of columns, or numbers only", "correct the line, or start it with # if it is a remark");
+    }
+}
+
+/// "(s)", "[g]", "sec", "cm/s2": units alone.
+bool are_units(const std::vector<std::string>& fields)
+{
+    return !fields.empty() && std::all_of(fields.begin(), fields.end(), [](std::string field) {
+        std::erase_if(field, [](char c) { return c == '(' || c == ')' || c == '[' || c == ']'; });
+        return field == "s" || field == "sec" || acceleration_unit(field).has_value();
+    });
+}
+
+/// A line of words right above the numbers that has as many fields as they have is their heading; a line of units alone belongs to the
+/// names above it.
 void read_headings(const RecordText& text, std::size_t first, std::size_t width, NumberTable& table)
 {
-    std::size_t nearest = 0;
-    for (std::size_t line = 1; line < first; ++line) {
-        if (is_comment(text.lines[line - 1]) || trimmed(text.lines[line - 1]).empty()) continue;
-        if (nearest) table.skipped_lines.push_back(nearest);
-        nearest = line;
-    }
-    if (!nearest) return;
-    for (const char separator : {table.dialect.separator, ',', ';', ' '}) {
-        const auto fields = fields_of(text.lines[nearest - 1], {separator, false});
-        if (fields.size() != width) continue;
-        for (const std::string_view field : fields) { // a broken first row must not pass for a heading
-            const std::string word = lower(field);
-            const bool value = parse_number(word).has_value() || word == "nan" || word.starts_with("inf") ||
-                               word.find_first_not_of("*") == std::string::npos;
-            std::size_t used = 0;
-            if (value)
-                (void)number_at(text, field,
-                                {nearest, static_cast<std::size_t>(field.data() - text.lines[nearest - 1].data()) + 1},
-                                used);
-            if (value)
-                refuse(text, {nearest, 0},
-                       fmt::format("{} is neither a row of numbers nor a heading.",
-                                   in_quotes(trimmed(text.lines[nearest - 1]))),
-                       "names of columns, or numbers only", "correct the line, or start it with # if it is a remark");
+    std::vector<std::size_t> words; // lines above the numbers
+    for (std::size_t line = 1; line < first; ++line)
+        if (!is_comment(text.lines[line - 1]) && !trimmed(text.lines[line - 1]).empty()) words.push_back(line);
+    table.skipped_lines = words;
+    if (words.empty()) return;
+    const auto fields = [&](std::size_t line) {
+        return heading_fields(text.lines[line - 1], table.dialect.separator, width, table.heading_is_separated);
+    };
+    std::vector<std::string> headings = fields(words.back());
+    if (headings.empty()) return;
+    refuse_row_of_numbers(text, words.back(), headings);
+    table.skipped_lines.pop_back();
+    table.heading_line = words.back();
+    if (width > 1 && are_units(headings) && words.size() > 1)
+        if (std::vector<std::string> names = fields(words[words.size() - 2]); !names.empty()) {
+            for (std::size_t k = 0; k < width; ++k) {
+                std::erase_if(headings[k], [](char c) { return c == '(' || c == ')' || c == '[' || c == ']'; });
+                headings[k] = names[k] + " [" + headings[k] + "]";
+            }
+            table.skipped_lines.pop_back();
         }
-        table.headings = fields;
-        table.heading_line = nearest;
-        return;
-    }
-    table.skipped_lines.push_back(nearest);
+    table.headings = std::move(headings);
 }
 
 } // namespace
@@ -185,6 +219,39 @@ void fields_of(std::string_view line, const Dialect& dialect, std::vector<std::s
     }
 }
 
+std::vector<std::string> heading_fields(std::string_view line, char separator, std::size_t width, bool& separated)
+{
+    for (const char by : {separator, '\t', ',', ';', ' '}) {
+        auto fields = fields_of(line, {by, false});
+        if (by == ' ' && fields.size() > width) { // "Time [sec]": the unit belongs to the name
+            std::vector<std::string_view> joined;
+            for (const std::string_view field : fields) {
+                const bool open = !joined.empty() && joined.back().find_first_of("([") != std::string_view::npos &&
+                                  joined.back().find_last_of(")]") == std::string_view::npos;
+                if (!joined.empty() && (open || field.front() == '(' || field.front() == '['))
+                    joined.back() = {joined.back().data(),
+                                     static_cast<std::size_t>(field.data() + field.size() - joined.back().data())};
+                else
+                    joined.push_back(field);
+            }
+            fields = std::move(joined);
+        }
+        if (fields.size() != width) continue;
+        separated = by != ' ';
+        return {fields.begin(), fields.end()};
+    }
+    return {};
+}
+
+void NumberTable::drop_first_rows(std::size_t count)
+{
+    const std::size_t values_gone = row_begin[count];
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values_gone));
+    row_line.erase(row_line.begin(), row_line.begin() + static_cast<std::ptrdiff_t>(count));
+    row_begin.erase(row_begin.begin(), row_begin.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t& begin : row_begin) begin -= values_gone;
+}
+
 Place NumberTable::place(std::size_t row, std::size_t field, const RecordText& text) const
 {
     const std::string_view line = text.lines[row_line[row] - 1];
@@ -211,8 +278,9 @@ NumberTable read_number_table(const RecordText& text)
     for (std::size_t line = *first; line <= text.lines.size(); ++line)
         if (!is_comment(text.lines[line - 1]) && !trimmed(text.lines[line - 1]).empty())
             read_row(text, line, fields, table);
-    read_headings(text, *first, table.width(0), table);
-    refuse_cut_end(text, *first);
+    // The first row may be no sample (number and step above one column): the heading names what all others hold.
+    read_headings(text, *first, table.width(table.rows() > 2 ? 1 : 0), table);
+    table.open_end = refuse_cut_end(text, *first);
     return table;
 }
 

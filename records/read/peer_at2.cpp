@@ -1,6 +1,7 @@
 #include "records/read/format.hpp"
 
 #include "core/number.hpp"
+#include "records/read/agency_samples.hpp"
 #include "records/read/cut_end.hpp"
 #include "records/read/samples.hpp"
 #include "records/transform/transform.hpp"
@@ -141,7 +142,7 @@ std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& opt
     const double dt = *settle_dt(text, header.dt, options);
     std::vector<double> accel = read_values(text, last + 1, unit, header.samples.value);
     check_count(text, header.samples, accel.size(), "NPTS");
-    refuse_cut_end(text, last + 1);
+    const std::string open_end = refuse_cut_end(text, last + 1);
 
     RecordSource source;
     source.format = "PEER AT2";
@@ -152,7 +153,9 @@ std::vector<Record> read_peer_at2(const RecordText& text, const ReadOptions& opt
         source.component = trimmed(std::string_view(header.title).substr(comma + 1));
     source.first_line = last + 1;
     source.last_line = text.lines.size();
-    return {finished_record(text, std::move(accel), dt, std::move(source))};
+    std::vector<Record> records{finished_record(text, std::move(accel), dt, std::move(source))};
+    if (!open_end.empty()) records.front().warnings.push_back(open_end);
+    return chosen_channels(text, std::move(records), options);
 }
 
 RecordFormat peer_at2_format()

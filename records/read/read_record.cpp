@@ -11,9 +11,9 @@ namespace damslip::records {
 
 namespace {
 
-constexpr std::string_view read_formats =
-    "PEER AT2, COSMOS, CSMIP, SMC, K-NET, ESM, CSV with a header row, time and acceleration in two columns, or samples "
-    "with \"# dt: 0.01 s\"";
+constexpr std::string_view read_formats = "PEER AT2, COSMOS, CSMIP, BHRC, GeoNet, SMC, K-NET, ESM, CSV with a header "
+                                          "row, time and acceleration in two columns, or samples "
+                                          "with \"# dt: 0.01 s\"";
 
 const RecordFormat& recognise(const RecordText& text)
 {

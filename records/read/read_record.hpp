@@ -23,6 +23,8 @@ struct ReadOptions {
     UnevenTime uneven = UnevenTime::refuse;
     std::string column; ///< heading, or number from 1, of the acceleration column where a file holds several; empty:
                         ///< the only one
+    bool survey =
+        false; ///< only what the file holds is asked: where nobody says unit or step, 1 m/s2 and 0.01 s stand for them
 };
 
 /// One accelerogram from a file, recognised by its content, never by its name. Formats: docs/records.md.

@@ -41,6 +41,8 @@ RecordText split_lines(std::string_view content, std::string_view file_name)
 {
     RecordText text{file_name, {}, true};
     if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
+    // Programs of DOS end a file with Ctrl-Z and fill its last block with NUL bytes.
+    while (content.size() > 1 && (content.back() == '\0' || content.back() == '\x1a')) content.remove_suffix(1);
     refuse_what_is_no_text(content, text);
     // Lines end with LF or CRLF; a file without any LF may use CR alone.
     const char line_end = content.find('\n') == std::string_view::npos ? '\r' : '\n';

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "records/read/component.hpp"
 #include "records/transform/transform.hpp"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ AccelerationUnit settle_unit(const RecordText& text, const std::optional<Stated<
         refuse(text, {in_file->line, 0},
                fmt::format("the file says its unit is {}, but {} was given.", stated->name, given->name), "one unit",
                "leave the given unit out (motion.record.unit, --units) or correct the file");
+    if (!given && !stated && options.survey) return *acceleration_unit("m/s2");
     if (!given && !stated)
         refuse(text, {}, "the file does not say the unit of its accelerations, and none was given.",
                std::string(known_units), std::string(give_unit));
@@ -63,7 +65,7 @@ std::optional<double> settle_dt(const RecordText& text, const std::optional<Stat
                fmt::format("the file says dt = {} s, but dt = {} s was given.", in_file->value, *options.dt),
                "one time step", "leave the given one out (motion.record.dt_s, --dt) or correct the file");
     if (in_file) return in_file->value;
-    return options.dt;
+    return options.survey && !options.dt ? 0.01 : options.dt;
 }
 
 double number_at(const RecordText& text, std::string_view rest, Place place, std::size_t& used)
@@ -129,6 +131,9 @@ Record finished_record(const RecordText& text, std::vector<double> accel, double
     if (pga > 3.0 * units::standard_gravity)
         record.warnings.push_back(fmt::format("PGA is {:.3g} g, more than any record known: check the unit ({})",
                                               pga / units::standard_gravity, record.source.unit));
+    if (is_downwards(record.source.component))
+        record.warnings.push_back("the component is positive downwards; as a vertical motion it has to be positive up: "
+                                  "`record scale --factor -1`");
     if (pga == 0.0) record.warnings.push_back("all samples are zero");
     if (std::abs(mean) > 0.01 * pga)
         record.warnings.push_back(

@@ -122,7 +122,8 @@ bool looks_like_smc(const RecordText& text)
 
 /// SMC format of the U.S. Geological Survey: 11 text lines, 48 integers (8I10), 50 reals (5E15.7), as many comment lines
 /// as the integer header says, samples in cm/s^2 (8 fields of 10). Header values from 0, row by row: integer 0 code of
-/// missing integers, 12 and 13 vertical and horizontal orientation, 15 comment lines, 16 samples, 17 problem flag,
+/// missing integers, 12 and 13 vertical and horizontal orientation, 15 comment lines, 16 samples
+/// (values, where the rate is missing: pairs of time and acceleration), 17 problem flag,
 /// 18 kind of structure (3: dam), 27 place on a dam; real 0 code of missing reals, 1 samples per second.
 /// USGS Open-File Report 92-296-A (Converse 1992: BAP), appendix.
 /// @throws InputError: velocity, displacement, spectra, no volume stated, an impossible sampling rate, gaps.
@@ -136,11 +137,14 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
     const SmcHeader header = read_header(text);
     const AccelerationUnit unit = settle_unit(text, Stated<std::string>{"cm/s2", 1}, options);
 
+    // Film that was digitised has no rate: its header says "missing", and times stand beside the samples.
     const double rate = header.reals[1];
-    if (!(rate >= 1.0 && rate <= 1e6))
+    const bool pairs = rate == header.reals[0];
+    if (!pairs && !(rate >= 1.0 && rate <= 1e6))
         refuse(text, {real_line, 16}, fmt::format("{} samples per second are not possible.", shortest(rate)),
-               "1 to 1e6", "correct the second value of the real header");
-    const double dt = *settle_dt(text, Stated<double>{1.0 / rate, real_line}, options);
+               "1 to 1e6, or the file's code for \"missing\" where times stand beside the samples",
+               "correct the second value of the real header");
+    double dt = pairs ? 0.0 : *settle_dt(text, Stated<double>{1.0 / rate, real_line}, options);
 
     const double comments = header.integer(15).value_or(0.0);
     if (!(comments >= 0.0 && comments <= static_cast<double>(text.lines.size() - comment_line)))
@@ -160,6 +164,23 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
     check_count(text, count, values.size(), "number of samples");
     demand_end_of_block(text, line_after(sample_format, first, count.value), count, "number of samples");
 
+    std::vector<double> accel;
+    std::vector<std::string> resampled;
+    if (pairs) {
+        if (count.value % 2)
+            refuse(text, {count.line, 0}, fmt::format("{} values are no pairs of time and acceleration.", count.value),
+                   "an even number: the header says no samples per second", "get the file anew from its source");
+        std::vector<double> time;
+        for (std::size_t k = 0; k < values.size(); k += 2) {
+            time.push_back(values[k]);
+            accel.push_back(checked_sample(text, values[k + 1], unit, place_of(sample_format, first, k + 1)));
+        }
+        accel = at_even_times(text, times_of_pairs(text, sample_format, first, time), std::move(accel), options.dt,
+                              options, dt, resampled);
+    } else {
+        accel = samples_of(text, values, unit, sample_format, first, header.reals[0]);
+    }
+
     RecordSource source;
     source.format = lower(text.lines[0]).find("uncorrected") != std::string::npos ? "SMC volume 1" : "SMC volume 2";
     source.unit = unit.name;
@@ -167,11 +188,10 @@ std::vector<Record> read_smc(const RecordText& text, const ReadOptions& options)
     source.title = title_of(text);
     source.first_line = first;
     source.last_line = line_after(sample_format, first, count.value) - 1;
-    Record record = finished_record(text, samples_of(text, values, unit, sample_format, first, header.reals[0]), dt,
-                                    std::move(source));
+    Record record = finished_record(text, std::move(accel), dt, std::move(source));
+    record.warnings.insert(record.warnings.end(), resampled.begin(), resampled.end());
     check_peak(text, header, unit, record);
     warn_of_site(header, record);
-    warn_if_down(record);
     std::vector<Record> records;
     records.push_back(std::move(record));
     return chosen_channels(text, std::move(records), options);

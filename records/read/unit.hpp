@@ -20,6 +20,10 @@ std::optional<AccelerationUnit> acceleration_unit(std::string_view text);
 /// @returns the unit as written; nothing, and the heading as it was, where there is none
 std::optional<std::string> take_unit(std::string& heading, const std::function<bool(std::string_view)>& known);
 
+/// The unit that a sentence names: "UNITS OF UNCOR ACCEL ARE SEC AND G/10.", "(UNITS: CM/SEC/SEC)", "in units of g.", "peak 20.1 mm/s/s at".
+/// Where no word after these keys is a unit of acceleration: the first of those words, for a message.
+std::optional<std::string> unit_in_words(std::string_view line);
+
 /// For messages: "g, m/s2, cm/s2, gal, mg or mm/s2".
 inline constexpr std::string_view known_units = "g, m/s2, cm/s2, gal, mg or mm/s2";
 

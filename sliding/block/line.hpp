@@ -12,6 +12,11 @@ struct Line {
     double at(double fraction) const { return now + (end - now) * fraction; } ///< fraction of the rest, 0 ... 1
 };
 
+/// From one fraction of the rest to another.
+inline Line part(const Line& line, double from, double to)
+{
+    return {from == 0.0 ? line.now : line.at(from), to == 1.0 ? line.end : line.at(to)};
+}
 inline Line operator-(const Line& a)
 {
     return {-a.now, -a.end};

@@ -1,5 +1,7 @@
 #include "sliding/block/opening_uplift.hpp"
 
+#include "sliding/block/slow_water.hpp"
+
 #include <algorithm>
 
 namespace damslip::sliding {
@@ -26,6 +28,28 @@ double OpeningUplift::largest() const
 {
     return std::max({0.0, *std::max_element(downstream.begin(), downstream.end()),
                      *std::max_element(upstream.begin(), upstream.end())});
+}
+
+double OpeningUplift::largest(SlipDirection direction, double a_v_min, double a_v_max) const
+{
+    const auto change = [&](double a_v) {
+        return slow ? slow->sliding(direction, a_v, slow->first(direction)).change : at(direction, a_v);
+    };
+    double most = std::max(change(a_v_min), change(a_v_max));
+    for (const double a_v : accel_v)
+        if (a_v_min < a_v && a_v < a_v_max) most = std::max(most, change(a_v));
+    return most;
+}
+
+double OpeningUplift::next_bend(const Line& a_v, double from) const
+{
+    constexpr double round_off = 1e-12;
+    double next = 1.0;
+    for (const double bend : accel_v) {
+        const double share = (bend - a_v.now) / (a_v.end - a_v.now);
+        if (share > from + round_off && share < 1.0 - round_off) next = std::min(next, share);
+    }
+    return next;
 }
 
 } // namespace damslip::sliding

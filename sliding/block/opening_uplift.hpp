@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sliding/block/line.hpp"
+
 #include <memory>
 #include <vector>
 
@@ -21,6 +23,9 @@ struct OpeningUplift {
     double at(SlipDirection direction, double a_v) const;
     double per_accel_v(SlipDirection direction) const; ///< about a_v = 0 [kg/m]
     double largest() const;                            ///< of both directions, at least 0
+    double largest(SlipDirection direction, double a_v_min, double a_v_max) const; ///< there; slow: with no water yet
+    /// Share of the way of a_v at which the table bends next. @param from  the share so far @returns 1 where it does not
+    double next_bend(const Line& a_v, double from) const;
 };
 
 } // namespace damslip::sliding

@@ -203,9 +203,26 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
     return result;
 }
 
-} // namespace
-
-namespace {
+/// With the error of the table of water on its way: the difference to a table of half the resolution.
+SlideResult slide_with_error(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
+                             const SlideOptions& options, const RestBetweenEvents* between = nullptr)
+{
+    SlideResult result = slide_exact(motion, blocks, stages, options, between);
+    const OpeningUplift* opening = stages.front().block.opening.get();
+    if (!opening || !opening->slow || !opening->slow->coarser()) return result;
+    SlipStages coarser = stages;
+    for (SlipStage& stage : coarser) {
+        OpeningUplift copy = *stage.block.opening;
+        copy.slow = copy.slow->coarser();
+        stage.block.opening = std::make_shared<const OpeningUplift>(std::move(copy));
+    }
+    SlideOptions plain = options;
+    plain.history = HistoryOutput::none;
+    result.slip_error = std::abs(slide_exact(motion, blocks, coarser, plain, between).max_slip - result.max_slip);
+    result.notes.push_back("Its slip is known to " + shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
+                           " mm, by a table of this water of half the resolution.");
+    return result;
+}
 
 void check_anchors(const SlideOptions& options)
 {
@@ -258,7 +275,7 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
     check_stages(stages);
     check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
-    return slide_exact(motion, nullptr, stages, options);
+    return slide_with_error(motion, nullptr, stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options,
@@ -269,7 +286,7 @@ SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const Sl
     check_motion(motion);
     check_stages(stages);
     check_anchors(options);
-    return slide_exact(motion, nullptr, stages, options, rests);
+    return slide_with_error(motion, nullptr, stages, options, rests);
 }
 
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)
@@ -277,7 +294,7 @@ SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const 
     check_stages(stages);
     check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion.motion(), stages, options);
-    return slide_exact(motion.motion(), &motion, stages, options);
+    return slide_with_error(motion.motion(), &motion, stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options)

@@ -53,6 +53,7 @@ struct SlideResult {
     SlideAccuracy accuracy = SlideAccuracy::closed_form;
     double slip = 0.0;            ///< at the end, positive downstream [m]
     double max_slip = 0.0;        ///< largest |slip| on the way [m]
+    double slip_error = 0.0;      ///< of max_slip, by the table of SlowWater; 0: exact [m]
     double downstream_slip = 0.0; ///< sum of the downstream movements [m], >= 0
     double upstream_slip = 0.0;   ///< sum of the upstream movements [m], >= 0; slip = downstream - upstream
     double peak_slip_rate = 0.0;  ///< largest |slip rate| [m/s]

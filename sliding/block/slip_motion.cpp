@@ -29,6 +29,9 @@ int events_per_interval(const SlipStage& stage)
     return stage.restitution > 0.0 ? 200000 : stage.rate.active() ? 5000 : 1000;
 }
 
+constexpr double wet_tolerance = 1e-8;             ///< of the base's length and of the block's weight, within a part
+constexpr double shortest_wet_part = 0x1p-26;      ///< of an interval: the water's way may break there
+constexpr int most_wet_parts = 100000;
 constexpr double shortest_flight = 1e-13; ///< [s]; a landing that would rebound for less stays
 
 } // namespace
@@ -84,20 +87,40 @@ SlipMotion::StageForms SlipMotion::forms_of(const RigidBlock& block)
             .bond = block.cohesion_force + block.dowel_force};
 }
 
-/// Water on its way is brought forward in parts of the interval; all else is exact whatever the length of a part.
+/// The uplift of an opening crack is linear in a_v between the values of its table: the interval is cut where a_v passes one.
 void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v)
 {
-    const SlowWater* water = slow_water();
-    if (!water) {
-        cross_part(start, dt, a_h, a_v);
-        return;
+    const OpeningUplift* opening = stage().block.opening.get();
+    for (double from = 0.0; from < 1.0 && !unresolved_;) {
+        const double to = opening ? opening->next_bend(a_v, from) : 1.0;
+        const Line h = part(a_h, from, to), v = part(a_v, from, to);
+        if (slow_water())
+            cross_wet(start + from * dt, (to - from) * dt, h, v);
+        else
+            cross_part(start + from * dt, (to - from) * dt, h, v);
+        from = to;
     }
-    const int count = parts(*water, dt);
-    for (int k = 0; k < count && !unresolved_; ++k) {
-        const double from = static_cast<double>(k) / count, to = static_cast<double>(k + 1) / count;
-        const Line h{a_h.at(from), a_h.at(to)}, v{a_v.at(from), a_v.at(to)};
-        let_water_flow(*water, dt / count, h.end, v.end);
-        cross_part(start + from * dt, dt / count, h, v);
+}
+
+/// Water on its way: in parts that are short enough for its uplift to be linear, and end where the block's motion changes.
+void SlipMotion::cross_wet(double start, double dt, const Line& a_h, const Line& a_v)
+{
+    double from = 0.0, length = 1.0;
+    bool changed = false;
+    for (int parts = 0; from < 1.0 && !unresolved_; ++parts) {
+        unresolved_ = parts > most_wet_parts;
+        const double to = from + length < 1.0 ? from + length : 1.0, h = (to - from) * dt;
+        const Line part_h = part(a_h, from, to), part_v = part(a_v, from, to);
+        const double bend = let_water_flow(h, part_h, part_v);
+        if (bend > 1.0 && length > shortest_wet_part) {
+            length *= 0.5;
+            continue;
+        }
+        cross_part(start + from * dt, h, part_h, part_v, true, changed);
+        changed = span_ > 0.0;
+        longest_wet_ = std::max({longest_wet_, wet_down_.now, wet_up_.now});
+        from = to - (to - from) * (span_ / h);
+        if (bend < 0.2) length = std::min(2.0 * length, 1.0);
     }
 }
 
@@ -107,27 +130,43 @@ const SlowWater* SlipMotion::slow_water() const
     return opening ? opening->slow.get() : nullptr;
 }
 
-/// Where the water will be at the end of a part, (a_h, a_v) being the ground's acceleration then.
-void SlipMotion::let_water_flow(const SlowWater& water, double dt, double a_h, double a_v)
+/// x_w of one end of the base a time dt later, where (a_h, a_v) is the ground's acceleration then.
+double SlipMotion::wet_after(SlipDirection direction, double wet, double dt, double a_h, double a_v) const
 {
-    const auto flow = [&](SlipDirection direction, Line& wet) {
-        wet.now = wet.end;
-        const double come = std::min(wet.now + water.speed() * dt, water.length());
-        if (airborne_) {
-            wet.end = come;
-        } else if (moving_ && direction_ != direction) {
-            wet.end = water.first(direction);
-        } else {
-            wet.end = water.sliding(direction, a_v, come).wet;
-            if (!moving_) wet.end = std::min(wet.end, water.at_rest(direction, a_h, a_v, come).wet);
-        }
-        longest_wet_ = std::max(longest_wet_, wet.end);
-    };
-    flow(SlipDirection::downstream, wet_down_);
-    flow(SlipDirection::upstream, wet_up_);
+    const SlowWater& water = *slow_water();
+    if (moving_ && !airborne_ && direction_ != direction) return water.first(direction);
+    const double come = std::min(wet + water.speed() * dt, water.length());
+    if (airborne_) return come;
+    const double sliding = water.sliding(direction, a_v, come).wet;
+    return moving_ ? sliding : std::min(sliding, water.front(direction, a_h, a_v, wet, come));
 }
 
-void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line& a_v)
+/// Where the water will be at the end of a part. @returns how far its way and its uplift are from straight lines, 1: as far
+/// as they may be
+double SlipMotion::let_water_flow(double dt, const Line& a_h, const Line& a_v)
+{
+    const SlowWater& water = *slow_water();
+    double bend = 0.0;
+    for (const SlipDirection direction : {SlipDirection::downstream, SlipDirection::upstream}) {
+        Line& wet = direction == SlipDirection::downstream ? wet_down_ : wet_up_;
+        const double middle = wet_after(direction, wet.now, 0.5 * dt, a_h.at(0.5), a_v.at(0.5));
+        const double at_once = wet_after(direction, wet.now, dt, a_h.end, a_v.end);
+        wet.end = wet_after(direction, middle, 0.5 * dt, a_h.end, a_v.end);
+        const auto uplift = [&](double a_v, double x) { return water.sliding(direction, a_v, x).change; };
+        const double chord = 0.5 * (uplift(a_v.now, wet.now) + uplift(a_v.end, wet.end));
+        const double off = std::abs(uplift(a_v.at(0.5), middle) - chord) / stage().block.mass / stage().block.gravity;
+        // Water that the crack still held back now and no longer at the end: it went on at an instant between.
+        const double way = water.speed() * dt;
+        const bool held = wet_after(direction, wet.now, dt, a_h.now, a_v.now) < wet.now + way;
+        const double late = held && wet.end >= wet.now + way * (1.0 - 1e-9) ? way : std::abs(wet.end - at_once);
+        bend = std::max({bend, off / wet_tolerance, late / (wet_tolerance * water.length())});
+    }
+    return bend;
+}
+
+/// @param up_to_change  only to the first start, stop or change of contact or stage; span_ is what is left
+/// @param goes_on  from such a change: the contact is what it left
+void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line& a_v, bool up_to_change, bool goes_on)
 {
     time_ = start;
     span_ = dt;
@@ -136,9 +175,10 @@ void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line
     pressed_ = stays_pressed();
     if (!pressed_) {
         read_opening();
-        settle_contact();
+        if (!goes_on) settle_contact();
     }
-    for (int events = 0; span_ > 0.0; ++events) {
+    const long before = changes_;
+    for (int events = 0; span_ > 0.0 && !(up_to_change && changes_ != before); ++events) {
         if (events >= events_per_interval(stage())) {
             unresolved_ = true;
             return;
@@ -661,7 +701,7 @@ void SlipMotion::elapse(double h)
 
 bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
 {
-    if (!at_rest() || moving_ || !touching_ || slow_water()) return false;
+    if (!at_rest() || moving_ || !touching_) return false;
     const BaseEquations& e = forms().equations;
     const RigidBlock& block = stage().block;
     const double mu = friction();
@@ -673,14 +713,29 @@ bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, d
         const double v = std::max(per_a_v * a_v_min, per_a_v * a_v_max);
         return constant + h + v + 1e-13 * (std::abs(constant) + std::abs(h) + std::abs(v));
     };
-    const double c = block.cohesion_force + block.dowel_force - (block.opening ? mu * block.opening->largest() : 0.0);
+    if (slow_water() && !water_stays(a_h_min, a_h_max, a_v_min, a_v_max)) return false;
     if (upper(-e.normal.constant, -e.normal.per_a_h, -e.normal.per_a_v) >= 0.0) return false;
-    if (upper(e.drive.constant - c - mu * e.normal.constant, e.drive.per_a_h - mu * e.normal.per_a_h,
-              e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0)
-        return false;
-    return !options_.two_way ||
-           upper(-e.drive.constant - c - mu * e.normal.constant, -e.drive.per_a_h - mu * e.normal.per_a_h,
-                 -e.drive.per_a_v - mu * e.normal.per_a_v) < 0.0;
+    const auto slides = [&](SlipDirection direction) {
+        const double d = sign(direction), change = block.opening ? block.opening->largest(direction, a_v_min, a_v_max) : 0.0;
+        const double c = block.cohesion_force + block.dowel_force - mu * change;
+        return upper(d * e.drive.constant - c - mu * e.normal.constant, d * e.drive.per_a_h - mu * e.normal.per_a_h,
+                     d * e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0;
+    };
+    return !slides(SlipDirection::downstream) && !(options_.two_way && slides(SlipDirection::upstream));
+}
+
+/// No water has come in, and none does while a_h and a_v stay within the ranges.
+bool SlipMotion::water_stays(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
+{
+    const SlowWater& water = *slow_water();
+    for (const SlipDirection direction : {SlipDirection::downstream, SlipDirection::upstream}) {
+        const double first = water.first(direction);
+        if ((direction == SlipDirection::downstream ? wet_down_ : wet_up_).now != first) return false;
+        for (const double a_h : {a_h_min, a_h_max})
+            for (const double a_v : {a_v_min, a_v_max})
+                if (water.front(direction, a_h, a_v, first, water.length()) != first) return false;
+    }
+    return true;
 }
 
 } // namespace damslip::sliding

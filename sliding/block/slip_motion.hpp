@@ -74,9 +74,13 @@ private:
     };
 
     void take_stages(const SlipStages& stages);
-    void cross_part(double start, double dt, const Line& a_h, const Line& a_v);
+    void cross_part(double start, double dt, const Line& a_h, const Line& a_v, bool up_to_change = false,
+                    bool goes_on = false);
+    void cross_wet(double start, double dt, const Line& a_h, const Line& a_v);
     const SlowWater* slow_water() const;
-    void let_water_flow(const SlowWater& water, double dt, double a_h, double a_v);
+    double wet_after(SlipDirection direction, double wet, double dt, double a_h, double a_v) const;
+    double let_water_flow(double dt, const Line& a_h, const Line& a_v);
+    bool water_stays(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
     void wait();
     void wait_pressed();
     void wait_lagging();

@@ -24,16 +24,17 @@ public:
     virtual double speed() const = 0;                        ///< v_w [m/s]
     virtual double length() const = 0;                       ///< of the base [m]
     virtual double first(SlipDirection direction) const = 0; ///< x_w before any motion [m]
-    /// While the block rests under (a_h, a_v) [m/s²]. @param wet  x_w if nothing stops it
-    virtual WetCrack at_rest(SlipDirection direction, double a_h, double a_v, double wet) const = 0;
-    /// x_w under (a_h, a_v), from `now` on or back: as far as `come` where the crack opens so far, and never beyond its tip.
+    /// x_w of a block at rest under (a_h, a_v) [m/s²], from `now` on or back: as far as `come` where the crack opens so far,
+    /// and never beyond its tip.
     virtual double front(SlipDirection direction, double a_h, double a_v, double now, double come) const = 0;
+    /// The same by a table of half the resolution, which shows its error; null: there is no table.
+    virtual std::shared_ptr<const SlowWater> coarser() const { return nullptr; }
     /// While it slides.
     virtual WetCrack sliding(SlipDirection direction, double a_v, double wet) const = 0;
 };
 
-/// Parts of an interval dt in which the water is brought forward: it comes less than 1/128 of the base in one, where that
-/// takes at most 64.
+/// Parts of an interval dt in which the water of the block that rocks is brought forward: it comes less than 1/128 of the
+/// base in one, where that takes at most 64.
 inline int parts(const SlowWater& water, double dt)
 {
     return static_cast<int>(std::clamp(std::ceil(128.0 * water.speed() * dt / water.length()), 4.0, 64.0));

@@ -137,12 +137,19 @@ std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak
         c.pga_v_fraction = scene.criteria.pga_v_fraction;
         out.push_back(with_coefficients(c, peak));
     }
+    out.push_back(after_earthquake(scene));
+    return out;
+}
+
+Combination after_earthquake(const Scene& scene)
+{
+    for (const Combination& given : scene.combinations)
+        if (given.kind == CombinationKind::post_seismic) return given;
     Combination after = named("post-seismic", CombinationKind::post_seismic);
     after.ice = scene.ice.has_value();
     after.drains_effective = after.curtain_intact = false;
     after.residual_strength = true;
-    out.push_back(after);
-    return out;
+    return after;
 }
 
 std::vector<Equilibrium> evaluate_combinations(const Scene& scene, const PeakGround& peak,

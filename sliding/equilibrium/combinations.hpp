@@ -21,6 +21,10 @@ struct PeakGround {
 /// Shares given instead of k_h and k_v are replaced by their values.
 std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak = {});
 
+/// The state after the earthquake: the scene's first post-seismic combination, else the fifth of the list above. What limit
+/// equilibrium and finite elements take of curtain, drains and crack after the earthquake.
+Combination after_earthquake(const Scene& scene);
+
 /// Evaluates all combinations in their order.
 /// One that names no crack rule is reported without crack and, where that leaves tension or the joint has been opened,
 /// also with a crack, as "NAME, cracked": by the scene's rule, `static` where the scene says none; seismic:

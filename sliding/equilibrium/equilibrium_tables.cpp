@@ -52,6 +52,7 @@ const std::vector<ColumnOf<Equilibrium>>& equilibrium_columns()
         {{"toe_stress_kPa", "toe stress", "kPa", 4}, [](const E& e) { return e.toe_stress / kPa; }},
         {{"joint", "joint"}, joint},
         {{"crack_m", "crack", "m", 4}, [](const E& e) { return e.base.crack.length; }},
+        {{"compressed_length_m", "compressed length", "m", 4}, [](const E& e) { return e.base.compressed_length; }},
         {{"cohesive_length_m", "bonded length", "m", 4}, &E::cohesive_length},
         {{"critical_friction", "critical μ", "–", 4}, &E::critical_friction},
         {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, &E::yield_acceleration},
@@ -102,6 +103,31 @@ Table equilibrium_table(const std::vector<Equilibrium>& all)
         for (const std::string& note : e.notes)
             table.notes.push_back(e.name + " (crack rule " + word(e.crack_rule) + "): " + note + ".");
     return table;
+}
+
+std::string unmet_words(double value, double required)
+{
+    const auto text = [](double x, int digits) {
+        std::string s = fmt::format("{:.{}g}", x, digits);
+        return s.find_first_of(".en") == std::string::npos ? s + ".0" : s;
+    };
+    int digits = 3;
+    while (digits < 9 && text(value, digits) == text(required, digits)) ++digits;
+    return fmt::format("{} {} {}", text(value, digits), value < required ? "<" : ">", text(required, digits));
+}
+
+std::string failed_checks(const std::vector<Equilibrium>& all)
+{
+    std::string words;
+    for (const Equilibrium& e : all)
+        for (const Check& check : e.checks) {
+            if (check.verdict != Verdict::fail) continue;
+            const std::string what =
+                check.quantity.starts_with("sliding") ? "" : " " + check.quantity.substr(0, check.quantity.find(','));
+            words += fmt::format("{}{}{} {}", words.empty() ? "" : "; ", e.name, what,
+                                 unmet_words(check.value, check.required.value_or(0.0)));
+        }
+    return words;
 }
 
 Table verdict_table(const std::vector<Equilibrium>& all)

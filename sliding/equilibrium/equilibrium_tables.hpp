@@ -20,6 +20,12 @@ Table verdict_table(const std::vector<Equilibrium>& all);
 /// For people: a row for each combination that is judged, a column for each check: "FAIL 2.950 / 3".
 Table check_matrix(const std::vector<Equilibrium>& all);
 
+/// The checks that fail, the strongest answer of the combinations: "usual 2.95 < 3.0; post-MCE, cracked 1.01 < 1.1";
+/// empty: all hold, or none is required.
+std::string failed_checks(const std::vector<Equilibrium>& all);
+/// "2.95 < 3.0", with as many digits as tell the two apart. @param required  least value, or largest where `value` is above it
+std::string unmet_words(double value, double required);
+
 /// Uplift and critical friction of each model.
 Table uplift_comparison_table(const std::vector<UpliftComparison>& all);
 

@@ -32,6 +32,7 @@ StaticCase static_case_of(const Scene& scene, const Combination& c, CrackRule ru
     if (c.reservoir_level) loads.reservoir_level = c.reservoir_level;
     if (c.tailwater_level) loads.tailwater_level = c.tailwater_level;
     loads.anchors = AnchorForce::limit;
+    loads.gates_open = c.gates_open;
     loads.ice = c.ice ? IceLoad::on : IceLoad::off;
     loads.weight_factor = c.weight_factor;
     loads.water_factor = c.water_factor;

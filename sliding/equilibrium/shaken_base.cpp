@@ -7,11 +7,10 @@
 
 namespace damslip::sliding {
 
-namespace {
-
-/// Pressure of `before` with that part of the joint set to zero which the earthquake opens.
-PressureProfile without_new_crack(const CrackedBase& before, const Crack& crack, double length)
+PressureProfile without_new_crack(const BaseState& state, const Crack& crack)
 {
+    const CrackedBase& before = state.base;
+    const double length = state.frame.length;
     const bool same = crack.side == before.crack.side;
     const double dry_from = crack.side == Side::heel ? (same ? before.crack.length : 0.0) : length - crack.length;
     const double dry_to = crack.side == Side::heel ? crack.length : length - (same ? before.crack.length : 0.0);
@@ -23,8 +22,6 @@ PressureProfile without_new_crack(const CrackedBase& before, const Crack& crack,
     for (const ProfilePoint& p : part(before.profile, dry_to, length)) out.points.push_back(p);
     return out;
 }
-
-} // namespace
 
 std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& water, double a_h, double a_v)
 {
@@ -57,7 +54,7 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
         return cracked_base_unchanged(total, length, before.base.profile);
     case CrackRule::seismic_zero:
         return cracked_base(total, length,
-                            [&](const Crack& crack) { return without_new_crack(before.base, crack, length); });
+                            [&](const Crack& crack) { return without_new_crack(before, crack); });
     case CrackRule::seismic_full:
         return cracked_base(total, length, crack_uplift(scene, static_case.uplift, static_case.uplift_factor, seepage),
                             before.base.crack, crack_events(scene));
@@ -70,7 +67,7 @@ CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const
 UpliftResultant uplift_of_empty_joint(const BaseState& before, Side opens)
 {
     const double length = before.frame.length;
-    return resultant(without_new_crack(before.base, {opens, length}, length));
+    return resultant(without_new_crack(before, {opens, length}));
 }
 
 std::optional<UpliftResultant> uplift_of_open_joint(const Scene& scene, const StaticCase& static_case,

@@ -16,6 +16,9 @@ std::vector<Load> earthquake_loads(const Scene& scene, const AddedMassIntegral& 
 CrackedBase shaken_base(const Scene& scene, const StaticCase& static_case, const BaseState& before, const Force& load,
                         const SeepageProfile& seepage);
 
+/// Pressure of the static state with that part of the joint set to zero which the earthquake opens.
+PressureProfile without_new_crack(const BaseState& before, const Crack& crack);
+
 /// Uplift of a joint open from end to end, by uplift.opening: `zero` nothing but what the crack of the static state holds,
 /// `full` and `mouth` the higher of the heads at both ends along the whole base.
 /// @param opens  the end at which the base leaves the rock

@@ -21,12 +21,18 @@ FaceLoad at_point(Point at, double x, double y)
     return {force_at(at, x, 0.0), force_at(at, 0.0, y)};
 }
 
+bool gates_shut(const Scene& scene, const LoadCase& load_case)
+{
+    return scene.gate && !load_case.gates_open;
+}
+
 /// Water standing on the flat crest, from the downstream to the upstream end of the crest.
 FaceLoad crest_water(const Scene& scene, const LoadCase& load_case, double unit_weight)
 {
     const Polyline crest{downstream_face(scene.section).back(), upstream_face(scene.section).back()};
     const double dry = crest.front().y;
-    const double level = std::max(load_case.reservoir_level.value_or(dry), load_case.tailwater_level.value_or(dry));
+    const double upstream = gates_shut(scene, load_case) ? dry : load_case.reservoir_level.value_or(dry);
+    const double level = std::max(upstream, load_case.tailwater_level.value_or(dry));
     return hydrostatic_load(crest, DamSide::left, level, unit_weight);
 }
 
@@ -65,6 +71,11 @@ std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case)
     };
     if (const auto level = load_case.reservoir_level)
         add_water(LoadKind::reservoir, "reservoir", hydrostatic_load(upstream, DamSide::right, *level, unit_weight));
+    if (const auto level = load_case.reservoir_level; level && gates_shut(scene, load_case)) {
+        const Point sill = upstream.back();
+        add_water(LoadKind::reservoir, "gates",
+                  hydrostatic_load({sill, {sill.x, scene.gate->top}}, DamSide::right, *level, unit_weight));
+    }
     if (const auto level = load_case.tailwater_level)
         add_water(LoadKind::tailwater, "tailwater", hydrostatic_load(downstream, DamSide::left, *level, unit_weight));
     add_water(LoadKind::crest_water, "water on the crest", crest_water(scene, load_case, unit_weight));

@@ -38,6 +38,7 @@ enum class AnchorForce { prestress, limit };
 struct LoadCase {
     std::optional<double> reservoir_level; ///< above the heel [m]; none: no water upstream
     std::optional<double> tailwater_level; ///< above the heel [m], may be negative with a toe below the heel; none: dry
+    bool gates_open = false; ///< of a scene with gates: the water flows over the crest
     IceLoad ice = IceLoad::on;
     AnchorForce anchors = AnchorForce::prestress;
     double weight_factor = 1.0; ///< on the dam's weight [-]
@@ -58,7 +59,8 @@ double dam_mass(const Scene& scene);
 /// All static loads of a case: weight at the centroid; water pressure on the wet part of the actual faces; sediment;
 /// ice; point forces; anchors through the base, -N d on the dam where they cross it, without any slip. Overtopping (level above the crest): the faces carry the trapezoid below the crest, and the flat
 /// crest between the two faces carries the still water standing on it, weight rho g (level - crest) b; flow, nappe and
-/// suction are not covered. With both sides above the crest the higher level loads it. Ice acts at its own level; where
+/// suction are not covered. Gates (Scene::gate) carry the water above the crest in the plane of the upstream face's upper end, and
+/// the crest is dry. With both sides above the crest the higher level loads it. Ice acts at its own level; where
 /// that is the scene's water surface it follows the surface of the load case.
 std::vector<Load> static_loads(const Scene& scene, const LoadCase& load_case);
 

@@ -3,6 +3,7 @@
 #include "analysis/accuracy/climb.hpp"
 #include "analysis/accuracy/rung_runner.hpp"
 #include "analysis/accuracy/variant.hpp"
+#include "analysis/assess/budget_watch.hpp"
 #include "analysis/prepare/contact_law.hpp"
 #include "cli/print_pdf.hpp"
 #include "cli/terminal/terminal_watch.hpp"
@@ -103,6 +104,8 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
         messages.push_back(fmt::format("Only the first of the scene's {} records is used: {}. With --all-records the "
                                        "worst counts.",
                                        loaded.in_scene, loaded.records->front().files.name));
+    const std::vector<int> polarities = polarities_of(loaded.scene);
+    messages.push_back(fmt::format("Every model level is run with {}.", polarity_words({polarities.front()})));
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),
@@ -159,6 +162,7 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     };
     ClimbCalls calls;
     calls.run = [&](const Rung& rung) { return runner.run(rung); };
+    calls.least_seconds = [&](const Rung& rung) { return runner.least_seconds(rung); };
     calls.interrupted = [&] { return watch.stop_asked(); };
     calls.begins = [&](const Rung& rung) {
         if (streams.bar)
@@ -197,7 +201,8 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const Loaded loaded = load(a, streams);
     say_base(loaded.scene, streams);
     TerminalWatch watch(streams);
-    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, watch);
+    BudgetWatchOf<ProcessorClock> budget(watch, a.budget);
+    const RungRunner runner(loaded.scene, loaded.records, loaded.seconds, budget);
     if (!a.rung.empty()) return run_one(a, loaded, runner, streams);
 
     const LadderFacts facts = runner.facts();

@@ -40,7 +40,7 @@ Scene scene_to_assess(const AssessArguments& a, const Streams& streams)
 }
 
 /// Every level on one dam, with a recommended slip and its range.
-/// @returns exit_no_answer where no level has an answer, and the dam does not fail under its static loads either
+/// @returns exit_code_of()
 int assess_dam(const AssessArguments& a, const Streams& streams)
 {
     const Scene given = scene_to_assess(a, streams);
@@ -55,7 +55,7 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
         name_report(a.out / "report.html", streams);
     }
     if (!a.pdf.empty()) print_pdf(page_html(assess_page(assessment, given)), a.pdf);
-    return assessment.recommended || assessment.verdict == Verdict::fail ? exit_ok : exit_no_answer;
+    return exit_code_of(assessment);
 }
 
 void assess_flags(CLI::App& sub, AssessArguments& a)

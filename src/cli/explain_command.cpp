@@ -7,6 +7,7 @@
 #include "core/usage_error.hpp"
 #include "pages/ablation/ablation_tables.hpp"
 #include "pages/explain/explain_page.hpp"
+#include "pages/fe/fe_report.hpp"
 #include "pages/fe/water_notes.hpp"
 #include "pages/report/page_html.hpp"
 #include "scene/plausible.hpp"
@@ -59,6 +60,7 @@ void add_model(const Ready& ready, Explained& out)
     out.cost = contact_cost(ready);
     for (std::string& note : water_notes(ready)) out.notes.push_back(std::move(note));
     out.notes.push_back(time_scheme_note(ready.given));
+    for (std::string& note : bond_messages(ready.scene, out.model->mesh)) out.notes.push_back(std::move(note));
 }
 
 void check_records(const Scene& scene, Method method)

@@ -90,7 +90,7 @@ FeOptions options_with_state(const FeArguments& arguments, const Ready& ready)
     FeOptions options = fe_options(arguments);
     if (!arguments.state_out.empty()) {
         check_state_file(ready.scene, "--state-out");
-        if (ready.records().size() != 1 || polarities_of(options, ready.scene).size() != 1)
+        if (ready.records().size() != 1 || polarities_of(ready.scene, options.polarity).size() != 1)
             refuse_usage("--state-out with several runs.", "one record, or one sequence, of one polarity",
                          "add  --polarity 1 , and one  --record FILE  where the scene has several");
     }
@@ -107,11 +107,14 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Spectrum
     TerminalWatch watch(streams);
     ContactRuns all(ready, options_with_state(arguments, ready), watch);
     const fe2d::EarthquakeRun& model = all.model();
-    const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift()};
+    const FeReport::Input shared{ready.scene, ready.plan, ready.records(), model, all.rigid(), all.uplift(),
+                                 all.combinations()};
     FieldSeries fields(arguments.out, model.model());
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
+    if (!streams.quiet) // before the time is spent
+        for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.talk << note << "\n";
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
@@ -140,12 +143,12 @@ int run_reduced(const FeArguments& arguments, const Ready& ready, const Spectrum
     TerminalWatch watch(streams);
     ReducedRuns all(ready, fe_options(arguments), watch);
     const std::vector<ReducedRecord> runs = all.run([&](const ReducedRecord& run) {
-        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, run);
+        if (!arguments.out.empty()) write_reduced_history(arguments.out, ready.scene, ready.plan.scene_hash, run);
     });
     std::vector<std::string> messages = reduced_messages(ready.scene, runs);
     for (std::string& message : radiating_messages(ready.scene, all.full())) messages.push_back(std::move(message));
     const ReducedReportInput in{ready.scene,  ready.plan, ready.records(), all.full(), all.rigid(),
-                                all.uplift(), runs,       messages};
+                                all.uplift(), runs,       messages,        all.combinations()};
     const FieldSeries no_fields(arguments.out, all.full().model()); // a reduced run keeps no shapes
     put_answer(
         reduced_answer(in), arguments, ready.scene, spectrum, no_fields, [&] { return reduced_page(in); }, streams);
@@ -164,7 +167,7 @@ int run_tied(const FeArguments& arguments, const Ready& ready, const SpectrumLev
         if (r.history.displacement.size())
             fields.add(r.record + ", end", r.history.rows.empty() ? 0.0 : r.history.rows.back().time,
                        r.history.displacement, r.history.displacement);
-        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, r);
+        if (!arguments.out.empty()) write_tied_history(arguments.out, ready.scene, ready.plan.scene_hash, r);
     });
     for (TiedRun& r : runs) {
         if (all.water()) {
@@ -215,7 +218,8 @@ void fe_flags(CLI::App& sub, FeArguments& a)
     add_scale(sub, a.inputs);
     sub.add_option(
            "--polarity", a.polarity,
-           "run 1 or -1 alone; -1 flips the horizontal component (default: both, or motion.polarity of the scene)")
+           "run 1 or -1 alone, the sign on the horizontal component as filed (default: both, or motion.polarity of the "
+           "scene)")
         ->check(CLI::IsMember({1, -1}))
         ->group("Ground motion");
     add_friction(sub, a.inputs);

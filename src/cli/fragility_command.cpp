@@ -13,7 +13,6 @@
 #include "pages/report/csv_lines.hpp"
 #include "pages/report/page_html.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/sweep/sweep_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -43,6 +42,11 @@ void check_fragility_flags(const FragilityArguments& a)
             refuse_usage(fmt::format("--budget together with {}.", flag),
                          "a number of runs that does not depend on the machine's pace",
                          "write the  --samples  that the run with --budget prints");
+    for (const auto& [flag, given] :
+         {std::pair{"--shard", !a.shard.empty()}, {"--slurm-array", !a.slurm_array.empty()}})
+        if (!a.pdf.empty() && given)
+            refuse_usage(fmt::format("--pdf together with {}.", flag), "a report of all runs",
+                         "leave it out here, and add it to the  --merge  of all parts");
     need_scene_file(a.inputs, "fragility");
 }
 
@@ -57,23 +61,22 @@ std::size_t samples_by_budget(const FragilityArguments& a, const FragilityStudy&
     return pilot.samples;
 }
 
-std::filesystem::path journal_file(const std::filesystem::path& out, const Shard& shard)
+std::filesystem::path store_file(const std::filesystem::path& out, const Shard& shard)
 {
-    const std::filesystem::path rows = out / "samples.csv";
-    return journal_of(shard.count > 1 ? part_file(rows, shard) : rows);
+    return store_of(out / "samples.csv", shard.count > 1 ? std::optional(shard) : std::nullopt);
 }
 
-/// How many parts there are journals of. @throws InputError where there are none
+/// How many parts there are stores of. @throws InputError where there are none
 std::size_t parts_in(const std::filesystem::path& folder)
 {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         const std::size_t of = name.find("-of-");
-        if (!name.starts_with("samples.") || !name.ends_with(".csv.journal") || of == std::string::npos) continue;
+        if (!name.starts_with("samples.") || !name.ends_with(".sqlite") || of == std::string::npos) continue;
         const std::size_t n = std::strtoull(name.c_str() + of + 4, nullptr, 10);
         if (n > 0) return n;
     }
-    refuse(folder, "there is no part of a fragility here.", "journals samples.0-of-3.csv.journal ... of --shard",
+    refuse(folder, "there is no part of a fragility here.", "databases samples.0-of-3.sqlite ... of --shard",
            "run the parts first");
 }
 
@@ -85,12 +88,12 @@ FragilityRuns merged_runs(const std::filesystem::path& out, const FragilityPlan&
     FragilityRuns runs = no_runs(plan, plan.samples.size(), yields);
     for (std::size_t i = 0; i < n; ++i) {
         const Shard shard{i, n};
-        const std::filesystem::path file = journal_file(out, shard);
+        const std::filesystem::path file = store_file(out, shard);
         if (!std::filesystem::exists(file))
-            refuse(file, "this part is missing.", fmt::format("the journals of all {} parts", n),
+            refuse(file, "this part is missing.", fmt::format("the databases of all {} parts", n),
                    fmt::format("run  --shard {}/{}", i, n));
-        const Journal journal(file, identity, shard, JournalStart::resume);
-        take_finished(journal, 0, plan.samples.size(), runs);
+        const ResultStore store(file, identity, shard, StoreStart::resume);
+        take_finished(store, 0, plan.samples.size(), runs);
     }
     if (!runs.complete())
         refuse(out, fmt::format("{} of {} runs are finished.", runs.finished(), runs.wanted), "all runs of all parts",
@@ -179,6 +182,10 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     else
         streams.out << fragility_text(view);
     if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
+    if (!a.pdf.empty()) {
+        print_pdf(page_html(fragility_page(view)), a.pdf);
+        name_report(a.pdf, streams);
+    }
     return answer.answered ? exit_ok : exit_no_answer;
 }
 
@@ -216,27 +223,27 @@ int fragility(const FragilityArguments& a, const Streams& streams)
         return code;
     }
     const Shard shard = a.shard.empty() ? Shard{} : parse_shard(a.shard, "--shard");
-    std::optional<Journal> journal;
+    std::optional<ResultStore> store;
     if (!a.out.empty())
-        journal.emplace(journal_file(a.out, shard), identity, shard,
-                        a.resume ? JournalStart::resume : JournalStart::fresh);
+        store.emplace(store_file(a.out, shard), identity, shard,
+                      a.resume ? StoreStart::resume : StoreStart::fresh);
     const FragilityRuns runs = run_fragility(plan, text, study.method, wanted_samples(plan, shard),
-                                             journal ? &*journal : nullptr, a.jobs, watch, study.yields());
+                                             store ? &*store : nullptr, a.jobs, watch, study.yields());
     if (!streams.quiet && runs.found) streams.talk << fmt::format("{} runs were finished before\n", runs.found);
     if (!runs.complete()) {
         streams.talk << fmt::format("interrupted: {} of {} runs are finished{}\n", runs.finished(), runs.wanted,
-                                    journal ? "; go on with --resume" : "");
+                                    store ? "; go on with --resume" : "");
         return exit_no_answer;
     }
     if (shard.count > 1) {
-        journal->mark_done();
+        store->mark_done();
         if (!streams.quiet)
             streams.talk << fmt::format("part {}/{}: {} runs; when all parts are there:  --merge\n", shard.index,
                                         shard.count, runs.wanted);
         return exit_ok;
     }
     const int code = finish_fragility(a, study, plan, runs, conditioned, streams, watch);
-    if (journal) journal->mark_done();
+    if (store) store->mark_done();
     tell_time(time.seconds(), a, streams);
     if (!a.out.empty()) name_report(a.out / "report.html", streams);
     return code;

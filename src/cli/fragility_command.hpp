@@ -14,6 +14,7 @@ struct FragilityArguments {
     std::optional<double> budget;      ///< processor seconds of finite elements in place of samples
     int rows = 128;                    ///< of each sample of the shares; 0: none
     std::filesystem::path out;         ///< folder; empty: no files
+    std::filesystem::path pdf;         ///< the report on paper; empty: none
     int jobs = 0;                      ///< threads; 0: all cores
     bool allow_scaling = false;        ///< records beyond suite.max_scale
     bool resume = false, merge = false;

@@ -36,12 +36,13 @@ void fragility_flags(CLI::App& sub, FragilityArguments& a)
     sub.add_flag("--allow-scaling", a.allow_scaling, "records may be scaled beyond suite.max_scale; they are listed");
     add_out(sub, a.out, OutputPath::folder,
             "folder for samples.csv, fragility.csv, hazard.csv, summary.json, report.html, fragility.xml "
-            "(OpenQuake) and a journal for --resume",
+            "(OpenQuake) and a database of the runs for --resume",
             "-o,--out");
+    add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);
     const char* const group = "Long runs";
     sub.add_flag("--resume", a.resume, "go on where a run with the same --out stopped")->group(group);
-    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a journal in --out")
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0; its runs stay in a database in --out")
         ->group(group);
     sub.add_flag("--merge", a.merge, "put the parts in --out together")->group(group);
     sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")

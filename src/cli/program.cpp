@@ -84,7 +84,11 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
-        const int code = invocation.run(streams);
+        int code = invocation.run(streams);
+        if (interrupt.interrupted() && code == exit_ok) {
+            talk << "Interrupted: the answer is of what was finished.\n";
+            code = exit_no_answer;
+        }
         if (json && !out.used()) // a command whose answer is files
             out << nlohmann::ordered_json{{"schema", "damslip.done/1"}, {"exit_code", code}}.dump(2) << "\n";
         out.flush();

@@ -67,12 +67,29 @@ void put(const Record& record, const RecordTarget& target, const std::string& wh
     }
 }
 
+records::ReadOptions options_of(const RecordInput& input)
+{
+    return {input.unit, input.dt, input.resample ? records::UnevenTime::resample : records::UnevenTime::refuse,
+            input.column};
+}
+
+/// All channels of an agency's file. The columns of a table may be anything: one of them is to be chosen.
+std::vector<Record> channels_of(const RecordInput& input)
+{
+    std::vector<Record> channels = records::parse_record(read_file(input.file), input.file.string(), options_of(input));
+    const std::string& format = channels.front().source.format;
+    if (channels.size() > 1 && (format == "CSV" || format == "columns")) return {read(input)};
+    for (Record& channel : channels)
+        if (channels.size() > 1)
+            channel.name += "-" + channel.source.component.substr(0, channel.source.component.find_first_of(" ,"));
+    return channels;
+}
+
 } // namespace
 
 Record read(const RecordInput& input)
 {
-    const auto uneven = input.resample ? records::UnevenTime::resample : records::UnevenTime::refuse;
-    return records::read_record(input.file, {input.unit, input.dt, uneven, input.column});
+    return records::read_record(input.file, options_of(input));
 }
 
 RecordOutput record_output(const std::string& word, const std::filesystem::path& out)
@@ -87,7 +104,8 @@ RecordOutput record_output(const std::string& word, const std::filesystem::path&
 int record_info(const RecordInfoArguments& arguments, const Streams& streams)
 {
     std::vector<Record> records;
-    for (const RecordInput& input : arguments.inputs) records.push_back(read(input));
+    for (const RecordInput& input : arguments.inputs)
+        for (Record& record : channels_of(input)) records.push_back(std::move(record));
     Table table = record_info_table(records);
     if (streams.form == Form::json) {
         auto j = json_header("record-info");

@@ -71,9 +71,11 @@ bool match_lines(const RecordSuiteArguments& a, const RecordSuite& suite, const 
             file.string(),
             member.vertical ? "; its vertical component is scaled by the same factor and not matched" : ""));
         lines[i].horizontal = file;
+        lines[i].column.clear();
         lines[i].other_horizontal.reset(); // not matched
         if (member.vertical) {
             lines[i].vertical = a.out.parent_path() / (name + "_scaled_v.csv");
+            lines[i].vertical_column.clear();
             write_file(*lines[i].vertical, records::record_csv(*member.vertical));
         }
         lines[i].scale = 1.0;

@@ -137,11 +137,17 @@ std::vector<std::string> methods_of(const SlideArguments& a, bool flexible)
 /// Horizontal components, scaled.
 std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& streams)
 {
-    std::vector<std::pair<std::string, std::filesystem::path>> files;
-    for (const std::filesystem::path& file : a.records) files.emplace_back(file.stem().string(), file);
-    if (!a.record_list.empty())
-        for (const RecordFiles& files_of : record_list(a.record_list).records)
-            files.emplace_back(files_of.name, files_of.horizontal);
+    RecordList list;
+    if (!a.record_list.empty()) list = record_list(a.record_list, a.column.empty());
+    std::vector<RecordFiles> files;
+    for (const std::filesystem::path& file : a.records) {
+        files.emplace_back();
+        files.back().name = file.stem().string();
+        files.back().horizontal = file;
+    }
+    files.insert(files.end(), list.records.begin(), list.records.end());
+    if (!streams.quiet)
+        for (const std::string& note : list.notes) streams.talk << "note: " << note << "\n";
     if (files.empty() && !a.record_list.empty())
         refuse_usage(fmt::format("--records {}: there is no record here.", a.record_list),
                      "a folder, a pattern in quotes such as 'suite/*.AT2', or a CSV with horizontal",
@@ -152,10 +158,11 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
     records::ReadOptions options;
     options.unit = a.unit;
     options.dt = a.dt;
-    options.column = a.column;
     std::vector<GroundMotion> motions;
-    for (const auto& [name, file] : files) {
-        const Record record = records::read_record(file, options);
+    for (const RecordFiles& file : files) {
+        const std::string& name = file.name;
+        options.column = file.column.empty() ? a.column : file.column;
+        const Record record = records::read_record(file.horizontal, options);
         if (!streams.quiet)
             for (const std::string& warning : record.warnings)
                 streams.talk << "note: " << name << ": " << warning << "\n";

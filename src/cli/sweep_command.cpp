@@ -1,6 +1,7 @@
 #include "cli/sweep_command.hpp"
 #include "cli/document.hpp"
 
+#include "analysis/sweep/sweep_store.hpp"
 #include "cli/input/make_axes.hpp"
 #include "cli/print_pdf.hpp"
 #include "cli/sweep_plan.hpp"
@@ -11,7 +12,6 @@
 #include "pages/report/table_text.hpp"
 #include "pages/sweep/needed_friction_table.hpp"
 #include "pages/sweep/opening_water_table.hpp"
-#include "pages/sweep/sweep_parts.hpp"
 #include "pages/sweep/sweep_report.hpp"
 #include "pages/sweep/sweep_rows_view.hpp"
 #include "pages/sweep/sweep_tables.hpp"
@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <ostream>
 
 namespace damslip::cli {
@@ -50,16 +51,17 @@ void check_flags(const SweepArguments& a, Form form)
     if (parts && !a.shard.empty())
         refuse_usage("--shard together with --plan or --slurm-array.", "a part, or the commands of all parts",
                      "delete --shard");
-    if (a.out.extension() == ".html")
-        refuse_usage("--out " + a.out.string() + " is the name of the report.",
-                     "a name for the rows; the report is beside it",
+    if (a.out.extension() == ".html" || a.out.extension() == ".sqlite")
+        refuse_usage("--out " + a.out.string() + " is the name of the " +
+                         (a.out.extension() == ".html" ? "report." : "database."),
+                     "a name for the rows; report and database are beside it",
                      "write  --out " + std::filesystem::path(a.out).replace_extension(".csv").string());
     if (a.mean_polarity && (parts || !a.shard.empty() || !a.merge.empty()))
         refuse_usage("--mean-polarity with a part or a plan of a sweep.",
                      "a whole sweep: a part may hold one polarity alone", "delete --mean-polarity");
     if (form == Form::json && (!a.shard.empty() || !a.merge.empty()))
-        refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"), "parts are CSV files",
-                     "delete --json");
+        refuse_usage(fmt::format("{} with --json.", a.shard.empty() ? "--merge" : "--shard"),
+                     "parts are put together as a CSV file", "delete --json");
 }
 
 void put(const std::filesystem::path& file, const std::string& text, const Streams& streams)
@@ -93,34 +95,92 @@ bool reports(const SweepArguments& arguments)
     return !arguments.out.empty() || !arguments.pdf.empty();
 }
 
-/// The report of merged parts: of the rows alone, or with what the scene says when it is named.
-void put_merged_report(const SweepArguments& arguments, const MergedSweep& merged, const Streams& streams)
+/// Rows that go out one by one, into a file or to standard output.
+class RowsOut {
+public:
+    /// @param file  empty: standard output
+    RowsOut(const std::filesystem::path& file, const SweepIdentity& identity, const std::vector<Column>& columns,
+            const Streams& streams)
+        : streams_(streams), waiting_(csv_head(columns, csv_comments(identity)))
+    {
+        if (!file.empty()) file_.emplace(file);
+    }
+
+    void add(const std::vector<Cell>& row)
+    {
+        constexpr std::size_t written_at_once = 1 << 16;
+        lines_.add(row, waiting_);
+        if (waiting_.size() >= written_at_once) write();
+    }
+    void finish()
+    {
+        write();
+        if (file_) file_->finish();
+    }
+
+private:
+    void write()
+    {
+        if (file_)
+            file_->write(waiting_);
+        else
+            streams_.out << waiting_;
+        waiting_.clear();
+    }
+
+    const Streams& streams_;
+    std::optional<FileWriter> file_;
+    CsvLines lines_;
+    std::string waiting_; ///< to be written
+};
+
+/// Parts put together; their report is of the rows alone, or with what the scene says when it is named.
+int merge(const SweepArguments& arguments, const Streams& streams)
 {
-    if (!reports(arguments) || merged.rows > largest_report) return;
+    const auto [whole, parts] = merge_parts(arguments.merge, arguments.out.empty() ? "" : store_of(arguments.out));
+    const SweepIdentity& identity = whole->identity();
+    const Grid grid = stored_grid(whole->axes());
+    const bool reported = reports(arguments) && identity.rows <= largest_report;
     std::optional<Scene> scene;
-    Records records = std::make_shared<const std::vector<RecordPair>>();
-    if (!arguments.inputs.scene.empty()) {
+    if (reported && !arguments.inputs.scene.empty()) {
         scene = read_run_scene(arguments.inputs, streams);
-        if (merged.text.find("\n# scene " + scene_hash(*scene) + "\n") == std::string::npos)
+        if (scene_hash(*scene) != identity.scene)
             refuse_usage(fmt::format("the parts are not of the scene {}.", arguments.inputs.scene.string()),
                          "the scene the parts were made from, with the same changes on the command line",
                          "leave SCENE out");
-        records = load_records(*scene, Method::rigid_block);
     }
-    put_pages(arguments, {scene ? &*scene : nullptr, sweep_rows_of(merged.text), {}, *records, arguments.out, {}},
-              streams);
-}
-
-int merge(const SweepArguments& arguments, const Streams& streams)
-{
-    const MergedSweep merged = merge_parts(arguments.merge);
-    put(arguments.out, merged.text, streams);
-    put_merged_report(arguments, merged, streams);
+    Table table{"", sweep_columns(grid), {}, {}};
+    RowsOut out(arguments.out, identity, table.columns, streams);
+    UnansweredRows unanswered;
+    std::vector<SlipHistory> histories;
+    constexpr std::size_t at_once = 8192;
+    for (std::size_t first = 0; first < identity.rows; first += at_once) {
+        std::vector<std::size_t> ids(std::min(at_once, identity.rows - first));
+        std::iota(ids.begin(), ids.end(), first);
+        const SweepOutcome part{whole->rows(ids.front(), ids.back()), ids.size(), ids.size(), {}};
+        for_each_sweep_row(grid, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
+            out.add(row);
+            if (reported) table.rows.push_back(row);
+            if (identity.rows <= most_rows_with_history) histories.push_back(finished->history);
+            if (!finished->good) unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
+        });
+    }
+    out.finish();
+    if (reported)
+        put_pages(arguments,
+                  {scene ? &*scene : nullptr,
+                   table,
+                   {},
+                   scene ? *load_records(*scene, Method::rigid_block) : std::vector<RecordPair>(),
+                   arguments.out,
+                   histories},
+                  streams);
+    if (!arguments.out.empty()) whole->mark_done();
     if (!streams.quiet)
-        streams.talk << fmt::format("{} rows of {} parts{}\n", merged.rows, merged.parts,
+        streams.talk << fmt::format("{} rows of {} parts{}\n", identity.rows, parts,
                                     arguments.out.empty() ? "" : " in " + arguments.out.string());
-    if (merged.not_converged == 0) return exit_ok;
-    streams.talk << unanswered_words(sweep_view(sweep_rows_of(merged.text))) << "\n";
+    if (unanswered.words().empty()) return exit_ok;
+    streams.talk << unanswered.words() << "\n";
     return exit_no_answer;
 }
 
@@ -158,11 +218,10 @@ std::vector<SlipHistory> histories_of(const std::vector<std::size_t>& wanted, co
     return histories;
 }
 
-void talk_of_damage(const Journal& journal, const Streams& streams)
+void talk_of_damage(const ResultStore& store, const Streams& streams)
 {
-    if (!streams.quiet && journal.damaged())
-        streams.talk << fmt::format("{} torn line{} of the journal left aside\n", journal.damaged(),
-                                    journal.damaged() == 1 ? "" : "s");
+    if (!streams.quiet && store.damaged())
+        streams.talk << fmt::format("{} damaged rows of the database are computed again\n", store.damaged());
 }
 
 /// What of the rows is no answer, said even when quiet, and what has no error estimate.
@@ -184,7 +243,9 @@ struct Job {
     const Axes& axes;
     const TaskList& tasks;
     std::optional<Shard> shard;
-    std::filesystem::path out; ///< of the sweep or of the part
+
+    /// Where the rows are: the table, of a part the database; empty: standard output.
+    std::filesystem::path named() const { return shard ? store_of(arguments.out, shard) : arguments.out; }
 };
 
 /// A part has no report, nor has a table too large to be looked at.
@@ -195,7 +256,8 @@ void put_report(const Job& job, const std::vector<RecordPair>& records, const Ta
     if (!reports(job.arguments) || job.shard || table.rows.size() > largest_report) return;
     std::vector<Table> tables;
     if (outcome.fe) tables = {compared, count_table(*outcome.fe)};
-    put_pages(job.arguments, {&job.scene, table, tables, records, job.out, histories_of(wanted, outcome)}, streams);
+    put_pages(job.arguments, {&job.scene, table, tables, records, job.arguments.out, histories_of(wanted, outcome)},
+              streams);
 }
 
 int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, const std::vector<RecordPair>& records,
@@ -205,75 +267,22 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
     if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
-    if (job.shard) {
-        const auto bad = std::count_if(outcome.rows.begin(), outcome.rows.end(), [](const auto& r) { return !r.good; });
-        put(job.out, part_text(identity, *job.shard, csv(table), table.rows.size(), static_cast<std::size_t>(bad)),
-            streams);
-    } else if (streams.form != Form::json || !job.out.empty()) {
-        put(job.out, csv(table, csv_comments(identity)), streams);
-    }
+    if (!job.shard && (streams.form != Form::json || !job.arguments.out.empty()))
+        put(job.arguments.out, csv(table, csv_comments(identity)), streams);
     if (!streams.quiet) {
         if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
         if (const std::optional<Table> rules = opening_water_table(table)) streams.talk << text(*rules) << "\n";
         if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
             !job.shard && !needed.rows.empty())
             streams.talk << text(needed) << "\n";
-        streams.talk << fmt::format("{} rows{}\n", outcome.rows.size(),
-                                    job.out.empty() ? "" : " in " + job.out.string());
+        streams.talk << fmt::format("{} rows{}, {}\n", outcome.rows.size(),
+                                    job.named().empty() ? "" : " in " + job.named().string(),
+                                    polarity_words(job.axes.polarity));
     }
     talk_of_answers(table, outcome, streams);
     put_report(job, records, compared, table, wanted, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
-
-/// Rows that go out part by part: into the file, the text of a shard, or standard output.
-class RowsOut {
-public:
-    RowsOut(const Job& job, const SweepIdentity& identity, const Streams& streams)
-        : job_(job), identity_(identity), streams_(streams)
-    {
-        if (!job.out.empty() && !job.shard) file_.emplace(job.out);
-    }
-
-    void begin(const std::vector<Column>& columns)
-    {
-        waiting_ = job_.shard ? csv_head(columns) : csv_head(columns, csv_comments(identity_));
-    }
-    void add(const std::vector<Cell>& row)
-    {
-        constexpr std::size_t written_at_once = 1 << 16;
-        lines_.add(row, waiting_);
-        ++rows_;
-        if (waiting_.size() >= written_at_once) write();
-    }
-    void finish(std::size_t bad)
-    {
-        write();
-        if (file_) file_->finish();
-        if (job_.shard) write_file(job_.out, part_text(identity_, *job_.shard, body_, rows_, bad));
-    }
-
-private:
-    void write()
-    {
-        if (job_.shard)
-            body_ += waiting_;
-        else if (file_)
-            file_->write(waiting_);
-        else
-            streams_.out << waiting_;
-        waiting_.clear();
-    }
-
-    const Job& job_;
-    const SweepIdentity& identity_;
-    const Streams& streams_;
-    std::optional<FileWriter> file_;
-    CsvLines lines_;
-    std::string waiting_; ///< to be written
-    std::string body_;    ///< of a shard
-    std::size_t rows_ = 0;
-};
 
 /// Many rows and nothing that asks for all of them at once.
 bool is_long(const Job& job, const std::vector<std::size_t>& wanted, const Streams& streams)
@@ -290,28 +299,28 @@ int stopped(std::size_t finished, std::size_t wanted, const Streams& streams)
 }
 
 int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity, const std::vector<std::size_t>& wanted,
-             Journal* journal, const Streams& streams)
+             ResultStore* store, const Streams& streams)
 {
     const std::size_t every = (wanted.size() + drawn_rows - 1) / drawn_rows;
     const bool reported =
         reports(job.arguments) && !job.shard &&
         wanted.size() / job.tasks.friction * ((job.tasks.friction + every - 1) / every) <= largest_report;
-    RowsOut rows(job, identity, streams);
     Grid grid = begin_grid(job.scene, job.axes, job.tasks, inputs.records);
     Table listed{"", sweep_columns(grid), {}, {}};
     SweepViewMaker all(listed.columns, every);
     if (reported) all.expect(wanted.size() / every);
     UnansweredRows unanswered;
     const std::size_t rows_of_friction = job.tasks.rows() / job.tasks.friction;
-    rows.begin(listed.columns);
+    std::optional<RowsOut> rows; // of a part there is no table
+    if (!job.shard) rows.emplace(job.arguments.out, identity, listed.columns, streams);
     TerminalWatch watch(streams);
     const SweepTotals totals = run_long_sweep(
-        inputs, std::move(grid), wanted, journal, job.arguments.jobs, watch,
+        inputs, std::move(grid), wanted, store, job.arguments.jobs, watch,
         [&](const Grid& held, const std::vector<std::size_t>& ids, const SweepOutcome& part) {
-            if (journal && !part.complete()) return;
+            if (store && !part.complete()) return;
             auto id = ids.begin();
             for_each_sweep_row(held, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
-                rows.add(row);
+                if (rows) rows->add(row);
                 const bool drawn = *id++ / rows_of_friction % every == 0;
                 if (reported) drawn ? all.add(row) : all.leave_out(row);
                 if (listed.rows.size() < listed_rows) listed.rows.push_back(row);
@@ -319,21 +328,23 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
                     unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
             });
         });
-    if (journal && totals.found && !streams.quiet)
+    if (store && totals.found && !streams.quiet)
         streams.talk << fmt::format("{} rows were finished before\n", totals.found);
-    if (journal) talk_of_damage(*journal, streams);
-    if (!totals.complete() && journal) return stopped(totals.rows, totals.wanted, streams);
-    rows.finish(totals.bad);
+    if (store) talk_of_damage(*store, streams);
+    if (!totals.complete() && store) return stopped(totals.rows, totals.wanted, streams);
+    if (rows) rows->finish();
     if (!streams.quiet)
-        streams.talk << fmt::format("{} rows{}\n", totals.rows, job.out.empty() ? "" : " in " + job.out.string());
+        streams.talk << fmt::format("{} rows{}, {}\n", totals.rows,
+                                    job.named().empty() ? "" : " in " + job.named().string(),
+                                    polarity_words(job.axes.polarity));
     if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
         const SweepView view = all.view();
-        put_pages(job.arguments, {&job.scene, listed, {}, *inputs.records, job.out, {}, &view}, streams);
+        put_pages(job.arguments, {&job.scene, listed, {}, *inputs.records, job.arguments.out, {}, &view}, streams);
     } else if (reports(job.arguments) && !job.shard && !streams.quiet) {
         streams.talk << fmt::format("no report: {} rows are more than the {} it draws\n", totals.rows, largest_report);
     }
-    if (journal) journal->mark_done();
+    if (store) store->mark_done();
     return totals.complete() && totals.bad == 0 ? exit_ok : exit_no_answer;
 }
 
@@ -344,25 +355,25 @@ int run(const Job& job, const Records& records, const Streams& streams)
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     const std::vector<std::size_t> wanted = shard_rows(job.tasks, job.shard.value_or(Shard{}));
-    std::optional<Journal> journal;
-    if (!job.out.empty())
-        journal.emplace(journal_of(job.out), identity, job.shard.value_or(Shard{}),
-                        a.resume ? JournalStart::resume : JournalStart::fresh);
+    std::optional<ResultStore> store;
+    if (!a.out.empty())
+        store.emplace(store_of(a.out, job.shard), identity, job.shard.value_or(Shard{}),
+                      a.resume ? StoreStart::resume : StoreStart::fresh);
     if (is_long(job, wanted, streams))
-        return run_long(job, inputs, identity, wanted, journal ? &*journal : nullptr, streams);
+        return run_long(job, inputs, identity, wanted, store ? &*store : nullptr, streams);
     const Grid grid = make_grid(job.scene, job.axes, job.tasks, records, a.jobs);
     TerminalWatch watch(streams);
-    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, journal ? &*journal : nullptr, a.jobs, watch);
-    if (journal) {
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, store ? &*store : nullptr, a.jobs, watch);
+    if (store) {
         if (outcome.found && !streams.quiet)
             streams.talk << fmt::format("{} rows were finished before\n", outcome.found);
-        talk_of_damage(*journal, streams);
+        talk_of_damage(*store, streams);
     }
-    if (journal && !outcome.complete()) { // a table with gaps would look like the whole
+    if (store && !outcome.complete()) { // a table with gaps would look like the whole
         return stopped(outcome.rows.size(), outcome.wanted, streams);
     }
     const int code = finish(job, identity, grid, *records, wanted, outcome, streams);
-    if (journal) journal->mark_done();
+    if (store) store->mark_done();
     return code;
 }
 
@@ -380,7 +391,10 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
     if (std::any_of(axes.method.begin(), axes.method.end(),
                     [](const SweepMethod& method) { return method.kind == SweepKind::finite_elements; }))
         say_base(scene, streams);
-    scene.notes.insert(scene.notes.end(), axes.notes.begin(), axes.notes.end());
+    const std::vector<Diagnostic> left_out = not_honoured(scene, methods_of(axes.method));
+    say(left_out, false, streams);
+    for (const auto* notes : {&axes.notes, &left_out})
+        scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     if (scene.motion.records.empty())
         refuse_usage("there is no record to sweep over.", "a [[motion.record]] in the scene or --record",
                      "add  --record FILE");
@@ -391,11 +405,8 @@ int sweep(const SweepArguments& arguments, const Streams& streams)
          {std::pair{"--plan", arguments.plan}, {"--slurm-array", !arguments.slurm_array.empty()}})
         if (given) need_scene_file(arguments.inputs, flag);
     if (arguments.plan || !arguments.slurm_array.empty()) return print_plan(arguments, tasks, streams);
-    Job job{arguments, scene, axes, tasks, std::nullopt, arguments.out};
-    if (!arguments.shard.empty()) {
-        job.shard = parse_shard(arguments.shard, "--shard");
-        job.out = part_file(arguments.out, *job.shard);
-    }
+    Job job{arguments, scene, axes, tasks, std::nullopt};
+    if (!arguments.shard.empty()) job.shard = parse_shard(arguments.shard, "--shard");
     return run(job, load_records(scene, Method::rigid_block), streams);
 }
 

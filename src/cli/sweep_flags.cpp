@@ -14,10 +14,10 @@ void add_sweep_parts(CLI::App& sub, SweepArguments& a)
 {
     const char* const group = "Long sweeps";
     sub.add_flag("--resume", a.resume, "go on where a sweep with the same --out stopped")->group(group);
-    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.csv")->group(group);
+    sub.add_option("--shard", a.shard, "i/n: the i-th of n parts, i from 0, into OUT.i-of-n.sqlite")->group(group);
     sub.add_option(
            "--merge", a.merge,
-           "put parts together: part files, or folders of them; with SCENE its report has the section and the records")
+           "put parts together: their databases, or folders of them; with SCENE its report has the section and the records")
         ->group(group);
     sub.add_flag("--plan", a.plan, "print the commands of all parts, one a line")->group(group);
     sub.add_option("--slurm-array", a.slurm_array, "write a Slurm job script for all parts")
@@ -47,7 +47,7 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     list("--period", a.period, "periods of the flexible block [s], for decoupled and coupled");
     list("--damping", a.damping, "damping ratios of the flexible block, for decoupled and coupled");
     list("--scale", a.scale, "factors on the records");
-    list("--polarity", a.polarity, "1, -1 or both: 1,-1");
+    list("--polarity", a.polarity, "1, -1 or both (default: both, or motion.polarity of the scene)");
     sub.add_flag("--mean-polarity", a.mean_polarity, "a column with the mean slip of --polarity 1,-1");
     list("--method", a.method,
          "rigid (horizontal), rigid-v (with the vertical component), rocking (the same, free to rock on toe and heel), "
@@ -63,8 +63,8 @@ void sweep_flags(CLI::App& sub, SweepArguments& a)
     sub.add_option("--penalty-stiffness", a.penalty_stiffness, "of fe-penalty [N/m3]")->check(in_range(1.0, 1e20));
     sub.add_option("--scheme", a.inputs.scheme, "exact (default) or slammer");
     add_out(sub, a.out, OutputPath::regular_file,
-            "CSV file, beside it a report (.html) and a journal for --resume; without it the rows go to standard "
-            "output",
+            "CSV file, beside it a report (.html) and a database of the rows (.sqlite) for --resume; without it the "
+            "rows go to standard output",
             "-o,--out");
     add_pdf(sub, a.pdf);
     add_jobs(sub, a.jobs);

@@ -1,7 +1,7 @@
 #include "cli/sweep_plan.hpp"
 
 #include "core/number.hpp"
-#include "pages/sweep/sweep_parts.hpp"
+#include "analysis/sweep/result_store.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ std::string merge_command_line(const SweepArguments& arguments, std::size_t part
     std::string line = "damslip sweep --merge";
     if (parts <= 20)
         for (std::size_t i = 0; i < parts; ++i)
-            line += " " + shell_quoted(pages::part_file(arguments.out, {i, parts}).string());
+            line += " " + shell_quoted(store_of(arguments.out, Shard{i, parts}).string());
     else {
         const auto folder = arguments.out.parent_path();
         line += " " + shell_quoted(folder.empty() ? "." : folder.string());

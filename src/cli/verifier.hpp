@@ -26,7 +26,7 @@ struct StudyArguments {
     std::string method = "rigid,rigid-v,fe,fe-whole-steps,fe-goldgruber-2015,fe-radiating";
     std::filesystem::path out; ///< folder for rows.csv, findings.csv and report.html
     int jobs = 0;              ///< threads; 0: all cores
-    bool resume = false;       ///< go on from rows.csv.journal
+    bool resume = false;       ///< go on from rows.sqlite
 };
 
 struct MeshArguments {

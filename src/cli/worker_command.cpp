@@ -48,6 +48,7 @@ Json json_of_point(const PointAnswer& answer)
     j["critical_friction"] = r.critical_friction ? Json(*r.critical_friction) : Json();
     j["status"] = r.status.empty() ? "ok" : r.status; // a regression within its range says nothing
     j["record"] = answer.record;
+    j["polarity"] = answer.polarity;
     j["method"] = answer.method;
     j["seconds"] = answer.seconds;
     return j;
@@ -204,7 +205,7 @@ private:
 Json responses_of(const PointAnswer& answer)
 {
     Json j = json_of_point(answer);
-    for (const char* name : {"status", "record", "method"}) j.erase(name);
+    for (const char* name : {"status", "record", "polarity", "method"}) j.erase(name);
     return j;
 }
 

@@ -222,7 +222,7 @@ std::optional<Diagnostic> output_path_problem(const fs::path& path, OutputPath k
         return problem(text + " has a line break or another control character in its name.",
                        "a name of printable characters", "rename it: such names break job scripts and file lists");
     if (text.size() > longest_path) return problem("has a path of more than 4095 bytes.", wanted, "shorten it");
-    constexpr std::size_t endings = 32; // "... .12-of-40.csv.journal"
+    constexpr std::size_t endings = 32; // "... .12-of-40.sqlite-journal"
     const std::size_t longest = longest_name - (kind == OutputPath::regular_file ? endings : 0);
     for (const fs::path& part : path)
         if (part.string().size() > longest)

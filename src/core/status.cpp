@@ -1,5 +1,7 @@
 #include "core/status.hpp"
 
+#include "core/event_slip.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,6 +119,19 @@ std::string word(Verdict verdict)
         break;
     }
     return "–";
+}
+
+std::string judge_events(Status whole, double length, std::vector<EventSlip>& events)
+{
+    bool over = false;
+    std::string ends_in;
+    for (EventSlip& event : events) {
+        over = over || whole == Status::rocks_first || &event == &events.back() ||
+               (whole == Status::runs_away && std::abs(event.slip) > length);
+        event.status = over ? whole : Status::at_rest;
+        if (over && ends_in.empty() && !reported(whole, 0.0)) ends_in = event.name;
+    }
+    return ends_in;
 }
 
 Verdict judge(Status status, double slip, double error, const std::optional<double>& allowable)

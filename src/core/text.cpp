@@ -83,6 +83,24 @@ std::string visible(std::string_view text, LineEnds ends)
     return out;
 }
 
+std::string xml_text(std::string_view text)
+{
+    std::string out;
+    for (const char c : visible(text, LineEnds::kept)) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
 std::size_t unfinished_bytes(std::string_view text)
 {
     if (text.ends_with("\xC2") || text.ends_with("\xE2")) return 1;

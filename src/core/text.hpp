@@ -20,6 +20,9 @@ enum class LineEnds {
 /// (U+2400 ... U+2421: "␛"), those of U+0080 ... U+009F and those that turn the direction of writing as U+FFFD.
 std::string visible(std::string_view text, LineEnds ends);
 
+/// For text and double-quoted attributes of XML: visible() with & < > " as entities.
+std::string xml_text(std::string_view text);
+
 /// Bytes at the end of `text` that begin a character visible() would replace, but do not complete it: 0, 1 or 2.
 std::size_t unfinished_bytes(std::string_view text);
 

@@ -26,7 +26,8 @@ struct FeResult final : Result {
 
     pages::FeReport::Input input() const
     {
-        return {ready.scene, ready.plan, ready.records(), models->model(), models->rigid(), models->uplift()};
+        return {ready.scene, ready.plan, ready.records(), models->model(), models->rigid(), models->uplift(),
+                models->combinations()};
     }
     const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
 
@@ -43,7 +44,7 @@ struct FeResult final : Result {
     }
     std::string json() const override { return contact_answer(input(), runs, messages, spread).json.dump(2); }
     pages::Page page() const override { return report->page(runs, messages, spread); }
-    pages::Headline headline() const override { return pages::fe_headline(ready.scene, runs); }
+    pages::Headline headline() const override { return pages::fe_headline(ready.scene, runs, models->combinations()); }
 };
 
 void compute(const OpenedScene& opened, const FeOptions& options, bool spread, Watch& watch, FeResult& result)
@@ -188,7 +189,9 @@ void add_fe(py::module_& module)
                                    if (r->runs.empty()) return std::nullopt;
                                    return FeRun{r, &worst_of(r->runs)};
                                })
-        .def_property_readonly("verdict", [](const FeResult& r) { return word(verdict_of(r.runs, r.allowable())); })
+        .def_property_readonly("verdict", [](const FeResult& r) {
+            return word(pages::joined_verdict(r.headline(), r.runs, r.allowable()));
+        })
         .def_property_readonly(
             "complete",
             [](const FeResult& r) { return !r.interrupted && r.models && r.runs.size() == r.models->whole(); })

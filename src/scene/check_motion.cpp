@@ -101,7 +101,10 @@ void check_combinations(const Scene& s, Findings& f)
             *c.required_resultant != "base")
             f.wrong(label + ".required_resultant",
                     fmt::format("{}.required_resultant = \"{}\" is not allowed.", label, *c.required_resultant),
-                    "\"kern\", \"middle-half\" or \"base\"", "write  required_resultant = \"base\"");
+                    "\"kern\" (the middle third), \"middle-half\" or \"base\" (anywhere within the base)",
+                    c.required_resultant->find("half") != std::string::npos
+                        ? "write  required_resultant = \"middle-half\""
+                        : "write  required_resultant = \"kern\"  for the middle third");
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "scene/plausible.hpp"
 #include "scene/added_mass_row.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace damslip::checks {
 
@@ -70,6 +72,83 @@ void check_crack_water(const Scene& s, Findings& f)
                 "depth of the water above the foot of the crack, at most the crack's depth", "lower it");
 }
 
+/// Is the point within the polygon, or within a millionth of its size of an edge?
+bool holds(const Polyline& polygon, Point p)
+{
+    bool inside = false;
+    double size = 0.0, nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Point a = polygon[j], b = polygon[i], along{b.x - a.x, b.y - a.y};
+        const double length2 = along.x * along.x + along.y * along.y;
+        const double q = std::clamp(((p.x - a.x) * along.x + (p.y - a.y) * along.y) / length2, 0.0, 1.0);
+        nearest = std::min(nearest, std::hypot(p.x - a.x - q * along.x, p.y - a.y - q * along.y));
+        size = std::max(size, std::sqrt(length2));
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * along.x) inside = !inside;
+    }
+    return inside || nearest <= 1e-6 * size;
+}
+
+void check_forces(const Scene& s, Findings& f)
+{
+    for (std::size_t i = 0; i < s.forces.size(); ++i) {
+        const PointForce& force = s.forces[i];
+        if (holds(s.section.polygon, force.at)) continue;
+        const std::string label = fmt::format("force[{}]", i + 1);
+        f.wrong(label + ".x",
+                fmt::format("{}, \"{}\", acts at ({}, {}) m, outside the dam.", label, force.name, shortest(force.at.x),
+                            shortest(force.at.y)),
+                "x_m, y_m of a point of the section", "move it to the face or into the dam");
+    }
+}
+
+/// Whether gates hold a level above the crest or it flows over the dam is never assumed.
+void check_level(const Scene& s, double level, bool gates_open, const std::string& key, Findings& f)
+{
+    const double crest = upstream_face(s.section).back().y;
+    if (!(level > crest * (1 + 1e-12)) || s.section.rock_slope || s.reservoir->overtopped || (s.gate && gates_open))
+        return;
+    if (s.gate && level <= s.gate->top * (1 + 1e-12)) return;
+    const std::string problem = fmt::format("{}_m = {} is {} m above the {} at {} m", key, shortest(level),
+                                            six_digits(level - (s.gate ? s.gate->top : crest)),
+                                            s.gate ? "top of the gates" : "crest", shortest(s.gate ? s.gate->top : crest));
+    if (s.gate)
+        f.wrong(key, problem + ".", "a level up to gate.top_m, or  gates_open = true  in a [[combination]]",
+                fmt::format("write  top_m = {}  in [gate]", shortest(level)));
+    else
+        f.wrong(key, problem + ", and the scene does not say what holds it.",
+                "[gate]: gates in the plane of the upstream face and a dry crest; or  overtopped = true  in [reservoir]: "
+                "the water flows over and stands on the crest",
+                fmt::format("add  [gate]  with  top_m = {} , or write  overtopped = true  in [reservoir]",
+                            shortest(level)));
+}
+
+void check_gate(const Scene& s, Findings& f)
+{
+    if (s.gate) {
+        const Polyline face = upstream_face(s.section);
+        if (!s.reservoir || s.reservoir->overtopped || s.section.rock_slope)
+            f.wrong("gate", "[gate] without a [reservoir] whose water it holds.",
+                    "[reservoir] without overtopped = true, of a dam", "delete [gate] or overtopped");
+        if (!(s.gate->top > face.back().y) || !(downstream_face(s.section).back().x > face.back().x))
+            f.wrong("gate.top",
+                    fmt::format("{} does not stand on the crest, which is at {} m.", value("gate.top_m", s.gate->top),
+                                shortest(face.back().y)),
+                    "a height above a crest that has a width: it carries the moment of the thrust",
+                    "give the top of the gates above the heel");
+    }
+    if (!s.reservoir) return;
+    check_level(s, s.reservoir->level, false, "reservoir.level", f);
+    for (std::size_t i = 0; i < s.combinations.size(); ++i) {
+        const Combination& c = s.combinations[i];
+        const std::string label = fmt::format("combination[{}]", i + 1);
+        if (c.gates_open && !s.gate)
+            f.wrong(label + ".gates_open", label + ".gates_open = true, but the scene has no [gate].", "a [gate] table",
+                    "add [gate], or write  overtopped = true  in [reservoir]");
+        else if (c.reservoir_level)
+            check_level(s, *c.reservoir_level, c.gates_open, label + ".reservoir_level", f);
+    }
+}
+
 /// What presses up under the base is never assumed away: a dry base is written down.
 void check_uplift_is_said(const Scene& s, Findings& f)
 {
@@ -103,6 +182,8 @@ void check_water(const Scene& s, Findings& f)
                             value("reservoir.level_m", s.reservoir->level), shortest(crest_level(s.section))),
                 "metres above the heel", "check datum and unit");
     check_crack_water(s, f);
+    check_gate(s, f);
+    check_forces(s, f);
     check_uplift_is_said(s, f);
     if (s.reservoir) check_acoustic_water(*s.reservoir, f);
     check_formula_of_added_mass(s, f);

@@ -3,6 +3,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "scene/fragility_keys.hpp"
+#include "scene/key_methods.hpp"
 #include "scene/key_table.hpp"
 #include "scene/usual.hpp"
 
@@ -306,19 +307,23 @@ std::string scene_keys_markdown()
         "a note is an error (exit code 3), before anything is computed. Values of the command line "
         "(`--friction`, `--scale`, `--dt`, axes of `sweep`) are looked at like their keys. Values beside "
         "each other are looked at, too: water levels beside the crest and each other, base, rock box, "
-        "curtain and drains beside the size of the dam.\n";
+        "curtain and drains beside the size of the dam.\n\n"
+        "Honoured by: methods whose answer follows the key (rigid: the rigid block of `screen` and `sweep`; flexible: "
+        "[flexible_block]; equilibrium: load combinations; spectrum: `--response-spectrum`; fe, reduced: `fe`, "
+        "`fe --reduced`; all: these, regressions and `modes`). Another method has no use for it, refuses it, or says "
+        "in a note that its slip leaves it out; then no PASS rests on that slip.\n";
     for (const KeyGroup& group : key_groups(section)) {
         out += fmt::format(
-            "\n## {}\n{}\n\n| key | allowed | usual | default | meaning |\n| --- | --- | --- | --- | --- |\n",
+            "\n## {}\n{}\n\n| key | allowed | usual | default | honoured by | meaning |\n| --- | --- | --- | --- | --- | --- |\n",
             header_of(group.name, group.presence), group.meaning);
         for (const Key& key : group.keys) {
             std::vector<std::string> others = key.spellings();
             others.erase(others.begin());
             const Slot slot = probe(group, key, scene);
-            out += fmt::format("| `{}`{} | {} | {} | {} | {} |\n", key.canonical(),
+            out += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", key.canonical(),
                                others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")),
                                escaped(allowed(key, slot)), escaped(usual_cell(key)), escaped(key.default_text),
-                               escaped(key.meaning));
+                               method_words(honoured_by(group.name, key.name)), escaped(key.meaning));
         }
     }
     return out + fragility_markdown() + sources_markdown();

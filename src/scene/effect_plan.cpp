@@ -19,7 +19,7 @@ bool EffectPlan::on(Effect effect) const
 
 EffectPlan make_effect_plan(const Scene& scene, Method method)
 {
-    EffectPlan plan{method, {}};
+    EffectPlan plan{method, {}, {}};
     for (const EffectRow& row : effect_rows()) {
         const Decision d =
             scene.wedge ? decide_of_wedge(Effect(plan.effects.size()), scene) : row.decide(scene, method);

@@ -63,6 +63,7 @@ struct PlannedEffect {
 struct EffectPlan {
     Method method = Method::rigid_block;
     std::vector<PlannedEffect> effects; ///< all effects, in the order of effect_rows()
+    std::string scene_hash = {};        ///< of the scene that a command was given, before anything was chosen for it (prepare)
 
     bool on(Effect effect) const;
 };

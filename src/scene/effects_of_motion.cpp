@@ -82,7 +82,7 @@ std::vector<EffectRow> motion_effects()
          .decide = [](const Scene& s, Method) -> Decision {
              return {s.sliding.run_out_max > 0,
                      s.sliding.run_out_max > 0 ? "sliding.run_out_max_s > 0" : "sliding.run_out_max_s = 0",
-                     "until stuck for 0.5 s, only if still sliding at the record's end"};
+                     "until it rests, only if still sliding at the record's end"};
          },
          .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
              s.sliding.run_out_max = 0.0;

@@ -142,7 +142,8 @@ std::vector<FragilityKeyTable> make_tables()
          Presence::optional,
          "The records of a fragility; without it those of [motion].",
          {text_key("files", Value::text, "those of [motion]",
-                   "folder, pattern, CSV with horizontal, vertical, other_horizontal, event, weight, magnitude, scale, "
+                   "folder, pattern, CSV with horizontal, vertical, other_horizontal, column, vertical_column, event, "
+                   "weight, magnitude, scale, "
                    "or CSV "
                    "of seeds with name, seed, pga_m_s2, target, whose records are made; from the folder of the scene",
                    "\"suite/*.AT2\""),

@@ -1,12 +1,59 @@
 #include "scene/key_table.hpp"
 
-#include <set>
-
 #include "core/number.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <numbers>
+#include <set>
 
 namespace damslip {
+
+namespace {
+
+/// A number as digits times a power of ten.
+struct Decimal {
+    std::uint64_t digits = 0;
+    int exponent = 0;
+};
+
+/// Of the shortest text that reads back as the number. @pre value >= 0, finite
+Decimal decimal_of(double value)
+{
+    Decimal d;
+    const std::string text = shortest(value);
+    const std::size_t e = std::min(text.find('e'), text.size());
+    bool after_point = false;
+    for (std::size_t i = 0; i < e; ++i) {
+        if (text[i] == '.') {
+            after_point = true;
+            continue;
+        }
+        d.digits = 10 * d.digits + std::uint64_t(text[i] - '0');
+        d.exponent -= after_point;
+    }
+    if (e < text.size()) d.exponent += std::stoi(text.substr(e + 1));
+    for (; d.digits > 0 && d.digits % 10 == 0; d.digits /= 10) ++d.exponent;
+    return d;
+}
+
+} // namespace
+
+double to_si(double written, const UnitSuffix& unit)
+{
+    if (unit.tangent)
+        return static_cast<double>(std::tan(static_cast<long double>(written) * std::numbers::pi_v<long double> / 180));
+    if (unit.factor == 1.0 || !std::isfinite(written)) return written * unit.factor;
+    const Decimal a = decimal_of(std::abs(written)), b = decimal_of(unit.factor);
+    constexpr std::uint64_t few = 1'000'000; // digits of a unit that is defined by a decimal: 980665, 3048
+    if (b.digits >= few) return written * unit.factor;
+    // The product's digits, in two parts that a 64-bit number holds each.
+    const std::uint64_t low = a.digits % few * b.digits, high = a.digits / few * b.digits + low / few;
+    const auto product = parse_number(fmt::format("{}{:06}e{}", high, low % few, a.exponent + b.exponent));
+    return std::copysign(product.value_or(HUGE_VAL), written);
+}
 
 bool Range::contains(double x) const
 {

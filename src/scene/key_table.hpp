@@ -20,6 +20,10 @@ struct UnitSuffix {
     bool tangent = false; ///< ... or tan(written value in degrees), for friction angles
 };
 
+/// The SI value of a written number. With a decimal factor it is the double next to the decimal product, so that
+/// 3 mm and 0.003 m, 0.3 g and 2.941995 m/s2 are the same; 45 deg of friction is 1.
+double to_si(double written, const UnitSuffix& unit);
+
 /// The accepted suffixes of one kind of quantity; the first is the one written to resolved scenes and shown in the
 /// docs.
 using Units = std::vector<UnitSuffix>;

@@ -27,6 +27,8 @@ std::vector<Key> combination_keys()
         word("drains_effective", "true", "false: drains without effect", "false", at(&C::drains_effective)),
         word("curtain_intact", "true", "false: ruptured curtain, linear uplift", "false", at(&C::curtain_intact)),
         word("residual_strength", "false", "true: residual friction, no cohesion", "true", at(&C::residual_strength)),
+        word("gates_open", "false", "true: the gates of [gate] are open, the water flows over the crest", "true",
+             at(&C::gates_open)),
         word("crack", "uplift.crack", "uplift in a base crack", "\"static\"",
              optional_choice(&C::crack, crack_rules())),
         number("friction", friction, Range::above(0), "contact.friction", "Coulomb mu", "0.84", at(&C::friction)),
@@ -57,7 +59,7 @@ std::vector<Key> combination_keys()
                "required factor of safety against flotation", "1.2", at(&C::required_flotation_factor)),
         number("required_overturning_factor", none, Range::above(0), "none",
                "required factor of safety against overturning", "1.5", at(&C::required_overturning_factor)),
-        word("required_resultant", "none", "where the resultant must lie: kern, middle-half or base", "\"middle-half\"",
+        word("required_resultant", "none", "where the resultant must lie: kern (the middle third), middle-half, or base (anywhere within it)", "\"middle-half\"",
              at(&C::required_resultant)),
         word("source", "empty", "document the required values are taken from", "\"EM 1110-2-2100, table 3-2\"",
              at(&C::source))};

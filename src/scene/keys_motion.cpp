@@ -7,7 +7,9 @@ std::vector<KeyGroup> motion_groups()
 {
     std::vector<KeyGroup> groups;
     Key polarity =
-        word("polarity", "1; of `fe` both", "1 or -1: -1 flips the horizontal components; written, `fe` runs it alone",
+        word("polarity", "both",
+             "the one sign on the horizontal components as filed that `fe` and `sweep` run; `screen`, `assess`, "
+             "`fragility` run both",
              "-1", at(&Motion::polarity));
     Key pause =
         number("sequence_pause", seconds, Range::between(0, 600), "0",

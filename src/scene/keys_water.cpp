@@ -60,6 +60,9 @@ std::vector<KeyGroup> water_groups()
                                                                          {"acoustic", ReservoirModel::acoustic}})),
          word("floor_pressure", "false", "water pressure on the reservoir floor loads the rock", "true",
               at(&Reservoir::floor_pressure)),
+         word("overtopped", "false",
+              "true: water above the crest flows over it and stands on it; a level above the crest needs this or [gate]",
+              "true", at(&Reservoir::overtopped)),
          word("surface", "free", "surface of acoustic water: p = 0, or rising and falling under gravity",
               "\"sloshing\"",
               choice(&Reservoir::surface,
@@ -126,6 +129,11 @@ std::vector<KeyGroup> water_groups()
                pairs("zangar_table", angle, none, Range::between(0, 2), "C_m = 0.73 (1 - phi/90 deg)",
                      "Zangar's C_m over the face angle from the vertical", "[[0, 0.73], [30, 0.54]]",
                      at(&AddedMass::zangar_table))}));
+    groups.push_back(optional_group(
+        "gate", "Gates of a spillway, in the plane of the upstream face above its upper end: their thrust, a dry crest.",
+        &Scene::gate,
+        {number("top", length, Range::at_least(0), "required", "top of the gates above the heel", "63",
+                at(&Gate::top))}));
     groups.push_back(optional_group("tailwater", "Water downstream.", &Scene::tailwater,
                                     {number("level", length, Range::at_least(0), "required",
                                             "water surface above the heel", "5", at(&Tailwater::level))}));
@@ -137,7 +145,7 @@ std::vector<KeyGroup> water_groups()
                                      number("pressure_coefficient", none, Range::between(0, 3), "required", "K_s",
                                             "0.5", at(&Silt::pressure_coefficient))}));
     groups.push_back(optional_group(
-        "ice", "Ice thrust; acts in the sliding computations and in the load combinations that name it.", &Scene::ice,
+        "ice", "Ice thrust; acts in the sliding computations, in the response-spectrum level and in the load combinations that name it.", &Scene::ice,
         {number("force", line_force, Range::any(), "required", "thrust, positive downstream", "100", at(&Ice::force)),
          number("level", length, Range::at_least(0), "reservoir level", "where it acts above the heel", "62",
                 at(&Ice::level))}));

@@ -1,6 +1,7 @@
 #include "scene/mesh_sizes.hpp"
 
 #include "scene/joint_bond.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 
@@ -19,6 +20,15 @@ double bond_size(const Scene& scene)
     return std::max(bond_element_length(scene.contact, *modulus), base_length(scene.section) / 240.0);
 }
 
+/// 60 elements along the base; of one so short that they would be shorter than 0.1 m, 20 at least. A block of a few metres
+/// rocks, and finer elements only make its landings harder to follow in time.
+double base_size(const Scene& scene)
+{
+    constexpr double short_element = 0.1; // [m]
+    const double length = base_length(scene.section);
+    return std::max(length / 60.0, std::min(short_element, length / 20.0));
+}
+
 } // namespace
 
 MeshSizes mesh_sizes(const Scene& scene)
@@ -27,7 +37,7 @@ MeshSizes mesh_sizes(const Scene& scene)
     MeshSizes sizes;
     sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
     sizes.contact =
-        scene.mesh.contact_size.value_or(std::min({sizes.dam, base_length(scene.section) / 60.0, bond_size(scene)}));
+        scene.mesh.contact_size.value_or(std::min({sizes.dam, base_size(scene), bond_size(scene)}));
     if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
     return sizes;
 }
@@ -38,7 +48,7 @@ double water_mesh_size(const Reservoir& water)
     return water.mesh_size.value_or(water.level / rows_over_depth);
 }
 
-Scene with_mesh_sizes(Scene scene)
+Scene with_own_choices(Scene scene)
 {
     if (scene.wedge) return scene;
     if (!scene.mesh.file) {
@@ -47,6 +57,7 @@ Scene with_mesh_sizes(Scene scene)
         scene.mesh.contact_size = sizes.contact;
         if (scene.foundation) scene.mesh.rock_size = sizes.rock;
     }
+    if (rock_radiates(scene)) scene.foundation->material.density = radiating_density(*scene.foundation);
     if (has_water(scene)) scene.reservoir->mesh_size = water_mesh_size(*scene.reservoir);
     return scene;
 }

@@ -15,7 +15,8 @@ MeshSizes mesh_sizes(const Scene& scene);
 /// Element height in acoustic water: reservoir.mesh_size, else level / 20 [m].
 double water_mesh_size(const Reservoir& water);
 
-/// The scene with these sizes as keys of its own. With mesh.file dam and rock have no sizes; the scene of a wedge has no mesh.
-Scene with_mesh_sizes(Scene scene);
+/// The scene with these sizes, and the density of rock that radiates, as keys of its own. With mesh.file dam and rock have no
+/// sizes; the scene of a wedge has no mesh.
+Scene with_own_choices(Scene scene);
 
 } // namespace damslip

@@ -1,7 +1,6 @@
 #include "scene/plausible.hpp"
 
 #include "core/number.hpp"
-#include "core/units.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -34,7 +33,7 @@ std::string with_unit(const std::string& number, const UnitSuffix& unit)
 double in_first_unit(double value, const UnitSuffix& unit, const UnitSuffix& first)
 {
     if (unit.suffix == first.suffix) return value;
-    return (unit.tangent ? std::tan(value * units::degree) : value * unit.factor) / first.factor;
+    return to_si(value, unit) / first.factor;
 }
 
 std::string name_of(const UnitSuffix& unit)

@@ -2,7 +2,6 @@
 
 #include "core/file.hpp"
 #include "core/number.hpp"
-#include "core/units.hpp"
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/fragility_input.hpp"
@@ -39,11 +38,6 @@ std::string value_text(const toml::node& node)
 std::string full_name(const std::string& group, const std::string& key)
 {
     return group.empty() ? key : group + "." + key;
-}
-
-double to_si(double value, const UnitSuffix& unit)
-{
-    return unit.tangent ? std::tan(value * units::degree) : value * unit.factor;
 }
 
 std::string allowed_text(const Key& key, const Range& range, const Units& units)
@@ -143,9 +137,14 @@ private:
 
     void not_allowed(const Key& key, const std::string& spelling, const toml::node& node, const std::string& expected)
     {
+        const double value = node.value<double>().value_or(0.0);
+        const bool degrees = spelling == key.name && value > 1.0 && value < 89.9 &&
+                             std::any_of(key.units.begin(), key.units.end(), [](const UnitSuffix& u) { return u.tangent; });
         findings_.wrong_at(place_of(node.source()),
                            fmt::format("{} = {} is not allowed.", full_name(label_, spelling), value_text(node)),
-                           expected, fmt::format("for example  {} = {}", key.canonical(), key.example));
+                           expected,
+                           degrees ? fmt::format("degrees? write  {}_deg = {}", key.name, value_text(node))
+                                   : fmt::format("for example  {} = {}", key.canonical(), key.example));
     }
 
     /// The number in `node` as SI if it is finite and in range (the range is in canonical units).

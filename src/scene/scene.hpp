@@ -75,6 +75,7 @@ struct Reservoir {
     double length = 0.0;          ///< of the acoustic reservoir [m]; default 2.4 x level
     ReservoirModel model = ReservoirModel::automatic;
     bool floor_pressure = false; ///< water pressure on the reservoir floor loads the rock
+    bool overtopped = false;     ///< what is above the crest flows over it and stands on it
 
     // Acoustic water only.
     WaterSurface surface = WaterSurface::free;
@@ -85,6 +86,11 @@ struct Reservoir {
                           bottom_modulus = {}; ///< of what lies there [kg/m^3], [Pa]: give alpha instead
     std::optional<double> mesh_size = {};      ///< element height in the water [m]; default level / 20
     ReservoirFloor floor = ReservoirFloor::absorbing;
+};
+
+/// Gates in the plane of the upstream face, from its upper end up: they hold the water, and the crest is dry.
+struct Gate {
+    double top = 0.0; ///< above the heel [m]
 };
 
 /// Formulas the program asks for by name; others are rows of added_mass_rows() beyond these.
@@ -278,6 +284,7 @@ struct Combination {
     bool drains_effective = true;
     bool curtain_intact = true;
     bool residual_strength = false;
+    bool gates_open = false; ///< the water flows over the crest
     std::optional<CrackRule> crack;
     std::optional<double> friction;       ///< [-]
     std::optional<double> cohesion;       ///< [Pa]
@@ -400,6 +407,7 @@ struct Scene {
     std::optional<Foundation> foundation;
     std::optional<Curtain> curtain;
     std::optional<Reservoir> reservoir;
+    std::optional<Gate> gate;
     AddedMass added_mass; ///< used when the reservoir moves as added mass
     std::optional<Tailwater> tailwater;
     std::optional<Silt> silt;

@@ -45,7 +45,7 @@ Written in_unit(double si, const Units& units)
         if (unit.tangent) continue;
         const double near = si / unit.factor;
         for (const double candidate : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
-            if (candidate * unit.factor == si) return {unit.suffix, candidate};
+            if (to_si(candidate, unit) == si) return {unit.suffix, candidate};
     }
     return {units.front().suffix, si / units.front().factor};
 }
@@ -71,7 +71,7 @@ std::string pairs_line(const Key& key, const std::vector<Point>& points)
         for (const Point& p : points) {
             const Written x = in_unit(p.x, {unit});
             const Written y = in_unit(p.y, same ? Units{unit} : key.second_units);
-            exact = exact && x.value * unit.factor == p.x;
+            exact = exact && to_si(x.value, unit) == p.x;
             list += (list.empty() ? "[" : ", [") + toml_number(x.value) + ", " + toml_number(y.value) + "]";
         }
         if (exact || &unit == &key.units.back()) return spelled(key, unit.suffix) + " = [" + list + "]\n";
@@ -139,7 +139,7 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
 
 std::string resolved_toml(const Scene& given, RecordPaths paths)
 {
-    const Scene scene = with_mesh_sizes(given);
+    const Scene scene = with_own_choices(given);
     SectionInput section;
     std::string out;
     for (const KeyGroup& group : key_groups(section)) {
@@ -164,7 +164,8 @@ std::string resolved_toml(const Scene& given, RecordPaths paths)
 std::string scene_hash(const Scene& scene)
 {
     Scene computed = scene;
-    computed.project = {}; // a new revision of the report is still a report of the same numbers
+    computed.project = {};  // a new revision of the report is still a report of the same numbers
+    computed.title.clear(); // by default the file's name
     return sha256(resolved_toml(computed, RecordPaths::file_names));
 }
 

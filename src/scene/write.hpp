@@ -11,10 +11,11 @@ enum class RecordPaths {
     file_names ///< the same text wherever the scene lies: for the scene hash
 };
 
-/// The scene with all defaults as TOML, sizes of elements included. Reading it back gives the same results, bit for bit.
+/// The scene with all defaults as TOML, sizes of elements and what else the program chooses by itself included. Reading it back gives the same results, bit for bit.
 std::string resolved_toml(const Scene& scene, RecordPaths paths = RecordPaths::absolute);
 
-/// SHA-256 of the resolved scene; the same for the same model wherever its file lies and however it was written.
+/// SHA-256 of the resolved scene; the same for the same model wherever its file lies, whatever its name and title and
+/// however it was written.
 std::string scene_hash(const Scene& scene);
 
 } // namespace damslip

@@ -6,7 +6,7 @@ namespace damslip::audit3 {
 
 namespace {
 
-class Audit3 : public KeyScene {
+class Audit3Drains : public KeyScene {
 protected:
     /// Drains near the heel. @param lost  lost_at_slip_m; empty: they hold
     Tables drained(const std::string& lost) const
@@ -22,7 +22,7 @@ protected:
     static double slip(const Json& answer) { return answer["runs"][0]["max_slip_m"].get<double>(); }
 };
 
-TEST_F(Audit3, A1_DrainsLostAtSlipInFiniteElements)
+TEST_F(Audit3Drains, A1_DrainsLostAtSlipInFiniteElements)
 {
     Tables linear = drained("");
     set(linear, "uplift.model", "\"linear\"");
@@ -49,7 +49,7 @@ TEST_F(Audit3, A1_DrainsLostAtSlipInFiniteElements)
 }
 
 /// A dam that does not deform slides as the rigid block does.
-TEST_F(Audit3, A1_DrainsLostAsTheRigidBlock)
+TEST_F(Audit3Drains, A1_DrainsLostAsTheRigidBlock)
 {
     for (const char* lost : {"0.005", "1e-5"}) {
         Tables dam = drained(lost);
@@ -64,7 +64,7 @@ TEST_F(Audit3, A1_DrainsLostAsTheRigidBlock)
 }
 
 /// What an earthquake has sheared off stays lost in the next one, with and without water in the crack between them.
-TEST_F(Audit3, A1_DrainsStayLostInTheNextEarthquake)
+TEST_F(Audit3Drains, A1_DrainsStayLostInTheNextEarthquake)
 {
     const std::string state = (folder / "state.json").string();
     const Tables dam = drained("0.002");
@@ -81,7 +81,7 @@ TEST_F(Audit3, A1_DrainsStayLostInTheNextEarthquake)
     EXPECT_TRUE(full["runs"][0]["max_slip_m"].is_null() || slip(full) > one_after_the_other) << full["runs"];
 }
 
-TEST_F(Audit3, A1_DrainsLostWhereTheyCannotBeFollowedAreRefused)
+TEST_F(Audit3Drains, A1_DrainsLostWhereTheyCannotBeFollowedAreRefused)
 {
     const auto refused = [&](Tables dam, const char* key, const char* value, std::vector<std::string> command,
                              const char* words) {

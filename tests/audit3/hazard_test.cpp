@@ -8,9 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
+#include <sstream>
 
 namespace damslip {
 namespace {
@@ -312,6 +313,73 @@ TEST_F(Audit3Hazard, B2_TargetSpectraSayPeriodOrFrequency)
     }
     for (const std::string heading : {"period_s,psv_cm_s", "x,y", "T,Sd", "period_s,period_s", "frequency,velocity"})
         EXPECT_THROW((void)shape(heading + "\n0.01,0.2\n0.1,0.5\n2.5,0.1\n"), InputError) << heading;
+}
+
+// The headline says whose answer it is: a rigid block bounds no elastic dam.
+TEST_F(Audit3Hazard, A5_TheHeadlineNamesTheMethod)
+{
+    const ProgramAnswer block = fragility({"--samples", "64", "--out", out("a5")});
+    EXPECT_NE(block.out.find("by the rigid block: no bound for an elastic dam\n"), std::string::npos) << block.out;
+    EXPECT_NE(bytes("a5", "report.html").find("; by the rigid block: no bound for an elastic dam."), std::string::npos);
+    const ProgramAnswer elements =
+        fragility({"--method", "fe", "--samples", "16", "--conditioning", "off", "--out", out("a5fe")});
+    EXPECT_NE(elements.out.find("by finite elements\n"), std::string::npos) << elements.out;
+    EXPECT_EQ(bytes("a5fe", "report.html").find("no bound for an elastic dam"), std::string::npos);
+}
+
+// The page says what its numbers hold for; a table for each limit, its columns without those of missing runs where none is missing. Files keep one table.
+TEST_F(Audit3Hazard, C_ThePageHasLimitsOfValidityAndATableForEachLimit)
+{
+    write_scene({.more = "[[limit]]\nquantity = \"slip\"\nabove_mm = 50\n"});
+    const ProgramAnswer answer = fragility({"--samples", "64", "--out", out("c")});
+    const std::string page = bytes("c", "report.html");
+    EXPECT_NE(page.find("Limits of validity"), std::string::npos);
+    for (const char* title : {"Probabilities: slip &gt; 200 mm", "Probabilities: slip &gt; 50 mm"})
+        EXPECT_NE(page.find(title), std::string::npos) << title;
+    EXPECT_EQ(answer.out.find("missing survive"), std::string::npos) << answer.out;
+    std::istringstream lines(answer.out);
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t width = 0;
+        for (const char c : line) width += (static_cast<unsigned char>(c) & 0xC0) != 0x80; // characters of UTF-8
+        EXPECT_LE(width, 110u) << line;
+    }
+    EXPECT_EQ(bytes("c", "fragility.csv").find("limit,intensity_m_s2,probability,") == std::string::npos, false);
+    const std::string page_of_elements = [&] {
+        fragility({"--method", "fe", "--samples", "16", "--conditioning", "off", "--out", out("cfe")});
+        return bytes("cfe", "report.html");
+    }();
+    EXPECT_NE(page_of_elements.find("concrete and rock are linear elastic"), std::string::npos);
+}
+
+TEST_F(Audit3Hazard, C_TheReportIsPrintedByMergeNotByAPart)
+{
+    const std::string pdf = (folder / "f.pdf").string();
+    const ProgramAnswer part = fragility({"--out", out("p"), "--shard", "0/2", "--pdf", pdf});
+    EXPECT_EQ(part.code, 2);
+    EXPECT_NE(part.talk.find("--pdf together with --shard."), std::string::npos) << part.talk;
+    const std::string help = answer_of({"fragility", "--help"}).out;
+    EXPECT_NE(help.find("--pdf"), std::string::npos);
+    EXPECT_NE(help.find("examples/fragility/dam.toml"), std::string::npos) << help;
+}
+
+// A variable's name is a heading of samples.csv: no formula for a spreadsheet. A title with a control character leaves the XML well-formed.
+TEST_F(Audit3Hazard, D9_NamesAreNoFormulasAndNoControlCharactersInFiles)
+{
+    std::string text = read_file(scene);
+    const auto put = [&text](const std::string& old, const std::string& instead) {
+        ASSERT_NE(text.find(old), std::string::npos) << old;
+        text.replace(text.find(old), old.size(), instead);
+    };
+    put("title = \"block\"", "title = \"bl\\u001bock & <dam>\"");
+    put("name = \"mu\"", "name = \"=1+\\u00071,x\"");
+    write_file(scene, text);
+    ASSERT_EQ(fragility({"--samples", "64", "--out", out("d9")}).code, 0);
+    const std::string samples = bytes("d9", "samples.csv");
+    EXPECT_NE(samples.find(",\"'=1+␇1,x\","), std::string::npos) << samples.substr(0, 400);
+    const std::string xml = bytes("d9", "fragility.xml");
+    EXPECT_NE(xml.find("<description>bl␛ock &amp; &lt;dam&gt;</description>"), std::string::npos) << xml;
+    EXPECT_TRUE(std::none_of(xml.begin(), xml.end(),
+                             [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }));
 }
 
 } // namespace

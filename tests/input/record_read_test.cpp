@@ -230,7 +230,7 @@ const std::vector<BadRecord> bad_records{
     {"three_columns_time_first", "0 1 2\n1 3 1\n2 1 2\n", given("g", 0.01),
      "x.txt:1: error: 3 numbers a line without headings, and the first rises like a time.", "heading line"},
     {"ragged_no_dt", "1 2 3\n4 5\n", given("g"),
-     "x.txt:1: error: lines of different numbers of values, without a time step.", "heading line"},
+     "x.txt:1: error: 3 numbers a line, without headings and without a time step.", "heading line"},
     {"one_sample", "# units: g\n# dt: 0.01\n1\n", {}, "x.txt:3: error: the record has 1 sample.", "complete"},
     // Times
     {"time_falls", "0 1\n0.02 1\n0.01 1\n", given("g"), "x.txt:3:1: error: the time 0.01 s does not follow 0.02 s.",

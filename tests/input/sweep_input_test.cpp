@@ -1,6 +1,8 @@
 // Wrong command lines of `damslip sweep`, and part files that are none.
 #include "cli/program.hpp"
 
+#include "store_changes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -91,43 +93,51 @@ TEST_F(SweepInput, PartFilesThatAreNone)
     const std::string scene = path("block.toml"), out = path("r.csv");
     for (const char* shard : {"0/2", "1/2"})
         says({scene, "--friction", "0.5,0.6", "--out", out, "--shard", shard}, 0, "1 rows in");
-    const std::string good = content("r.0-of-2.csv");
-    const auto merged_says = [&](const std::string& text, int code, const std::string& part) {
-        write("r.0-of-2.csv", text);
-        says({"--merge", path("r.0-of-2.csv"), path("r.1-of-2.csv")}, code, part);
+    const std::string first = path("r.0-of-2.sqlite"), second = path("r.1-of-2.sqlite"), whole = path("whole.csv");
+    says({"--merge", first, second, "--out", whole}, 0, "2 rows of 2 parts");
+    const std::string table = content("whole.csv");
+    const std::string good = content("r.0-of-2.sqlite");
+    const auto merged_says = [&](const std::string& change, int code, const std::string& part) {
+        sql(first, change);
+        says({"--merge", first, second, "--out", whole}, code, part);
+        std::ofstream(first, std::ios::binary) << good;
     };
-    merged_says(good, 0, "2 rows of 2 parts");
-    merged_says("", 3, "this is not a part of a sweep.");
-    merged_says("# a\n# b\n# c\n# d\nid\n", 3, "this is not a part of a sweep.");
-    std::string changed = good;
-    changed[changed.size() - 3] = 'x';
-    merged_says(changed, 3, "the checksum differs.");
-    merged_says(good.substr(0, good.size() - 5), 3, "the checksum differs.");
-    merged_says(content("r.1-of-2.csv"), 3, "part 1/2 is given twice");
-    std::string foreign = good;
-    foreign.replace(foreign.find("# scene ") + 8, 4, "0000");
-    merged_says(foreign, 3, "is not of the same sweep as");
-    write("r.0-of-2.csv", good);
-    says({"--merge", path("r.0-of-2.csv")}, 3, "1 of 2 parts are missing: 1/2.");
-    says({"--merge", path("nothing.csv")}, 3, "there is no such file.");
+    merged_says("UPDATE rows SET slip_m = slip_m + 1e-9", 3, "1 rows are damaged.");
+    merged_says("DELETE FROM rows", 3, "the parts have 1 rows, the sweep 2.");
+    merged_says("UPDATE sweep SET done = 0", 3, "this part is not finished.");
+    merged_says("UPDATE sweep SET scene = 'other'", 3, "this database is damaged");
+    merged_says("PRAGMA user_version = 6", 3, "this is not a database of a sweep");
+    for (const char* text : {"", "# a\n# b\n# c\n# d\nid\n"}) {
+        write("r.0-of-2.sqlite", text);
+        says({"--merge", first, second}, 3, "this is not a database of a sweep");
+    }
+    write("r.0-of-2.sqlite", good.substr(0, good.size() / 2));
+    says({"--merge", first, second}, 3, "this database is damaged");
+    std::ofstream(first, std::ios::binary) << content("r.1-of-2.sqlite");
+    says({"--merge", first, second}, 3, "part 1/2 is given twice");
+    says({scene, "--friction", "0.5,0.7", "--out", path("o.csv"), "--shard", "0/2"}, 0, "1 rows in");
+    says({"--merge", path("o.0-of-2.sqlite"), second}, 3, "is not of the same sweep as");
+    std::ofstream(first, std::ios::binary) << good;
+    says({"--merge", first}, 3, "1 of 2 parts are missing: 1/2.");
+    says({"--merge", first, second, "--out", path("r.0-of-2.csv")}, 3, "this part is where the whole would be.");
+    says({"--merge", path("nothing.sqlite")}, 3, "there is no such file.");
     std::filesystem::create_directories(path("empty"));
     says({"--merge", path("empty")}, 3, "there is no part of a sweep in this folder.");
-    ASSERT_EQ(0, std::system(("cp " + path("block.toml") + " " + path("whole.csv")).c_str()));
-    says({"--merge", path("whole.csv")}, 3, "this is not a part of a sweep.");
+    says({"--merge", path("block.toml")}, 3, "this is not a database of a sweep");
+    says({"--merge", first, second, "--out", whole}, 0, "2 rows of 2 parts");
+    EXPECT_EQ(content("whole.csv"), table);
 }
 
 TEST_F(SweepInput, AnUnfinishedSweepIsNotBegunAgain)
 {
     const std::string scene = path("block.toml"), out = path("r.csv");
     says({scene, "--friction", "0.5,0.6", "--out", out}, 0, "2 rows in");
-    std::string journal = content("r.csv.journal");
-    journal.resize(journal.find("done\n")); // as if it had been stopped before the table
-    journal.resize(journal.size() - 3);     // within a line
-    write("r.csv.journal", journal);
+    sql(path("r.sqlite"), "UPDATE sweep SET done = 0; UPDATE rows SET slip_m = 1 WHERE id = 1"); // stopped, and damaged
     const std::string table = content("r.csv");
     std::filesystem::remove(out);
     says({scene, "--friction", "0.5,0.6", "--out", out}, 3, "1 rows of this sweep are finished here.");
-    says({scene, "--friction", "0.5,0.6", "--out", out, "--resume"}, 0, "1 torn line of the journal left aside");
+    says({scene, "--friction", "0.5,0.6", "--out", out, "--resume"}, 0,
+         "1 damaged rows of the database are computed again");
     EXPECT_EQ(content("r.csv"), table);
 }
 

@@ -228,6 +228,7 @@ void add_water(Writer& w)
                   : place < 0.18 ? 0.0
                                  : draw.between(0.1, 1.0) * w.height;
         w.key("level_m", w.level);
+        w.key("overtopped", "true");
         w.words("model", {"auto", "hydrostatic", "added-mass", "added-mass", "acoustic"});
         if (draw.chance(0.15)) w.key("floor_pressure", "true");
         if (draw.chance(0.1)) w.key("bulk_modulus_MPa", draw.log_between(1, 1e6));

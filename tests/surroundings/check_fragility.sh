@@ -27,12 +27,12 @@ spread() { # NAME KILLS
     for shard in 0 1 2; do run shards --jobs 1 --shard "$shard/3" || fail "part $shard: $(cat "$work/talk")"; done
     run shards --merge || fail "merge: $(cat "$work/talk")"
     same shards
-    # Killed when its journal has grown to a share of its full length, so that the moments are spread over the run on a machine of any speed.
-    full=$(wc -c <"$work/$one/samples.csv.journal")
+    # Killed when its database has grown to a share of its full length, so that the moments are spread over the run on a machine of any speed.
+    full=$(wc -c <"$work/$one/samples.sqlite")
     for k in $(seq 1 "$kills"); do
         rm -rf "$work/killed"
         "$damslip" fragility "$work/${scene:-dam}.toml" "${sizes[@]}" --out "$work/killed" --jobs 1 -q >"$work/talk" 2>&1 & process=$!
-        until [ "$(wc -c 2>/dev/null <"$work/killed/samples.csv.journal" || echo 0)" -ge $((full * (k - 1) / (kills + 1))) ]; do
+        until [ "$(wc -c 2>/dev/null <"$work/killed/samples.sqlite" || echo 0)" -ge $((full * (k - 1) / (kills + 1))) ]; do
             kill -0 "$process" 2>/dev/null || break
         done
         kill -KILL "$process" 2>/dev/null && killed=$((killed + 1))

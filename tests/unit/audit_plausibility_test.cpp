@@ -124,14 +124,14 @@ TEST(Audit, A18_angles_per_cent_and_the_unit_g_are_steps_too)
 
 TEST(Audit, A18_levels_are_looked_at_beside_the_crest_and_each_other)
 {
-    const std::string water = std::string(dam_text) + "[reservoir]\nlevel_m = 75\n";
+    const std::string water = std::string(dam_text) + "[reservoir]\nlevel_m = 75\novertopped = true\n";
     EXPECT_EQ(only_note_of(water),
               "dam.toml:11: reservoir.level_m = 75 is 15 m above the crest at 60 m. Usual: up to the "
               "crest, 60 m; higher only at a spillway, or in a flood that overtops the dam (EM "
               "1110-2-2200). Check datum and unit: levels are measured from the heel.");
     const std::string tail = std::string(dam_text) + "[reservoir]\nlevel_m = 20\n[tailwater]\nlevel_m = 30\n";
     EXPECT_NE(only_note_of(tail).find("tailwater.level_m = 30 is above reservoir.level_m = 20."), std::string::npos);
-    const std::string flood = std::string(dam_text) + "[reservoir]\nlevel_m = 55\n[[combination]]\nname = \"flood\"\n"
+    const std::string flood = std::string(dam_text) + "[reservoir]\nlevel_m = 55\novertopped = true\n[[combination]]\nname = \"flood\"\n"
                                                       "kind = \"extreme\"\nreservoir_level_m = ";
     EXPECT_TRUE(notes_of(flood + "63\n").empty());
     EXPECT_EQ(notes_of(flood + "75\n").size(), 1u);

@@ -90,7 +90,7 @@ TEST(Audit, C_devices_and_pipes_are_never_replaced)
     EXPECT_EQ(piped.code, 0) << piped.talk;
     EXPECT_TRUE(fs::is_fifo(w.folder / "pipe"));
     EXPECT_NE(taken.find("\n2\n"), std::string::npos) << taken;
-    const ProgramAnswer swept = w.sweep_to(w.in("pipe")); // a journal lies beside the rows of a sweep
+    const ProgramAnswer swept = w.sweep_to(w.in("pipe")); // a database lies beside the rows of a sweep
     EXPECT_EQ(swept.code, 2);
     EXPECT_NE(swept.talk.find("is a device or a pipe"), std::string::npos) << swept.talk;
     EXPECT_TRUE(fs::is_fifo(w.folder / "pipe"));
@@ -195,7 +195,7 @@ TEST(Audit, C_names_are_no_formulas_for_spreadsheets)
 
     w.write_scene("formula", "=HYPERLINK(1)");
     ASSERT_EQ(answer_of({"sweep", w.in("block.toml"), "--shard", "0/1", "--out", w.in("rows.csv")}).code, 0);
-    ASSERT_EQ(answer_of({"sweep", "--merge", w.in("rows.0-of-1.csv"), "--out", w.in("merged.csv")}).code, 0);
+    ASSERT_EQ(answer_of({"sweep", "--merge", w.in("rows.0-of-1.sqlite"), "--out", w.in("merged.csv")}).code, 0);
     EXPECT_NE(bytes_of(w.folder / "merged.csv").find(",'=HYPERLINK(1),"), std::string::npos);
     EXPECT_EQ(bytes_of(w.folder / "merged.html").find("'=HYPERLINK"), std::string::npos);
 }

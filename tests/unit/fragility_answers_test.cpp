@@ -115,7 +115,7 @@ TEST(FragilityAnswers, CapacitiesByRoots)
         EXPECT_NEAR(estimate.limits[0].capacities->curve.median / exact.curve.median, 1.0, 1e-9);
         EXPECT_NEAR(estimate.limits[0].capacities->curve.beta / exact.curve.beta, 1.0, 1e-9);
         EXPECT_GT(by_levels.curve.median, 1.02 * exact.curve.median); // levels lie above
-        FragilityRuns resumed = runs; // rows of a journal come without yields: the same bits
+        FragilityRuns resumed = runs; // rows of a store come without yields: the same bits
         resumed.yield.assign(resumed.yield.size(), std::nan(""));
         FragilityEstimate again = estimate_fragility(plan, resumed, nullptr, {});
         ASSERT_TRUE(capacities_by_roots(again, plan, resumed, text, sweep_method("rigid"), 1));

@@ -1,6 +1,7 @@
 // The command `fragility` on a one-way block under one pulse (pulse_scene.hpp), so that P = F_mu(mu*) by hand: runs that are spread over parts, stopped
 // and gone on with, bought by a budget, written for a cluster; and what does not go together.
 #include "pulse_study.hpp"
+#include "store_changes.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -50,11 +51,9 @@ TEST_F(FragilityCommand, PartsPutTogetherHaveTheBytesOfOneRun)
     EXPECT_NE(answer.talk.find("this part is missing."), std::string::npos) << answer.talk;
     EXPECT_NE(answer.talk.find("run  --shard 2/3"), std::string::npos) << answer.talk;
 
-    // The third part loses its end, as where the machine fails.
+    // The third part loses rows, as where the machine fails.
     ASSERT_EQ(sized({"--out", out("parts"), "--shard", "2/3"}).code, 0);
-    const auto journal = folder / "parts" / "samples.2-of-3.csv.journal";
-    const std::string whole = read_file(journal);
-    write_file(journal, whole.substr(0, whole.size() / 2));
+    leave_unfinished(folder / "parts" / "samples.2-of-3.sqlite", 2);
     answer = sized({"--out", out("parts"), "--merge"});
     EXPECT_EQ(answer.code, 3);
     EXPECT_NE(answer.talk.find("of 192 runs are finished."), std::string::npos) << answer.talk;
@@ -71,11 +70,9 @@ TEST_F(FragilityCommand, PartsPutTogetherHaveTheBytesOfOneRun)
 TEST_F(FragilityCommand, GoingOnGivesTheBytesOfOneRunAndOtherRunsAreRefused)
 {
     ASSERT_EQ(fragility({"--samples", "64", "--conditioning", "off", "--out", out("one")}).code, 0);
-    const auto journal = folder / "one" / "samples.csv.journal";
     std::map<std::string, std::string> before;
     for (const char* file : results) before[file] = bytes("one", file);
-    const std::string whole = read_file(journal);
-    write_file(journal, whole.substr(0, whole.size() / 3));
+    leave_unfinished(folder / "one" / "samples.sqlite", 3);
     ProgramAnswer answer = fragility({"--samples", "64", "--conditioning", "off", "--out", out("one"), "--resume"});
     ASSERT_EQ(answer.code, 0) << answer.talk;
     for (const char* file : results) EXPECT_EQ(bytes("one", file), before[file]) << file;

@@ -48,7 +48,7 @@ protected:
     {
         std::vector<std::string> command = words("0.1:1.099:0.001", "memory.csv");
         command.insert(command.end(), {"--scale", scales});
-        std::filesystem::remove(folder / "memory.csv.journal");
+        std::filesystem::remove(folder / "memory.sqlite");
         const pid_t child = ::fork();
         if (child == 0) ::_exit(answer_of(command).code);
         int status = 0;

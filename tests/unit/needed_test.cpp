@@ -140,7 +140,7 @@ TEST_F(SweepScene, PeriodsAndDampingAreAxes)
     ASSERT_EQ(sweep(grid_of).code, 0);
     for (const char* part : {"0/2", "1/2"}) ASSERT_EQ(sweep(with(grid_of, {"--shard", part})).code, 0);
     const Answer merged =
-        answer_of({"sweep", "--merge", path("all.0-of-2.csv"), path("all.1-of-2.csv"), "--out", path("merged.csv")});
+        answer_of({"sweep", "--merge", path("all.0-of-2.sqlite"), path("all.1-of-2.sqlite"), "--out", path("merged.csv")});
     ASSERT_EQ(merged.code, 0) << merged.talk;
     EXPECT_EQ(content("merged.csv"), content("all.csv"));
 }

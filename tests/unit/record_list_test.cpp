@@ -13,7 +13,7 @@ namespace damslip {
 
 namespace {
 
-using Kind = ComponentName::Kind;
+using Kind = records::Component;
 
 TEST(ComponentName, is_read_from_the_ways_agencies_name_files)
 {
@@ -29,7 +29,7 @@ TEST(ComponentName, is_read_from_the_ways_agencies_name_files)
                 {"rock_2.0_long_h.csv", Kind::horizontal, "rock_2.0_long"},
                 {"rock_2.0_long_v.csv", Kind::vertical, "rock_2.0_long"},
                 {"AKT0010311091313.EW", Kind::horizontal, "AKT0010311091313"},
-                {"AKT0010311091313.UD2", Kind::vertical, "AKT0010311091313"},
+                {"AKT0010311091313.UD2", Kind::vertical, "AKT0010311091313.2"}, // at the surface
                 {"station_H1.txt", Kind::horizontal, "station"},
                 {"station-vert.txt", Kind::vertical, "station"},
                 {"elcentro_1940_ns.txt", Kind::horizontal, "elcentro_1940"},
@@ -78,8 +78,10 @@ TEST_F(RecordFolder, components_of_a_station_are_one_event_with_one_vertical)
         EXPECT_EQ(name_of(list.records[i].other_horizontal), rows[i].other);
         EXPECT_EQ(list.events[i], rows[i].event);
     }
-    ASSERT_EQ(list.notes.size(), 1u); // c_up.csv has no horizontal component
+    ASSERT_EQ(list.notes.size(), 3u); // c_up.csv has no horizontal component
     EXPECT_NE(list.notes[0].find("c_up.csv"), std::string::npos);
+    EXPECT_EQ(list.notes[1], "without a vertical component: alone.");
+    EXPECT_EQ(list.notes[2], "neither header nor name says the component, taken as horizontal: alone.csv.");
     EXPECT_EQ(record_list((folder / "b*.csv").string()).records.size(), 2u);
     EXPECT_TRUE(record_list((folder / "z*").string()).records.empty());
 }

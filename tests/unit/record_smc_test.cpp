@@ -105,7 +105,8 @@ TEST(RecordSmc, nul_bytes_in_the_station_code)
     file.station = std::string("AB\0\0", 4);
     EXPECT_EQ(parse_record(file.text(), "s").at(0).acceleration.size(), 3u);
     std::string binary = file.text();
-    binary += '\0';
+    EXPECT_EQ(parse_record(binary + std::string(80, '\0'), "s").at(0).acceleration.size(), 3u); // filled up by DOS
+    binary.insert(binary.size() - 12, 1, '\0');
     EXPECT_NE(smc_error(binary).find("NUL bytes"), std::string::npos);
 }
 
@@ -120,7 +121,7 @@ TEST(RecordSmc, refused)
         EXPECT_NE(smc_error(other.text()).find("this file holds no acceleration"), std::string::npos) << first;
     }
     Smc fast;
-    for (const double rate : {1.7e38, 0.0, -200.0}) {
+    for (const double rate : {1e30, 0.0, -200.0}) {
         fast.rate = rate;
         EXPECT_NE(smc_error(fast.text()).find("s.smc:18:16: error: "), std::string::npos) << smc_error(fast.text());
     }

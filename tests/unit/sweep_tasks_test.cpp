@@ -239,7 +239,7 @@ TEST(SweepPlan, TheCommandLineCarriesEveryOption)
         "--polarity 1,-1 --method fe-penalty,fe-reduced --modes 8 --penalty-stiffness 1e+11 --scheme slammer --out "
         "out/results.csv");
     EXPECT_EQ(merge_command_line(a, 2),
-              "damslip sweep --merge out/results.0-of-2.csv out/results.1-of-2.csv --out out/results.csv");
+              "damslip sweep --merge out/results.0-of-2.sqlite out/results.1-of-2.sqlite --out out/results.csv");
     EXPECT_EQ(merge_command_line(a, 21), "damslip sweep --merge out --out out/results.csv");
 }
 

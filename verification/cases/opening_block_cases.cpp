@@ -222,8 +222,8 @@ void add_opening_block_cases(Registry& registry)
                         "Water that comes into the crack of a sliding rectangle with a finite speed",
                         "no-tension base by hand with full head to x_w and none to the tip; x_w by its speed, slip by "
                         "steps of 1 ms from rest to rest",
-                        "limits: 1e-8 of zero, 1e-3 of full (its water is there from the start, that of 10 ms samples "
-                        "in 64 parts within 0.16 ms); between them 5e-4, steps by hand and table over x_w",
+                        "limits: 1e-8 of zero, 1e-3 of full (its water is there from the start); "
+                        "between them 5e-4, steps by hand and table over x_w",
                         water_on_its_way});
 }
 

@@ -81,12 +81,12 @@ int study(const StudyArguments& arguments, const Streams& streams)
     check_fe_scenes(inputs);
     const SweepIdentity identity = sweep_identity(inputs);
     make_folder(arguments.out);
-    Journal journal(journal_of(sweep.out), identity, {}, arguments.resume ? JournalStart::resume : JournalStart::fresh);
+    ResultStore store(store_of(sweep.out), identity, {}, arguments.resume ? StoreStart::resume : StoreStart::fresh);
     const Grid grid = make_grid(scene, axes, tasks, records, arguments.jobs);
     std::vector<std::size_t> wanted(tasks.rows());
     std::iota(wanted.begin(), wanted.end(), 0u);
     TerminalWatch watch(streams);
-    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, &journal, arguments.jobs, watch);
+    const SweepOutcome outcome = run_sweep(inputs, grid, wanted, &store, arguments.jobs, watch);
     if (!outcome.complete()) {
         streams.talk << fmt::format("interrupted: {} of {} rows are finished; go on with --resume\n",
                                     outcome.rows.size(), outcome.wanted);
@@ -111,7 +111,7 @@ int study(const StudyArguments& arguments, const Streams& streams)
     const std::filesystem::path page = arguments.out / "report.html";
     const StudyPageInput in{scene, rows, table, *records, uplifts, modes, regressions, findings, settings};
     write_file(page, page_html(study_page(in)));
-    journal.mark_done();
+    store.mark_done();
     streams.out << (streams.form == Form::json ? study_json(in).dump(2) + "\n" : findings_text(findings));
     if (!streams.quiet)
         streams.talk << fmt::format("{} rows in {}\nreport: {}\n", table.rows.size(), sweep.out.string(),

@@ -92,7 +92,7 @@ const RecordPair& first_record(const Ready& ready)
 std::string tied_deck(const Ready& ready, int modes)
 {
     const fe2d::Model model = fe2d::build_model(ready.scene, ready.model_options());
-    const GroundMotion motion = ready.motion(first_record(ready));
+    const GroundMotion motion = ready.motion(first_record(ready), 1.0, polarities_of(ready.scene).front());
     const fe2d::DampingChoice damping = fe2d::damping_of(ready.scene, model, motion);
     const fe2d::CalculixModel given = given_model(ready, model);
     if (damping.constants.mass != 0.0 && (!given.water.empty() || damping.mass == MassDamping::total))
@@ -150,14 +150,14 @@ std::vector<SecondResult> modes_beside(const Ready& ready, int count, const std:
 std::vector<SecondResult> crest_beside(const Ready& ready, const std::vector<CrestSample>& theirs,
                                        const std::string& file, Watch& watch)
 {
-    const GroundMotion motion = ready.motion(first_record(ready));
+    const GroundMotion motion = ready.motion(first_record(ready), 1.0, polarities_of(ready.scene).front());
     const double end = motion.dt * static_cast<double>(motion.accel_h.size() - 1);
     if (theirs.back().time < end * (1.0 - 1e-6))
         throw InputError(Diagnostic{
             file, 0, 0, fmt::format("the file ends at {:g} s, the record at {:g} s.", theirs.back().time, end),
             "the whole record", "write the deck anew and run ccx to its end"});
     FeOptions options;
-    options.polarity = 1;
+    options.polarity = polarities_of(ready.scene).front();
     TiedRuns runs(ready, options, watch);
     const std::vector<TiedRun> all = runs.run();
     const fe2d::History& ours = all.front().history;

@@ -75,7 +75,7 @@ SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watc
     for (const RecordPair& pair : records) {
         runs.records.emplace_back();
         if (watch.stop_asked()) continue;
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         const ProcessorClock run_clock;
         const fe2d::RunResult result = run(model, motion, step.halvings);
         const double seconds = run_clock.seconds();
@@ -99,7 +99,7 @@ AblationStep choose_step(const Ready& full, const Watch& watch)
     if (step.chosen) {
         const fe2d::EarthquakeRun model(full.scene, full.run_options(watch));
         for (const RecordPair& pair : full.records()) {
-            const fe2d::RunResult r = model.run(full.motion(pair));
+            const fe2d::RunResult r = model.run(full.motion(pair, 1.0, polarities_of(full.scene).front()));
             step.halvings = std::max({step.halvings, least_halvings, r.halvings});
             step.missed = step.missed || r.status == Status::tolerance_missed;
             if (watch.stop_asked()) break;

@@ -59,7 +59,7 @@ SceneRuns run_rigid(const Ready& ready, const Watch& watch)
     for (const RecordPair& pair : ready.records()) {
         runs.records.emplace_back();
         if (watch.stop_asked()) continue;
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         sliding::SlideResult result;
         const double seconds = shortest_time([&] { result = slide_model(ready.scene, model, motion, 1); });
         runs.records.back() = outcome(result, model);

@@ -53,13 +53,18 @@ std::vector<RungResult> climb(const LadderFacts& facts, const ClimbOptions& opti
     while (const std::optional<Rung> rung = next_rung(facts, options.ladder, results)) {
         if (calls.interrupted && calls.interrupted()) break;
         const double left = options.budget ? *options.budget - clock.seconds() : 0.0;
-        const std::optional<double> expected = expected_seconds(*rung, results);
-        if (options.budget && expected.value_or(0.0) >= left)
-            results.push_back(skipped(*rung, expected.value_or(0.0), left));
+        const double least = calls.least_seconds ? calls.least_seconds(*rung) : 0.0;
+        const double expected = std::max(least, expected_seconds(*rung, results).value_or(0.0));
+        if (options.budget && expected >= left)
+            results.push_back(skipped(*rung, expected, left));
         else {
             if (calls.begins) calls.begins(*rung);
             RungResult result = run_repeatedly(*rung, options.repeats, calls);
-            if (result.outcome == RungOutcome::stopped) break;
+            if (result.outcome == RungOutcome::stopped) {
+                if (!options.budget || (calls.interrupted && calls.interrupted())) break;
+                result.outcome = RungOutcome::skipped;
+                result.remark = fmt::format("ended after {:.3g} s, when the budget was spent", result.seconds);
+            }
             results.push_back(std::move(result));
         }
         if (calls.ends) calls.ends(results);

@@ -163,7 +163,7 @@ void RungRunner::run_rigid(const Scene& given, RungResult& result) const
     const RigidModel model = ready.rigid_model();
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         const sliding::SlideResult r = result.rung.scheme == RigidScheme::rocking
                                            ? rock_model(ready.scene, model, motion, 1).slide
                                            : slide_model(ready.scene, model, motion, 1);
@@ -194,7 +194,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
     if (reduced) result.unknowns = *result.rung.modes + 3; // rigid motions
     result.set_up_seconds = clock.seconds();
     for (const RecordPair& pair : ready.records()) {
-        const GroundMotion motion = ready.motion(pair);
+        const GroundMotion motion = ready.motion(pair, 1.0, polarities_of(ready.scene).front());
         // Without an estimate of the modes left out: the ladder compares with the run that has all of them.
         const auto reduced_run = [&] { return reduced->run(motion, {}, {}, fe2d::TruncationEstimate::left_out); };
         if (reduced ? !take(reduced_run(), result) : !take(full.run(motion), result)) return;
@@ -207,8 +207,15 @@ bool RungRunner::rocks_first() const
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     return model.rocking && std::any_of(ready.records().begin(), ready.records().end(), [&](const RecordPair& pair) {
-               return slide_model(ready.scene, model, ready.motion(pair), 1).status == Status::rocks_first;
+               return slide_model(ready.scene, model, ready.motion(pair, 1.0, polarities_of(ready.scene).front()), 1).status == Status::rocks_first;
            });
+}
+
+double RungRunner::least_seconds(const Rung& rung) const
+{
+    constexpr double per_operation = 1e-10; // [s], of n³ in dense factors
+    if (rung.family != RungFamily::finite_elements || scene_.mesh.file) return 0.0;
+    return per_operation * std::pow(2.0 * elements_on_base(scene_of(scene_, rung)), 3.0);
 }
 
 LadderFacts RungRunner::facts() const

@@ -18,6 +18,9 @@ public:
     /// failed result, never a throw.
     RungResult run(const Rung& rung) const;
 
+    /// What the set-up of a rung by finite elements takes at least, which no watch can end: the dense operators of its contact [s].
+    double least_seconds(const Rung& rung) const;
+
     /// What decides about rungs; regressions are evaluated for it.
     LadderFacts facts() const;
 

@@ -2,6 +2,7 @@
 
 #include "analysis/assess/budget_watch.hpp"
 #include "analysis/fe/mesh_scale.hpp"
+#include "analysis/prepare/flexible_mass.hpp"
 #include "core/input_error.hpp"
 #include "scene/rock_mass.hpp"
 
@@ -16,8 +17,14 @@ namespace {
 
 constexpr double stiffer = 1e3; ///< factor on the dam's modulus of a dam that is rigid in all but name [-]
 
+std::string why_ended(const BudgetWatch& watch)
+{
+    return watch.interrupted() ? "interrupted" : "the time was over";
+}
+
 /// Runs a part; what it cannot do is left out with its reason.
-void try_part(const std::string& what, std::vector<LeftOut>& left_out, const std::function<void()>& part)
+void try_part(const std::string& what, const BudgetWatch& watch, std::vector<LeftOut>& left_out,
+              const std::function<void()>& part)
 {
     try {
         part();
@@ -26,13 +33,24 @@ void try_part(const std::string& what, std::vector<LeftOut>& left_out, const std
     } catch (const NotConverged& e) {
         left_out.push_back({what, e.diagnostic().problem});
     } catch (const Interrupted&) {
-        left_out.push_back({what, "the time was over"});
+        left_out.push_back({what, why_ended(watch)});
     }
 }
 
-/// The scene's rock, or rock that radiates where it is massless.
-Scene scene_of_finite_elements(const Scene& given, std::string& change)
+/// The same while there is time.
+void try_in_time(const std::string& what, const BudgetWatch& watch, std::vector<LeftOut>& left_out,
+                 const std::function<void()>& part)
 {
+    if (watch.stop_asked())
+        left_out.push_back({what, why_ended(watch)});
+    else
+        try_part(what, watch, left_out, part);
+}
+
+/// The scene in both polarities, on its rock or on rock that radiates where it is massless.
+Scene scene_of_finite_elements(Scene given, std::string& change)
+{
+    given.motion.polarity.reset();
     if (rock_kind(given) != RockKind::massless || given.time.scheme == TimeScheme::central_difference) return given;
     change = "The scene says massless rock, which keeps every wave; the finite elements run on radiating rock, and on "
              "massless rock beside it.";
@@ -69,7 +87,7 @@ AssumptionRun run_assumption(const Assumption& assumption, const Assessment& a, 
     const ContactRun& worst = worst_of(a.runs);
     const Ready changed = prepare(scene, Method::finite_elements, worst_record(*a.fe, worst), {.stop = watch.stop()});
     FeOptions options;
-    options.polarity = worst.polarity * scene.motion.polarity.value_or(1);
+    options.polarity = worst.polarity;
     options.mesh_error = false;
     ContactRuns runs(changed, options, watch);
     const std::vector<ContactRun> done = runs.run();
@@ -130,22 +148,59 @@ std::vector<Assumption> assumptions_of(const Assessment& a)
     return list;
 }
 
-void run_screenings(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+/// The strongest part of a motion: `samples` about its largest acceleration.
+GroundMotion strongest_part(GroundMotion motion, std::size_t samples)
 {
-    a.ready = prepare(given, Method::rigid_block, {.flexible_modes = true, .stop = watch.stop()});
-    a.screening = run_screening(a.ready, options.jobs);
-    try_part("flexible block", a.left_out, [&] {
+    const auto stronger = [](double x, double y) { return std::abs(x) < std::abs(y); };
+    const auto peak = std::max_element(motion.accel_h.begin(), motion.accel_h.end(), stronger) - motion.accel_h.begin();
+    const std::size_t n = motion.accel_h.size(), half = std::min(samples / 2, static_cast<std::size_t>(peak)),
+                      first = std::min(static_cast<std::size_t>(peak) - half, n - std::min(n, samples));
+    for (std::vector<double>* accel : {&motion.accel_h, &motion.accel_v})
+        if (!accel->empty()) {
+            accel->erase(accel->begin(), accel->begin() + static_cast<std::ptrdiff_t>(first));
+            accel->resize(std::min(samples, accel->size()));
+        }
+    return motion;
+}
+
+/// What the flexible block takes [s], by longer and longer strongest parts of the first record until one of them tells.
+double price_of(const Ready& ready)
+{
+    constexpr double telling = 0.02; // [s]
+    const std::optional<sliding::FlexibleBlock> block = flexible_block(ready.scene);
+    if (!block || ready.records().empty()) return 0.0;
+    const RigidModel model = ready.rigid_model();
+    std::size_t samples = 0;
+    for (const RecordPair& pair : ready.records()) samples += pair.horizontal.acceleration.size();
+    const GroundMotion motion = ready.motion(ready.records().front());
+    for (std::size_t n = 8;; n *= 2) {
+        const Stopwatch clock;
+        slide_flexible(ready.scene, *block, model, strongest_part(motion, n), 1);
+        if (clock.seconds() > telling || n >= motion.accel_h.size())
+            return 2.0 * clock.seconds() * static_cast<double>(samples) / static_cast<double>(n); // both polarities
+    }
+}
+
+constexpr double cheap = 0.1; ///< share of the budget up to which the flexible block comes before the finite elements [-]
+
+/// The flexible block where it takes at most `most` seconds. @returns whether it is settled, run or not to be had
+bool run_flexible(const Scene& given, const AssessOptions& options, double most, const BudgetWatch& watch,
+                  Assessment& a)
+{
+    bool fits = true;
+    try_in_time("flexible block", watch, a.left_out, [&] {
         const Ready flexible = prepare(with_flexible_block(given), Method::rigid_block, a.ready.pairs,
                                        {.flexible_modes = true, .stop = watch.stop()});
-        a.flexible = run_screening(flexible, options.jobs);
+        fits = price_of(flexible) <= most;
+        if (fits) a.flexible = run_screening(flexible, options.jobs);
     });
-    try_part("response spectrum", a.left_out, [&] {
-        a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
-    });
-    try_part("effects in turn, rigid block", a.left_out, [&] {
-        a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
-        a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
-    });
+    return fits;
+}
+
+void run_rigid_block(const Scene& given, const AssessOptions& options, const BudgetWatch& watch, Assessment& a)
+{
+    a.ready = prepare(given, Method::rigid_block, {.flexible_modes = true, .stop = watch.stop()});
+    a.screening = run_screening(a.ready, options.jobs, RockingRuns::where_sliding_does_not_hold, FlexibleRuns::none);
 }
 
 /// Those first that move the block furthest, so that a time too short leaves out the harmless ones. As they are where the
@@ -192,28 +247,24 @@ bool has_run(const std::vector<ContactRun>& runs, const std::string& record, int
 }
 
 /// Records and polarities that the time did not hold.
-void name_missing_runs(Assessment& a)
+void name_missing_runs(const BudgetWatch& watch, Assessment& a)
 {
+    const std::vector<int> both = polarities_of(a.fe->scene);
     for (const RecordPair& pair : a.fe->records()) {
         const std::string& name = pair.files.name;
         std::vector<std::string> missing;
-        for (const int polarity : polarities_of({}, a.fe->scene))
-            if (const int shown = shown_polarity(a.fe->scene, polarity); !has_run(a.runs, name, shown))
-                missing.push_back(fmt::format(", polarity {:+d}", shown));
-        const bool whole = missing.size() == polarities_of({}, a.fe->scene).size();
+        for (const int polarity : both)
+            if (!has_run(a.runs, name, polarity)) missing.push_back(fmt::format(", polarity {:+d}", polarity));
+        const bool whole = missing.size() == both.size();
         for (const std::string& of : whole ? std::vector<std::string>{""} : missing)
-            a.left_out.push_back({"finite elements, record " + name + of, "the time was over"});
+            a.left_out.push_back({"finite elements, record " + name + of, why_ended(watch)});
     }
 }
 
 void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
 {
-    if (watch.stop_asked()) {
-        a.left_out.push_back({"finite elements", "the time was over"});
-        return;
-    }
     std::vector<ContactRun> coarse;
-    try_part("finite elements", a.left_out, [&] {
+    try_in_time("finite elements", watch, a.left_out, [&] {
         const Records records = worst_first(load_records(given, Method::finite_elements), a);
         a.fe = prepare(scene_of_finite_elements(given, a.rock_change), Method::finite_elements, records,
                        {.stop = watch.stop()});
@@ -228,16 +279,28 @@ void run_finite_elements(const Scene& given, BudgetWatch& watch, Assessment& a)
         if (has_run(a.runs, r.record, r.polarity)) continue;
         a.left_out.push_back({"finite elements, " + r.label() +
                                   ", on the scene's own elements (those of twice the size stand in their place)",
-                              "the time was over"});
+                              why_ended(watch)});
         a.runs.push_back(std::move(r));
     }
-    if (!a.runs.empty()) name_missing_runs(a);
+    if (!a.runs.empty()) name_missing_runs(watch, a);
+}
+
+/// What tells the levels apart, beside the finite elements.
+void run_checks(const Scene& given, const AssessOptions& options, BudgetWatch& watch, Assessment& a)
+{
+    try_in_time("response spectrum", watch, a.left_out, [&] {
+        a.spectrum = spectrum_level(prepare(given, Method::finite_elements, a.ready.pairs, {.stop = watch.stop()}));
+    });
+    try_in_time("effects in turn, rigid block", watch, a.left_out, [&] {
+        a.rigid_plan = make_ablations(a.ready.given, Method::rigid_block, seepage_points(a.ready.given));
+        a.rigid_ablation = run_ablations(*a.rigid_plan, a.ready.pairs, options.jobs, watch);
+    });
 }
 
 /// Variants on the worst record, each if its time, judged by those before it, is there.
 void run_variants(BudgetWatch& watch, Assessment& a)
 {
-    if (a.runs.empty() || !has_slip(worst_of(a.runs))) return;
+    if (a.runs.empty() || !all_answered(a.runs) || !has_slip(worst_of(a.runs))) return;
     // What a variant takes, at first that of the worst run, then the mean of those that ran; the watch ends one that
     // takes longer.
     double expected = worst_of(a.runs).fe.seconds.dynamics + worst_of(a.runs).fe.seconds.model, sum = 0.0;
@@ -248,10 +311,10 @@ void run_variants(BudgetWatch& watch, Assessment& a)
         return false;
     };
     const bool spread_fits = fits("massless rock and other water, finite elements", 2.0);
-    try_part("model spread", a.left_out, [&] { a.spread = model_spread(*a.fe, a.runs, spread_fits, watch); });
+    try_part("model spread", watch, a.left_out, [&] { a.spread = model_spread(*a.fe, a.runs, spread_fits, watch); });
     for (const ModelChoice& choice : a.spread) {
         if (choice.run && choice.status == Status::interrupted)
-            a.left_out.push_back({"finite elements, " + choice.what, "the time was over"});
+            a.left_out.push_back({"finite elements, " + choice.what, why_ended(watch)});
         else if (choice.run && choice.what != "other polarity")
             a.assumptions.push_back({.what = choice.what,
                                      .status = choice.status,
@@ -259,11 +322,11 @@ void run_variants(BudgetWatch& watch, Assessment& a)
                                      .without = {}});
     }
     std::vector<Assumption> list;
-    try_part("effects in turn, finite elements", a.left_out, [&] { list = assumptions_of(a); });
+    try_part("effects in turn, finite elements", watch, a.left_out, [&] { list = assumptions_of(a); });
     for (const Assumption& assumption : list) {
         if (!fits("finite elements, " + assumption.what, 1.0)) continue;
         const double before = watch.spent();
-        try_part("finite elements, " + assumption.what, a.left_out,
+        try_part("finite elements, " + assumption.what, watch, a.left_out,
                  [&] { a.assumptions.push_back(run_assumption(assumption, a, watch)); });
         sum += watch.spent() - before;
         expected = sum / ++done;
@@ -276,9 +339,14 @@ Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch
 {
     BudgetWatch budget(watch, options.budget);
     Assessment a;
-    run_screenings(given, options, budget, a);
+    run_rigid_block(given, options, budget, a);
+    const bool before = run_flexible(given, options, cheap * options.budget, budget, a);
     run_finite_elements(given, budget, a);
+    if (!before && !run_flexible(given, options, budget.left(), budget, a))
+        a.left_out.push_back({"flexible block", "the budget does not hold it"});
+    run_checks(given, options, budget, a);
     run_variants(budget, a);
+    a.interrupted = watch.stop_asked();
     a.seconds = budget.spent();
     judge_assessment(a);
     return a;

@@ -80,18 +80,22 @@ struct Assessment {
     std::vector<ModelChoice> spread;        ///< on the worst record
     std::vector<AssumptionRun> assumptions; ///< the same
     std::vector<LeftOut> left_out;
+    bool interrupted = false; ///< by the user: nothing is recommended
     double seconds = 0.0; ///< wall time
 
     std::vector<LevelSlip> levels;
     std::vector<Disagreement> disagreements;
     std::optional<Recommendation> recommended;
-    Verdict verdict = Verdict::none;
-    std::string verdict_reason; ///< one sentence
+    Verdict slip_verdict = Verdict::none;
+    std::string failed_checks;       ///< of the load combinations: sliding::failed_checks()
+    Verdict verdict = Verdict::none; ///< of the slip, FAIL where a check fails
+    std::string verdict_reason;      ///< of the slip's
 };
 
 /// Runs the levels in their order: limit equilibrium, regressions and blocks, response spectrum, finite elements on radiating
 /// rock with the scene's water on all records and both polarities, then their variants on the worst record, while the
-/// budget lasts. Numbers do not depend on the budget, only which of them are there.
+/// budget lasts. A flexible block that would take more than a tenth of the budget comes after the finite elements, if then.
+/// Numbers do not depend on the budget, only which of them are there.
 /// @param given  with a [section] and a record @throws InputError
 Assessment assess(const Scene& given, const AssessOptions& options, Watch& watch);
 
@@ -102,5 +106,8 @@ inline constexpr double disagreement_factor = 3.0; ///< from which on the reason
 
 /// The run of the recommended value. @pre a.runs is not empty
 const ContactRun& governing_run(const Assessment& a);
+
+/// exit_no_answer where the user interrupted it, a run has no answer, or nothing is recommended of a dam that does not fail.
+int exit_code_of(const Assessment& a);
 
 } // namespace damslip

@@ -6,14 +6,16 @@
 namespace damslip {
 
 /// A watch that also ends a computation when its time is over.
-class BudgetWatch final : public Watch {
+/// @tparam Clock  Stopwatch: wall time; ProcessorClock: processor time of the thread that made it
+template <class Clock> class BudgetWatchOf final : public Watch {
 public:
-    /// @param seconds  wall time from now on @param outer  outlives this
-    BudgetWatch(Watch& outer, double seconds) : outer_(outer), seconds_(seconds) {}
+    /// @param seconds  from now on @param outer  outlives this
+    BudgetWatchOf(Watch& outer, double seconds) : outer_(outer), seconds_(seconds) {}
 
     double left() const { return seconds_ - clock_.seconds(); } ///< [s]
     double spent() const { return clock_.seconds(); }           ///< [s]
     bool over() const { return left() <= 0.0; }
+    bool interrupted() const { return outer_.stop_asked(); } ///< by the user, not by the clock
 
     bool stop_asked() const override { return over() || outer_.stop_asked(); }
     void results_at_hand() override { outer_.results_at_hand(); }
@@ -25,7 +27,8 @@ public:
 private:
     Watch& outer_;
     double seconds_;
-    Stopwatch clock_;
+    Clock clock_;
 };
+using BudgetWatch = BudgetWatchOf<Stopwatch>;
 
 } // namespace damslip

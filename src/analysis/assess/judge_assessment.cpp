@@ -1,6 +1,7 @@
 #include "analysis/assess/assess.hpp"
 
 #include "core/units.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,7 @@ std::vector<Disagreement> disagreements_of(const Assessment& a)
 /// The worst run with its numerical error, the other polarity and the other water.
 std::optional<Recommendation> by_finite_elements(const Assessment& a)
 {
-    if (a.runs.empty()) return std::nullopt;
+    if (a.runs.empty() || !all_answered(a.runs)) return std::nullopt;
     const ContactRun& worst = worst_of(a.runs);
     const std::optional<double> slip = reported(worst.fe.status, std::abs(worst.fe.max_slip));
     if (!slip || status_row(worst.fe.status).slip != SlipMeaning::final) return std::nullopt;
@@ -195,25 +196,19 @@ bool all_records_ran(const Assessment& a)
     return true;
 }
 
-/// The first limit-equilibrium check that is not met.
-std::string failed_check(const Screening& s)
-{
-    for (const sliding::Equilibrium& e : s.combinations)
-        for (const sliding::Check& check : e.checks)
-            if (check.verdict == sliding::Verdict::fail)
-                return fmt::format("the check \"{}\" of combination {} is not met: {:.3g}, required {:.3g}",
-                                   check.quantity, e.name, check.value, check.required.value_or(0.0));
-    return "";
-}
-
 void judge_slip(Assessment& a)
 {
     using units::mm;
     const std::optional<double>& allowable = a.ready.given.criteria.allowable_slip;
+    if (a.interrupted) {
+        a.verdict_reason = "Interrupted: no slip is recommended.";
+        return;
+    }
     if (!a.recommended) {
         a.verdict = a.runs.empty() ? Verdict::none : verdict_of(a.runs, allowable);
-        a.verdict_reason = a.runs.empty() ? "No level has a slip to judge."
-                                          : fmt::format("Finite elements: {}.", word(worst_of(a.runs).fe.status));
+        a.verdict_reason = a.runs.empty()         ? "No level has a slip to judge."
+                           : all_answered(a.runs) ? fmt::format("Finite elements: {}.", word(worst_of(a.runs).fe.status))
+                                                  : "Finite elements without an answer: " + unanswered_words(a.runs) + ".";
         return;
     }
     const Recommendation& r = *a.recommended;
@@ -279,19 +274,24 @@ const ContactRun& governing_run(const Assessment& a)
 void judge_assessment(Assessment& a)
 {
     a.levels = levels_of(a);
-    a.recommended = a.runs.empty() ? by_blocks(a) : by_finite_elements(a);
+    if (!a.interrupted) a.recommended = a.runs.empty() ? by_blocks(a) : by_finite_elements(a);
     a.disagreements = disagreements_of(a);
     const RigidModel& model = a.screening.bases.front().model;
     if (model.state != sliding::StaticState::at_rest) {
-        a.verdict = Verdict::fail;
+        a.slip_verdict = a.verdict = Verdict::fail;
         a.verdict_reason = "The dam does not stand without any earthquake: " + model.why_it_fails() + ".";
         return;
     }
     judge_slip(a);
-    if (const std::string failed = failed_check(a.screening); !failed.empty() && a.verdict != Verdict::fail) {
-        a.verdict = Verdict::fail;
-        a.verdict_reason = "Limit equilibrium: " + failed + ".";
-    }
+    a.slip_verdict = a.verdict;
+    a.failed_checks = sliding::failed_checks(a.screening.combinations);
+    if (!a.failed_checks.empty()) a.verdict = Verdict::fail;
+}
+
+int exit_code_of(const Assessment& a)
+{
+    if (a.interrupted || !all_answered(a.runs)) return exit_no_answer;
+    return a.recommended || a.verdict == Verdict::fail ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip

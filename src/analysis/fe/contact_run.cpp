@@ -41,6 +41,23 @@ bool has_slip(const ContactRun& r)
     return reported(r.fe.status, r.fe.max_slip).has_value();
 }
 
+bool all_answered(const std::vector<ContactRun>& runs)
+{
+    return std::all_of(runs.begin(), runs.end(), [](const ContactRun& r) { return is_answer(r.fe.status); });
+}
+
+std::string unanswered_words(const std::vector<ContactRun>& runs)
+{
+    std::string words;
+    for (const ContactRun& r : runs) {
+        if (is_answer(r.fe.status)) continue;
+        const std::optional<double> walked = walked_at_least(r.fe.status, r.fe.slip);
+        words += fmt::format("{}{}, polarity {:+d} {}{}", words.empty() ? "" : "; ", r.record, r.polarity,
+                             word(r.fe.status), walked ? fmt::format(", slid at least {:.4g} mm", 1e3 * *walked) : "");
+    }
+    return words;
+}
+
 std::optional<double> walked_at_least(Status status, double slip)
 {
     return status == Status::self_excited ? std::optional(std::abs(slip)) : std::nullopt;
@@ -106,6 +123,7 @@ Verdict verdict_of(const ContactRun& r, const std::optional<double>& allowable)
     Verdict verdict = judge(r.fe.status, r.fe.max_slip, slip_error(r).total, allowable);
     for (std::size_t k = 0; k < r.fe.lifts.size(); ++k)
         verdict = worse(verdict, judge(r.fe.status, r.fe.lifts[k].largest_slip, lift_error(r, k).total, allowable));
+    if (r.leaves_out) verdict = worse(verdict, Verdict::undecided);
     return open_after(r) ? worse(verdict, Verdict::none) : verdict;
 }
 
@@ -146,6 +164,7 @@ ContactRun as_contact_run(const ReducedRecord& r)
     run.both = r.both;
     run.mesh = r.mesh;
     run.rigid = r.rigid;
+    run.leaves_out = r.leaves_out;
     run.fe.status = r.result.status;
     run.fe.message = r.result.message;
     run.fe.stages = r.result.stages;

@@ -22,6 +22,7 @@ struct ContactRun {
     int polarity = 1;                          ///< -1: the record's horizontal component is flipped
     bool both = false;                         ///< the other polarity was run, too
     MeshError mesh;
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on the slip
 
     std::string label() const;  ///< the record, with its polarity where both were run: "El Centro NS, polarity -1"
     std::string suffix() const; ///< of file names: "_+1", "_-1"; empty where one polarity was run
@@ -41,6 +42,11 @@ SlipError lift_error(const ContactRun& run, std::size_t lift);
 
 /// Does its status have a slip?
 bool has_slip(const ContactRun& run);
+
+/// Has every run an answer, one that fails included?
+bool all_answered(const std::vector<ContactRun>& runs);
+/// "EC8, polarity -1 self-excited, walked ≥ 409 mm": the runs without an answer; empty where all have one.
+std::string unanswered_words(const std::vector<ContactRun>& runs);
 
 /// How far a dam that goes on by itself had come when the run ended [m]; none for all others.
 std::optional<double> walked_at_least(Status status, double slip);
@@ -76,6 +82,7 @@ struct ReducedRecord {
     bool both = false; ///< the other polarity was run, too
     MeshError mesh;
     std::optional<sliding::SlideResult> rigid; ///< none where the block slides statically
+    bool leaves_out = false;                   ///< as ContactRun::leaves_out
 };
 
 /// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.

@@ -3,6 +3,7 @@
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "scene/exact_contact.hpp"
+#include "scene/key_methods.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -26,19 +27,8 @@ fe2d::RunAnswer answer(const Watch& watch)
 
 } // namespace
 
-std::vector<int> polarities_of(const FeOptions& options, const Scene& scene)
-{
-    if (options.polarity || scene.motion.polarity) return {options.polarity.value_or(1)};
-    return {1, -1};
-}
-
-int shown_polarity(const Scene& scene, int polarity)
-{
-    return scene.motion.polarity.value_or(1) * polarity;
-}
-
 ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(options, ready.scene)),
+    : ready_(ready), watch_(watch), meter_(watch), polarities_(polarities_of(ready.scene, options.polarity)),
       jobs_(options.jobs), options_(ready.run_options(watch)),
       coarser_(
           ready, options.mesh_error && !options.start,
@@ -67,6 +57,7 @@ ContactRuns::ContactRuns(const Ready& ready, const FeOptions& options, Watch& wa
                                     "the state of the same model", "write the state anew with  --state-out"});
     if (const std::optional<Scene> exact = with_exact_contact(ready.scene)) exact_.emplace(*exact, plain);
     rigid_ = ready.rigid_model();
+    combinations_ = ready.combinations();
 }
 
 std::size_t ContactRuns::whole() const
@@ -99,8 +90,9 @@ std::vector<ContactRun> ContactRuns::run(const RecordPair& pair, std::vector<Gro
         motions[i] = ready_.motion(pair, 1.0, polarities_[i]);
         ContactRun& r = runs[i];
         r.record = pair.files.name;
-        r.polarity = shown_polarity(ready_.scene, polarities_[i]);
+        r.polarity = polarities_[i];
         r.both = polarities_.size() > 1;
+        r.leaves_out = !not_honoured(ready_.scene, methods::fe).empty();
         run(motions[i], r);
     });
     return runs;
@@ -118,7 +110,7 @@ void ContactRuns::run(const GroundMotion& motion, ContactRun& r)
 }
 
 ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarities_(polarities_of(options, ready.scene)), jobs_(options.jobs),
+    : ready_(ready), watch_(watch), polarities_(polarities_of(ready.scene, options.polarity)), jobs_(options.jobs),
       options_(ready.run_options(watch)), modes_(options.modes.value_or(fe2d::default_modes)),
       coarser_(ready, options.mesh_error, options_.progress, watch, modes_)
 {
@@ -129,6 +121,7 @@ ReducedRuns::ReducedRuns(const Ready& ready, const FeOptions& options, Watch& wa
     full_.emplace(ready.scene, options_);
     model_.emplace(*full_, ready.scene, options_, modes_);
     rigid_ = ready.rigid_model();
+    combinations_ = ready.combinations();
 }
 
 std::size_t ReducedRuns::whole() const
@@ -147,8 +140,9 @@ std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
             ReducedRecord& run = both[i];
             run.record = pair.files.name;
             run.motion = ready_.motion(pair, 1.0, polarities_[i]);
-            run.polarity = shown_polarity(ready_.scene, polarities_[i]);
+            run.polarity = polarities_[i];
             run.both = polarities_.size() > 1;
+            run.leaves_out = !not_honoured(ready_.scene, methods::reduced).empty();
             run.result = model_->run(run.motion);
             watch_.results_at_hand();
             run.mesh = coarser_.error_of(run.result, run.motion);

@@ -12,7 +12,7 @@
 namespace damslip {
 
 struct FeOptions {
-    std::optional<int> polarity = {}; ///< -1 flips the horizontal component; none: the scene's, else both are run
+    std::optional<int> polarity = {}; ///< polarities_of() the scene where it is none
     bool mesh_error = true;           ///< one more run on elements of twice the size tells what the mesh leaves open
     bool pair_histories = false;      ///< keep the values of the pairs at every step, for files and pages
     int frames = 0;                   ///< kept over the record, for pictures; 0: none
@@ -20,12 +20,6 @@ struct FeOptions {
     std::optional<fe2d::RunState> start = {}; ///< of the joints, from a run before; no mesh error then
     int jobs = 0;                             ///< threads, for polarities side by side; 0: all cores
 };
-
-/// What is run of each record: +1 and -1, or the one that scene or options ask for. On top of motion.polarity.
-std::vector<int> polarities_of(const FeOptions& options, const Scene& scene);
-
-/// Against the record as it is: that of the scene counted in.
-int shown_polarity(const Scene& scene, int polarity);
 
 /// The models of one scene, and the runs on them: static stages, earthquake with exact Coulomb contact, run-out, static
 /// state after it; the rigid block's slip beside it; where the contact law gives way, the same run with exact contact.
@@ -41,6 +35,7 @@ public:
     {
         return options_.uplift;
     }                                                     ///< before the earthquake, distance [m], pressure [Pa]
+    const std::vector<sliding::Equilibrium>& combinations() const { return combinations_; } ///< Ready::combinations()
     bool gives_way() const { return exact_.has_value(); } ///< is each run compared with exact contact?
     std::size_t whole() const;                            ///< runs of all records and polarities
 
@@ -64,6 +59,7 @@ private:
     CoarserMesh coarser_;
     std::optional<fe2d::EarthquakeRun> model_, exact_;
     RigidModel rigid_;
+    std::vector<sliding::Equilibrium> combinations_;
 };
 
 /// The same on few modes of the dam: static stages by the full model, the slip with an estimate of what the reduction
@@ -77,6 +73,7 @@ public:
     const fe2d::EarthquakeRun& full() const { return *full_; }
     const RigidModel& rigid() const { return rigid_; }
     const PressureProfile& uplift() const { return options_.uplift; }
+    const std::vector<sliding::Equilibrium>& combinations() const { return combinations_; } ///< Ready::combinations()
     std::size_t whole() const;
 
     using TakeRun = std::function<void(ReducedRecord& run)>;
@@ -93,6 +90,7 @@ private:
     std::optional<fe2d::ReducedRun> model_;
     CoarserMesh coarser_;
     RigidModel rigid_;
+    std::vector<sliding::Equilibrium> combinations_;
 };
 
 } // namespace damslip

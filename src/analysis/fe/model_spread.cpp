@@ -50,7 +50,7 @@ ModelChoice run_other(const Other& other, const Ready& ready, const ContactRun& 
     const Ready changed =
         prepare(other.scene, Method::finite_elements, record_of(ready, worst), {.stop = watch.stop()});
     FeOptions options;
-    options.polarity = worst.polarity * other.scene.motion.polarity.value_or(1);
+    options.polarity = worst.polarity;
     options.mesh_error = false;
     ContactRuns runs(changed, options, watch);
     const std::vector<ContactRun> done = runs.run();

@@ -69,7 +69,7 @@ TiedModels::TiedModels(const Scene& scene, const fe2d::ModelOptions& options) : 
 }
 
 TiedRuns::TiedRuns(const Ready& ready, const FeOptions& options, Watch& watch)
-    : ready_(ready), watch_(watch), polarity_(options.polarity.value_or(1)), models_(ready.scene, model_options(ready))
+    : ready_(ready), watch_(watch), polarity_(polarities_of(ready.scene, options.polarity).front()), models_(ready.scene, model_options(ready))
 {
     const Scene& scene = ready.scene;
     if (!scene.motion.sequence.empty())
@@ -113,7 +113,7 @@ TiedRun TiedRuns::run(const GroundMotion& motion) const
     const Scene& scene = ready_.scene;
     const fe2d::Model& damped = models_.damped();
     TiedRun run{motion.name, {}, motion.notes, 0.0, motion};
-    run.polarity = shown_polarity(scene, polarity_);
+    run.polarity = polarity_;
     fe2d::TiedRunOptions options;
     options.scheme = fe2d::scheme_of(scene.time);
     options.dt = scene.time.dt;

@@ -29,7 +29,7 @@ double factor_with_slip(const sliding::SkippingMotion& motion, double yield, dou
     return 0.5 * (low + high);
 }
 
-/// Yields of all draws. Rows from a journal come without: one sample of each such draw is run again.
+/// Yields of all draws. Rows from a store come without: one sample of each such draw is run again.
 std::vector<double> yields_of_draws(const FragilityPlan& plan, const FragilityRuns& runs, const SceneText& text,
                                     const SweepMethod& method, int jobs)
 {

@@ -70,7 +70,7 @@ public:
         FragilityInput others = input;
         others.probability.samples.reset();
         others.probability.variables.erase(others.probability.variables.begin() + static_cast<std::ptrdiff_t>(place_));
-        const bool both = input.suite && input.suite->polarity == SuitePolarity::both;
+        const bool both = input.suite.value_or(SuiteInput{}).polarity == SuitePolarity::both;
         const std::size_t ways = suite.pairs->size() * (both ? 2 : 1);
         const std::size_t whole = ways * ((motions + ways - 1) / ways); // each record with each polarity as often
         const auto replicates = static_cast<std::size_t>(std::max(1, input.probability.replicates));

@@ -201,7 +201,7 @@ struct ShakenWays {
 
 ShakenWays shaken_ways(const FragilityInput& input, const ShakingSuite& suite)
 {
-    const SuitePolarity wanted = input.suite ? input.suite->polarity : SuitePolarity::as_recorded;
+    const SuitePolarity wanted = input.suite.value_or(SuiteInput{}).polarity;
     ShakenWays ways;
     for (std::size_t r = 0; r < suite.pairs->size(); ++r)
         for (const int polarity : {1, -1}) {

@@ -76,12 +76,12 @@ bool draws_motion(const FragilityPlan& plan)
 /// Rows of samples as they finish, from several threads.
 class SampleStore {
 public:
-    SampleStore(FragilityRuns& runs, Journal* journal, Watch& watch) : runs_(runs), journal_(journal), watch_(watch) {}
+    SampleStore(FragilityRuns& runs, ResultStore* kept, Watch& watch) : runs_(runs), kept_(kept), watch_(watch) {}
 
     void finish(const std::vector<FinishedRow>& rows)
     {
-        if (journal_)
-            journal_->append(rows);
+        if (kept_)
+            kept_->append(rows);
         else
             watch_.results_at_hand();
         const std::lock_guard lock(mutex_);
@@ -89,12 +89,12 @@ public:
     }
     void begin(std::span<const std::size_t> ids)
     {
-        if (journal_) journal_->begin(ids);
+        if (kept_) kept_->begin(ids);
     }
 
 private:
     FragilityRuns& runs_;
-    Journal* journal_;
+    ResultStore* kept_;
     Watch& watch_;
     std::mutex mutex_;
 };
@@ -264,7 +264,7 @@ private:
 void run_rigid(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method, const SampleIds& wanted,
                SampleStore& store, int jobs, Watch& watch, FragilityRuns& runs)
 {
-    constexpr std::size_t draws_at_once = 16; // written to the journal together
+    constexpr std::size_t draws_at_once = 16; // stored together
     const ProcessorClock clock(ProcessorTimeOf::process);
     RigidSamples samples(plan, text, method);
     watch.begin(method.kind == SweepKind::rocking ? "fragility, rocking block" : "fragility, rigid block",
@@ -305,7 +305,7 @@ std::vector<MotionGroup> motion_groups(const FragilityPlan& plan, const SampleId
         const FragilitySample& s = plan.samples[id];
         if (!runs.rows.has(id)) found[{words[s.draw], s.level, s.record, s.polarity}].push_back(id);
     }
-    constexpr std::size_t most_together = 64; // what goes through an earthquake together, and into the journal at once
+    constexpr std::size_t most_together = 64; // what goes through an earthquake together, and into the store at once
     std::vector<MotionGroup> groups;
     for (const auto& [key, ids] : found)
         for (std::size_t first = 0; first < ids.size(); first += most_together)
@@ -517,11 +517,11 @@ FragilityRuns no_runs(const FragilityPlan& plan, std::size_t wanted, Yields yiel
     return runs;
 }
 
-void take_finished(const Journal& journal, std::size_t first, std::size_t last, FragilityRuns& runs)
+void take_finished(const ResultStore& store, std::size_t first, std::size_t last, FragilityRuns& runs)
 {
     constexpr std::size_t at_once = 4096; // rows that are not packed yet
     for (std::size_t from = first; from <= last; from += at_once)
-        for (const FinishedRow& row : journal.finished_rows(from, std::min(last, from + at_once - 1))) {
+        for (const FinishedRow& row : store.rows(from, std::min(last, from + at_once - 1))) {
             ++runs.found;
             runs.rows.put(row);
         }
@@ -566,18 +566,20 @@ SampleIds wanted_samples(const FragilityPlan& plan, const Shard& shard)
 }
 
 FragilityRuns run_fragility(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
-                            const SampleIds& wanted, Journal* journal, int jobs, Watch& watch, Yields yields)
+                            const SampleIds& wanted, ResultStore* kept, int jobs, Watch& watch, Yields yields)
 {
     FragilityRuns runs = no_runs(plan, wanted.size(), yields);
-    SampleStore store(runs, journal, watch);
-    if (journal && !wanted.empty()) take_finished(*journal, wanted[0], wanted[wanted.size() - 1], runs);
+    SampleStore store(runs, kept, watch);
+    if (kept && !wanted.empty()) take_finished(*kept, wanted[0], wanted[wanted.size() - 1], runs);
     if (method.kind != SweepKind::finite_elements) {
         run_rigid(plan, text, method, wanted, store, jobs, watch, runs);
+        if (kept) kept->flush();
         return runs;
     }
     const std::vector<MotionGroup> groups = motion_groups(plan, wanted, runs);
     watch.begin("fragility, finite elements", static_cast<double>(wanted.size() - runs.found));
     FiniteElementSamples(plan, text, method, watch).run(groups, store, jobs, runs);
+    if (kept) kept->flush();
     watch.end();
     return runs;
 }

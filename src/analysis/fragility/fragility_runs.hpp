@@ -11,7 +11,7 @@ namespace damslip {
 struct FragilityRuns {
     PackedRows rows;           ///< by id of sample; empty: not run
     std::vector<double> yield; ///< downstream yield acceleration of each draw's rigid block [m/s^2]; NaN: not known
-    std::size_t wanted = 0, found = 0; ///< asked for; taken from the journal
+    std::size_t wanted = 0, found = 0; ///< asked for; taken from the store
     double seconds = 0.0;              ///< processor time of those run here
     std::size_t set_ups = 0;           ///< rigid models, or finite-element models, made
     std::set<std::string> failures;    ///< why models could not be made, a sentence each
@@ -29,8 +29,8 @@ enum class Yields { kept, dropped };
 /// None are finished.
 FragilityRuns no_runs(const FragilityPlan& plan, std::size_t wanted, Yields yields = Yields::kept);
 
-/// Takes those of the ids first ... last that a journal has.
-void take_finished(const Journal& journal, std::size_t first, std::size_t last, FragilityRuns& runs);
+/// Takes those of the ids first ... last that a store has.
+void take_finished(const ResultStore& store, std::size_t first, std::size_t last, FragilityRuns& runs);
 
 /// All that the samples depend on: the scene, the records, the plan.
 SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& text, const std::string& method);
@@ -40,10 +40,10 @@ SweepIdentity fragility_identity(const FragilityPlan& plan, const SceneText& tex
 /// Rigid: the seepage of draws that differ in strength and density alone is solved once, and so is what stands below draws that differ in
 /// friction alone. Finite elements: mesh and matrices of draws that differ in friction alone are made once; all frictions that meet the
 /// same motion go through the earthquake together; on few modes (fe-reduced) one after the other. The answers do not depend on the number of threads, nor on which samples are wanted.
-/// Memory grows by FragilityRuns and the plan alone. @param journal  nullptr: none
+/// Memory grows by FragilityRuns and the plan alone. @param kept  nullptr: none
 /// @throws InputError where the values of a draw make no scene
 FragilityRuns run_fragility(const FragilityPlan& plan, const SceneText& text, const SweepMethod& method,
-                            const SampleIds& wanted, Journal* journal, int jobs, Watch& watch,
+                            const SampleIds& wanted, ResultStore* kept, int jobs, Watch& watch,
                             Yields yields = Yields::kept);
 
 /// Wall time that the threads of this program have spent in the solvers of run_fragility() so far, one added to the other: set-up and steps of finite

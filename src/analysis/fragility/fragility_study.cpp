@@ -6,6 +6,7 @@
 #include "analysis/prepare/reducible.hpp"
 #include "core/usage_error.hpp"
 #include "scene/effect_plan.hpp"
+#include "scene/plausible.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -124,10 +125,7 @@ FragilityStudy open_fragility(SceneText text, Scene scene, FragilityInput input,
 
 void allow_any_scaling(FragilityInput& input)
 {
-    if (!input.suite) {
-        input.suite.emplace();
-        input.suite->polarity = SuitePolarity::as_recorded;
-    }
+    if (!input.suite) input.suite.emplace();
     input.suite->allow_scaling = true;
 }
 
@@ -198,6 +196,8 @@ FragilityAnswer answer_fragility(const FragilityStudy& study, const FragilityPla
                                          input.hazard ? input.hazard->all_events : std::nullopt, conditioned);
     answer.conditioned = conditioned;
     answer.notes = study.suite.notes;
+    for (std::string& note : note_texts(not_honoured(study.text.scene(), methods_of({study.method}))))
+        answer.notes.push_back(std::move(note));
     if (conditioned) answer.notes.insert(answer.notes.end(), conditioned->notes.begin(), conditioned->notes.end());
     if (runs.complete()) {
         capacities_by_roots(answer.estimate, plan, runs, study.text, study.method, extras.jobs);

@@ -32,14 +32,14 @@ const std::optional<FinishedRow> PackedRows::operator[](std::size_t id) const
     row.good = (state_[id] & bad_run) == 0;
     row.results.status = statuses_[(state_[id] & ~bad_run) - 1u];
     for (std::size_t i = 0; i < figures_.size(); ++i)
-        if (!figures_[i].empty() && is_figure(figures_[i][id])) row.results.*row_numbers[i] = figures_[i][id];
+        if (!figures_[i].empty() && is_figure(figures_[i][id])) row.results.*row_numbers[i].value = figures_[i][id];
     return row;
 }
 
 void PackedRows::put(const FinishedRow& row)
 {
     for (std::size_t i = 0; i < figures_.size(); ++i) {
-        const std::optional<double>& figure = row.results.*row_numbers[i];
+        const std::optional<double>& figure = row.results.*row_numbers[i].value;
         if (figure && figures_[i].empty()) figures_[i].assign(size(), std::bit_cast<double>(no_figure));
         if (!figures_[i].empty()) figures_[i][row.id] = figure.value_or(std::bit_cast<double>(no_figure));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/sweep/sweep_journal.hpp"
+#include "analysis/sweep/result_store.hpp"
 
 #include <array>
 

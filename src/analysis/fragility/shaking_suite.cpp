@@ -2,8 +2,10 @@
 
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/record_list.hpp"
+#include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "records/measure/measures.hpp"
+#include "records/read/component.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 
@@ -93,6 +95,13 @@ Record other_horizontal(const RecordPair& pair, const Record& first)
     records::ReadOptions options;
     options.unit = pair.files.unit;
     options.dt = pair.files.dt;
+    if (*pair.files.other_horizontal ==
+        pair.files.horizontal) // of one file: the horizontal channel that is not the first
+        for (const Record& channel :
+             records::parse_record(read_file(pair.files.horizontal), pair.files.horizontal.string(), options))
+            if (records::component_in(channel.source.component) == records::Component::horizontal &&
+                channel.source.component != pair.horizontal.source.component)
+                options.column = channel.source.component;
     const Record other = records::read_record(*pair.files.other_horizontal, options);
     const double read = records::measure(pair.horizontal).pga;
     return records::scaled(other, read > 0.0 ? records::measure(first).pga / read : 1.0);
@@ -130,7 +139,7 @@ ShakingSuite measured_suite(const Scene& scene, Records pairs, const IntensityIn
                                         fmt::format("{} of this record is 0.", intensity.text), "a record that shakes",
                                         "leave it out"});
         const std::string& sum = pair.horizontal.source.sha256;
-        if (const auto [at, fresh] = seen.emplace(sum, name); !sum.empty() && !fresh)
+        if (const auto [at, fresh] = seen.emplace(sum + " " + pair.files.column, name); !sum.empty() && !fresh)
             throw InputError(Diagnostic{pair.files.horizontal.string(), 0, 0,
                                         fmt::format("the records \"{}\" and \"{}\" are the same.", at->second, name),
                                         "each record once; how often one is met is its weight", "leave one out"});

@@ -7,11 +7,15 @@
 #include "fe2d/time/coupled_structure.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/frequency_content.hpp"
+#include "scene/key_methods.hpp"
 #include "scene/opening_water.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "scene/write.hpp"
+#include "sliding/equilibrium/combinations.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace damslip {
 
@@ -43,6 +47,22 @@ fe2d::CrackedUplift cracked_uplift(const Scene& scene, const UpliftState& state,
     };
 }
 
+/// That of the post-seismic combination (sliding::after_earthquake()), in which a crack takes water where uplift.crack lets it; with
+/// uplift.after = "full" in every case, and the drains then work where it has not reached them.
+fe2d::CrackedUplift uplift_after(const Scene& scene, const std::shared_ptr<SeepageSource>& seepage, bool drains_lost = false)
+{
+    if (!scene.uplift) return {};
+    const Combination after = sliding::after_earthquake(scene);
+    const bool full = scene.uplift->water.after == WaterAfter::full;
+    UpliftState water = scene_uplift_state(scene);
+    water.drains = full || after.drains_effective ? DrainState::effective : DrainState::ineffective;
+    if (drains_lost) water.drains = DrainState::ineffective;
+    water.curtain = !full && after.curtain_intact ? CurtainState::intact : CurtainState::damaged;
+    fe2d::CrackedUplift cracked = cracked_uplift(scene, water, seepage);
+    if (full || after.crack.value_or(scene.uplift->crack) != CrackRule::none) return cracked;
+    return [cracked](double, double) { return cracked(0.0, 0.0); };
+}
+
 fe2d::RayleighConstants damping_by_record(const Scene& scene, const fe2d::ModelOptions& options,
                                           const GroundMotion& motion)
 {
@@ -69,6 +89,15 @@ std::vector<RecordFiles> files_of(const std::vector<RecordPair>& records)
     return files;
 }
 
+/// Beside what else is said of the scene, once.
+void note_not_honoured(Scene& scene, Methods set)
+{
+    for (Diagnostic& note : not_honoured(scene, set))
+        if (std::none_of(scene.notes.begin(), scene.notes.end(),
+                         [&](const Diagnostic& n) { return n.problem == note.problem; }))
+            scene.notes.push_back(std::move(note));
+}
+
 } // namespace
 
 GroundMotion Ready::motion(const RecordPair& pair, double scale, int polarity) const
@@ -80,6 +109,17 @@ GroundMotion Ready::motion(const RecordPair& pair, double scale, int polarity) c
 RigidModel Ready::rigid_model(std::optional<CrackRule> crack) const
 {
     return make_rigid_model(scene, seepage->profile_of(scene), crack, crack ? nullptr : statics.get());
+}
+
+std::vector<sliding::Equilibrium> Ready::combinations() const
+{
+    sliding::PeakGround peak;
+    for (const RecordPair& pair : records()) {
+        const GroundMotion shaking = motion(pair);
+        for (const double a : shaking.accel_h) peak.a_h = std::max(peak.a_h, std::abs(a));
+        for (const double a : shaking.accel_v) peak.a_v = std::max(peak.a_v, std::abs(a));
+    }
+    return sliding::evaluate_combinations(scene, peak, seepage->profile_of(scene));
 }
 
 double Ready::wave_frequency() const
@@ -105,28 +145,23 @@ fe2d::RunOptions Ready::run_options(const Watch& watch) const
 {
     fe2d::RunOptions options;
     options.added_mass = added_mass_law(scene);
-    UpliftState water = scene_uplift_state(scene);
-    options.uplift = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift = uplift_of(scene, scene_uplift_state(scene), seepage->profile_of(scene));
     if (has_water_in_rock(scene))
         options.water_in_rock = [scene = scene](const fe2d::Model& model) { return water_in_rock(scene, model); };
-    water.drains = DrainState::ineffective; // after the earthquake
-    water.curtain = CurtainState::damaged;
-    options.uplift_after = uplift_of(scene, water, seepage->profile_of(scene));
+    options.uplift_after = uplift_after(scene, seepage);
     if (scene.uplift && scene.uplift->water.follows()) {
         options.cracked_uplift = cracked_uplift(scene, scene_uplift_state(scene), seepage);
-        if (scene.uplift->water.after == WaterAfter::full) {
-            water.drains = DrainState::effective; // where the crack has not reached them
-            options.cracked_uplift_after = cracked_uplift(scene, water, seepage);
-        }
+        if (scene.uplift->water.after == WaterAfter::full) options.cracked_uplift_after = options.uplift_after;
     }
     if (drains_shear_off(scene)) {
-        water = scene_uplift_state(scene);
+        UpliftState water = scene_uplift_state(scene);
         water.drains = DrainState::ineffective;
         // A dam that yields has slipped a little before it slides.
         options.drain_loss = fe2d::DrainLoss{std::max(*scene.drains->lost_at_slip, options.smallest_slip),
                                              uplift_of(scene, water, seepage->profile_of(scene)),
                                              cracked_uplift(scene, water, seepage),
-                                             {}};
+                                             {},
+                                             uplift_after(scene, seepage, true)};
         water.curtain = CurtainState::damaged;
         if (options.cracked_uplift_after) options.drain_loss->cracked_after = cracked_uplift(scene, water, seepage);
     }
@@ -158,6 +193,9 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     if (records) given.motion.records = files_of(*records);
     ready.pairs = records ? std::move(records) : std::make_shared<const std::vector<RecordPair>>();
     if (options.flexible_modes) ready.flexible_modes = resolve_flexible_modes(given);
+    note_not_honoured(given, method == Method::finite_elements
+                                 ? methods::fe | methods::reduced
+                                 : methods::rigid | methods::flexible | methods::regressions);
     ready.plan = make_effect_plan(given, method);
     ready.scene = called_for(ready.plan, given);
     if (method == Method::finite_elements) {
@@ -174,8 +212,11 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
 
 Ready prepare(Scene given, Method method, const PrepareOptions& options)
 {
+    std::string hash = scene_hash(given);
     Records records = load_records(given, method);
-    return prepare(std::move(given), method, std::move(records), options);
+    Ready ready = prepare(std::move(given), method, std::move(records), options);
+    ready.plan.scene_hash = std::move(hash);
+    return ready;
 }
 
 Records load_records(const Scene& given, Method method)

@@ -5,6 +5,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/watch.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <memory>
 
@@ -37,12 +38,15 @@ struct Ready {
     const std::vector<RecordPair>& records() const { return *pairs; }
 
     /// Both components of a record on one grid, scaled as scene and record say; the vertical one where the plan has it.
-    /// @param scale, polarity  on top of the scene's
+    /// @param scale  on top of the scene's; @param polarity  as of ground_motion(): motion.polarity is the caller's, by polarities_of()
     GroundMotion motion(const RecordPair& pair, double scale = 1.0, int polarity = 1) const;
 
     /// @param crack  in place of the scene's uplift.crack, if given
     /// @throws InputError, NotConverged  of the seepage
     RigidModel rigid_model(std::optional<CrackRule> crack = std::nullopt) const;
+
+    /// Limit equilibrium of the scene's load combinations, the state after the earthquake among them.
+    std::vector<sliding::Equilibrium> combinations() const;
 
     /// Up to which waves in radiating rock matter: where the records have their energy, and not below what landings and the
     /// modes of usual dams ask for [Hz].

@@ -6,6 +6,7 @@
 #include "core/number.hpp"
 #include "core/text.hpp"
 #include "records/generate/seed_list.hpp"
+#include "records/read/read_record.hpp"
 #include "scene/read.hpp"
 
 #include <algorithm>
@@ -13,12 +14,14 @@
 #include <fmt/format.h>
 #include <glob.h>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace damslip {
 
 namespace {
 
-using Kind = ComponentName::Kind;
+using records::Component;
 
 std::string in_capitals(std::string text)
 {
@@ -26,36 +29,62 @@ std::string in_capitals(std::string text)
     return text;
 }
 
-Kind kind_of(const std::string& word)
+std::string in_small_letters(std::string_view text)
 {
-    for (const char* vertical : {"V", "Z", "UP", "UD", "DN", "DWN", "DOWN", "VER", "VERT", "VRT", "UD1", "UD2"})
-        if (word == vertical) return Kind::vertical;
-    for (const char* horizontal :
-         {"H", "H1", "H2", "N", "E", "S", "W", "NS", "EW", "SN", "WE", "X", "Y", "L", "T", "NS1", "NS2", "EW1", "EW2"})
-        if (word == horizontal) return Kind::horizontal;
-    return Kind::none;
+    std::string small(text);
+    for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return small;
 }
 
-constexpr const char* columns_of_a_list = "horizontal, vertical, other_horizontal, event, weight, magnitude, scale";
+constexpr const char* columns_of_a_list =
+    "horizontal, vertical, other_horizontal, column, vertical_column, event, weight, magnitude, scale";
 
 bool is_digit(char c)
 {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// Three digits at the end that are an angle, after something that is no digit.
-bool ends_with_azimuth(const std::string& stem)
+/// Three digits that are an angle.
+bool is_azimuth(std::string_view angle)
 {
-    if (stem.size() < 4) return false;
-    const std::string angle = stem.substr(stem.size() - 3);
-    return std::all_of(angle.begin(), angle.end(), is_digit) && std::stoi(angle) <= 360 &&
-           !is_digit(stem[stem.size() - 4]);
+    return angle.size() == 3 && std::all_of(angle.begin(), angle.end(), is_digit) &&
+           std::stoi(std::string(angle)) <= 360;
 }
 
-std::string without_separator(std::string text)
+constexpr std::string_view separators = "_-. ";
+
+/// The name without its part from `begin` to `end`, with one separator for two.
+std::string without_part(std::string_view name, std::size_t begin, std::size_t end)
 {
-    while (!text.empty() && std::string_view("_-. ").find(text.back()) != std::string_view::npos) text.pop_back();
-    return text;
+    const std::size_t left = name.substr(0, begin).find_last_not_of(separators);
+    const std::size_t right = name.find_first_not_of(separators, end);
+    const std::string before(left == std::string_view::npos ? "" : name.substr(0, left + 1));
+    const std::string after(right == std::string_view::npos ? "" : name.substr(right));
+    return before + (before.empty() || after.empty() ? "" : std::string(1, name[begin - 1])) + after;
+}
+
+/// Parts of a name between separators, "N-S", "E-W" and "U-D" being one.
+struct NamePart {
+    std::size_t begin, end;
+    std::string word; ///< in lower case, without separators
+};
+
+std::vector<NamePart> parts_of(std::string_view stem)
+{
+    std::vector<NamePart> parts;
+    for (std::size_t at = 0; (at = stem.find_first_not_of(separators, at)) != std::string_view::npos;) {
+        const std::size_t end = std::min(stem.find_first_of(separators, at), stem.size());
+        parts.push_back({at, end, in_small_letters(stem.substr(at, end - at))});
+        at = end;
+        if (parts.size() < 2) continue;
+        const NamePart& before = parts[parts.size() - 2];
+        const std::string both = before.word + parts.back().word;
+        if (both != "ns" && both != "ew" && both != "ud" && both != "sn" && both != "we") continue;
+        const std::size_t begin = before.begin;
+        parts.resize(parts.size() - 2);
+        parts.push_back({begin, end, both});
+    }
+    return parts;
 }
 
 /// Files of a folder that are no records.
@@ -81,42 +110,208 @@ RecordFiles record_of(const std::filesystem::path& horizontal)
     return record;
 }
 
-/// One station in one earthquake.
-struct Station {
-    std::vector<std::filesystem::path> horizontal, vertical;
+/// One component of a file.
+struct Channel {
+    std::filesystem::path file;
+    std::string column; ///< of a file that holds several
 };
 
-RecordList paired(const std::vector<std::filesystem::path>& files)
+/// One station in one earthquake.
+struct Station {
+    std::string event; ///< its name
+    std::vector<Channel> horizontal, vertical;
+};
+
+/// What a file holds by its headers.
+struct Survey {
+    std::filesystem::path file;
+    std::vector<std::string>
+        components;    ///< of its channels; none where it cannot be read: the error is reported when it is
+    std::string title; ///< event and station
+};
+
+Survey survey_of(const std::filesystem::path& file)
 {
-    std::vector<std::string> order;
-    std::map<std::string, Station> stations;
-    std::map<std::string, std::string> names;
-    for (const std::filesystem::path& file : files) {
-        const ComponentName component = component_of_name(file);
-        const std::string key = (file.parent_path() / in_capitals(component.base)).string();
-        const auto [at, is_new] = stations.try_emplace(key);
-        if (is_new) order.push_back(key);
-        names.try_emplace(key, component.base);
-        (component.kind == Kind::vertical ? at->second.vertical : at->second.horizontal).push_back(file);
+    Survey survey{file, {}, ""};
+    try {
+        records::ReadOptions options;
+        options.survey = true;
+        options.uneven = records::UnevenTime::resample;
+        for (const Record& record : records::parse_record(read_file(file), file.string(), options)) {
+            survey.components.push_back(record.source.component);
+            survey.title = record.source.title;
+        }
+        const std::string& component = survey.components.front();
+        if (survey.title.ends_with(component)) // of PEER
+            survey.title.resize(survey.title.size() - component.size());
+    } catch (const InputError&) {
+        survey.components.clear();
     }
+    return survey;
+}
+
+/// The channels of a file that holds one or two horizontal and at most one vertical; nothing for others.
+std::optional<Station> station_in(const Survey& survey)
+{
+    if (survey.components.size() < 2) return std::nullopt;
+    Station station{survey.file.stem().string(), {}, {}};
+    for (const std::string& component : survey.components) {
+        const Component kind = records::component_in(component);
+        if (kind == Component::none) return std::nullopt;
+        (kind == Component::vertical ? station.vertical : station.horizontal).push_back({survey.file, component});
+    }
+    if (station.horizontal.empty() || station.horizontal.size() > 2 || station.vertical.size() > 1) return std::nullopt;
+    return station;
+}
+
+/// The reading of the name that agrees with the header's component: "140" of the header is no other part of "E06140".
+std::optional<ComponentName> name_with(const std::filesystem::path& file, const std::string& component)
+{
+    std::string word = in_small_letters(component.substr(0, component.find(' ')));
+    std::erase_if(word, [](char c) { return c == '-'; });
+    if (word.empty()) return std::nullopt;
+    if (word.size() < 3 && std::all_of(word.begin(), word.end(), is_digit)) word.insert(0, 3 - word.size(), '0');
+    const std::string stem = file.stem().string();
+    const std::vector<NamePart> parts = parts_of(stem);
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+        if (part->word == word)
+            return ComponentName{records::component_in(component), without_part(stem, part->begin, part->end)};
+    if (word.size() > 1 && stem.size() > word.size() && in_small_letters(stem).ends_with(word))
+        return ComponentName{records::component_in(component),
+                             without_part(stem, stem.size() - word.size(), stem.size())};
+    return std::nullopt;
+}
+
+/// A file with what header and name say, as far as it is settled without the others.
+struct NamedFile {
+    Survey survey;
+    std::vector<ComponentName> readings; ///< of the name
+    Component of_header = Component::none;
+    ComponentName chosen;
+};
+
+std::string key_of(const std::filesystem::path& file, const std::string& base)
+{
+    return (file.parent_path() / in_capitals(base)).string();
+}
+
+NamedFile named_file(Survey survey)
+{
+    NamedFile named{std::move(survey), component_names(named.survey.file), Component::none, {}};
+    const std::string component = named.survey.components.size() == 1 ? named.survey.components.front() : "";
+    named.of_header = records::component_in(component);
+    if (named.of_header != Component::none)
+        if (auto same = name_with(named.survey.file, component)) named.readings.insert(named.readings.begin(), *same);
+    return named;
+}
+
+/// The first reading that counts: alone, or because another file has its base.
+void choose_readings(std::vector<NamedFile>& files)
+{
+    std::map<std::string, std::set<std::string>> files_of_base;
+    for (const NamedFile& file : files)
+        for (const ComponentName& name : file.readings)
+            if (name.kind != Component::none)
+                files_of_base[key_of(file.survey.file, name.base)].insert(file.survey.file.string());
+    for (NamedFile& file : files)
+        for (const ComponentName& name : file.readings)
+            if (name.alone || files_of_base[key_of(file.survey.file, name.base)].size() > 1) {
+                file.chosen = name;
+                break;
+            }
+}
+
+std::string in_words(Component kind)
+{
+    return kind == Component::vertical ? "vertical" : "horizontal";
+}
+
+/// "a, b, c and 7 more".
+std::string names_of(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 5;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) list += (i ? ", " : "") + names[i];
+    return list + (names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
+}
+
+/// Motions of a station: one for each horizontal component.
+void add_station(const Station& station, const RecordFiles& like, double weight, RecordList& list)
+{
+    for (std::size_t i = 0; i < station.horizontal.size(); ++i) {
+        const Channel& channel = station.horizontal[i];
+        RecordFiles record = record_of(channel.file);
+        if (!channel.column.empty()) record.name += "-" + channel.column.substr(0, channel.column.find_first_of(" ,"));
+        const auto taken = std::count_if(list.records.begin(), list.records.end(), [&](const RecordFiles& other) {
+            return other.name == record.name || other.name.starts_with(record.name + " (");
+        });
+        if (taken > 0) record.name += fmt::format(" ({})", taken + 1);
+        record.column = channel.column;
+        record.magnitude = like.magnitude;
+        record.scale = like.scale;
+        record.vertical = like.vertical;
+        record.vertical_column = like.vertical_column;
+        if (!like.vertical && station.vertical.size() == 1) {
+            record.vertical = station.vertical.front().file;
+            record.vertical_column = station.vertical.front().column;
+        }
+        if (station.horizontal.size() == 2) record.other_horizontal = station.horizontal[1 - i].file;
+        list.records.push_back(std::move(record));
+        list.events.push_back(station.event);
+        list.weights.push_back(weight);
+    }
+}
+
+RecordList paired(const std::vector<std::filesystem::path>& paths, bool stations_in_files)
+{
+    std::vector<NamedFile> files;
+    for (const std::filesystem::path& path : paths) files.push_back(named_file(survey_of(path)));
+    choose_readings(files);
+    std::vector<std::string> order, unknown, without_vertical;
+    std::map<std::string, Station> stations;
     RecordList list;
+    bool any_vertical = false;
+    for (const NamedFile& file : files) {
+        const std::filesystem::path& path = file.survey.file;
+        auto station = stations_in_files ? station_in(file.survey) : std::nullopt;
+        std::string key = key_of(path, file.chosen.base);
+        Component kind = file.of_header != Component::none ? file.of_header : file.chosen.kind;
+        if (file.of_header != Component::none && file.chosen.kind == Component::none && !file.survey.title.empty())
+            key = path.parent_path().string() + "\n" + file.survey.title; // of a name without a direction
+        if (station) key = "\n" + path.string();
+        const auto [at, is_new] = stations.try_emplace(key, Station{file.chosen.base, {}, {}});
+        if (is_new) order.push_back(key);
+        if (station) {
+            at->second = *station;
+            any_vertical |= !station->vertical.empty();
+            continue;
+        }
+        if (file.of_header != Component::none && file.chosen.kind != Component::none &&
+            file.of_header != file.chosen.kind)
+            list.notes.push_back(fmt::format("{}: {} by its header ({}), {} by its name: the header counts.",
+                                             path.string(), in_words(file.of_header), file.survey.components.front(),
+                                             in_words(file.chosen.kind)));
+        if (kind == Component::none && file.survey.components.size() < 2) unknown.push_back(path.filename().string());
+        any_vertical |= kind == Component::vertical;
+        (kind == Component::vertical ? at->second.vertical : at->second.horizontal).push_back({path, ""});
+    }
     for (const std::string& key : order) {
         const Station& station = stations[key];
-        for (const std::filesystem::path& file : station.horizontal) {
-            RecordFiles record = record_of(file);
-            if (station.vertical.size() == 1) record.vertical = station.vertical.front();
-            if (station.horizontal.size() == 2)
-                record.other_horizontal = station.horizontal[&file == &station.horizontal.front() ? 1 : 0];
-            list.records.push_back(std::move(record));
-            list.events.push_back(names[key]);
-            list.weights.push_back(1.0);
-        }
+        const std::size_t before = list.records.size();
+        add_station(station, {}, 1.0, list);
+        for (std::size_t i = before; i < list.records.size(); ++i)
+            if (!list.records[i].vertical) without_vertical.push_back(list.records[i].name);
         if (station.horizontal.empty() || station.vertical.size() > 1)
-            for (const std::filesystem::path& file : station.vertical)
-                list.notes.push_back(fmt::format("{} is a vertical component {}: it is left out.", file.string(),
-                                                 station.horizontal.empty() ? "without a horizontal one"
-                                                                            : "and not the only one of its station"));
+            for (const Channel& channel : station.vertical)
+                list.notes.push_back(fmt::format(
+                    "{} is a vertical component {}: it is left out.", channel.file.string(),
+                    station.horizontal.empty() ? "without a horizontal one" : "and not the only one of its station"));
     }
+    if (any_vertical && !without_vertical.empty())
+        list.notes.push_back(fmt::format("without a vertical component: {}.", names_of(without_vertical)));
+    if (!unknown.empty())
+        list.notes.push_back(
+            fmt::format("neither header nor name says the component, taken as horizontal: {}.", names_of(unknown)));
     return list;
 }
 
@@ -139,7 +334,7 @@ RecordList records_of_a_seed_list(const std::filesystem::path& list)
     return files;
 }
 
-RecordList records_of_pattern(const std::string& pattern, bool folder)
+RecordList records_of_pattern(const std::string& pattern, bool folder, bool stations)
 {
     std::vector<std::filesystem::path> files;
     glob_t found{};
@@ -152,15 +347,16 @@ RecordList records_of_pattern(const std::string& pattern, bool folder)
     for (const std::filesystem::path& file : files)
         if (!is_utf8(file.native()))
             refuse(utf8_text(file.string()), "its name is not UTF-8.", "a name in UTF-8", "rename the file");
-    RecordList list = paired(files);
+    RecordList list = paired(files, stations);
     list.folder = folder_of(pattern);
     return list;
 }
 
-RecordList records_of_list(const std::filesystem::path& list, const std::string& text)
+RecordList records_of_list(const std::filesystem::path& list, const std::string& text, bool stations)
 {
-    static const std::vector<std::string> known = {"horizontal", "vertical", "other_horizontal", "event", "weight",
-                                                   "magnitude",  "scale"};
+    static const std::vector<std::string> known = {"horizontal", "vertical",        "other_horizontal",
+                                                   "column",     "vertical_column", "event",
+                                                   "weight",     "magnitude",       "scale"};
     const auto refused = [&](int line, const std::string& problem, const std::string& expected) {
         return InputError(Diagnostic{list.string(), line, 0, problem, expected, "correct this line"});
     };
@@ -193,6 +389,8 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
                     record.horizontal = file;
                     record.name = file.stem().string();
                 }
+            } else if (columns[k] == "column" || columns[k] == "vertical_column") {
+                (columns[k] == "column" ? record.column : record.vertical_column) = cell;
             } else if (columns[k] == "event") {
                 event = cell;
             } else {
@@ -206,7 +404,14 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
         }
         if (record.horizontal.empty())
             throw refused(number, "this line has no horizontal record.", "a file in the column horizontal");
-        files.events.push_back(event.empty() ? record.name : event);
+        if (auto station =
+                stations && record.column.empty() ? station_in(survey_of(record.horizontal)) : std::nullopt) {
+            if (!event.empty()) station->event = event;
+            add_station(*station, record, weight, files);
+            continue;
+        }
+        if (!record.column.empty()) record.name += "-" + record.column.substr(0, record.column.find_first_of(" ,"));
+        files.events.push_back(event.empty() ? record.horizontal.stem().string() : event);
         files.weights.push_back(weight);
         files.records.push_back(std::move(record));
     }
@@ -215,44 +420,76 @@ RecordList records_of_list(const std::filesystem::path& list, const std::string&
 
 } // namespace
 
+std::vector<ComponentName> component_names(const std::filesystem::path& file)
+{
+    const std::string stem = file.stem().string();
+    const std::size_t size = stem.size();
+    std::string extension = in_small_letters(file.extension().string());
+    if (!extension.empty()) extension.erase(0, 1);
+    std::vector<ComponentName> names;
+    const bool letter = extension.size() == 1 && std::string_view("nezu").find(extension) != std::string_view::npos;
+    const bool volume =
+        extension.size() == 2 && extension[0] == 'v' && is_digit(extension[1]); // of an agency: .V1, .V2
+    if ((extension.size() >= 2 && !volume) || letter)
+        if (const Component kind = records::component_in_part(extension);
+            kind != Component::none) // KiK-net: borehole 1, surface 2
+            names.push_back({kind, is_digit(extension.back()) ? stem + "." + extension.back() : stem});
+    if (size > 3 && is_azimuth(std::string_view(stem).substr(size - 3)) && !is_digit(stem[size - 4]))
+        names.push_back({Component::horizontal, without_part(stem, size - 3, size)});
+    if (size > 3 && is_digit(stem[size - 3])) // a station's number, then the direction
+        for (const char* word : {"ns", "ew", "ud", "up", "dn"})
+            if (in_small_letters(stem.substr(size - 2)) == word)
+                names.push_back({records::component_in_part(word), without_part(stem, size - 2, size)});
+    const std::vector<NamePart> parts = parts_of(stem);
+    std::vector<ComponentName> weak;
+    if (parts.size() > 1)
+        for (std::size_t k = parts.size(); k-- > 0;) {
+            const Component kind =
+                is_azimuth(parts[k].word) ? Component::horizontal : records::component_in_part(parts[k].word);
+            if (kind == Component::none) continue;
+            // A letter or a number in the middle may mean anything else.
+            const bool end = k == 0 || k + 1 == parts.size();
+            const bool sure = parts[k].word.size() > 1 && !is_azimuth(parts[k].word);
+            (sure || (end && !is_azimuth(parts[k].word)) ? names : weak)
+                .push_back({kind, without_part(stem, parts[k].begin, parts[k].end)});
+        }
+    if (size > 4 && is_azimuth(std::string_view(stem).substr(size - 3)))
+        weak.push_back({Component::horizontal, without_part(stem, size - 3, size)});
+    for (const std::string_view word :
+         {"vert", "dwn", "ver", "up", "ud", "dn", "ns", "ew", "n", "e", "z", "v", "h", "x", "y"})
+        if (size > word.size() && in_small_letters(stem).ends_with(word))
+            weak.push_back({records::component_in_part(word), without_part(stem, size - word.size(), size)});
+    for (ComponentName& name : weak) name.alone = false;
+    names.insert(names.end(), weak.begin(), weak.end());
+    names.push_back({Component::none, stem});
+    return names;
+}
+
 ComponentName component_of_name(const std::filesystem::path& file)
 {
-    std::string extension = in_capitals(file.extension().string());
-    if (!extension.empty()) extension.erase(0, 1);
-    const std::string stem = file.stem().string();
-    if (extension.size() >= 2)
-        if (const Kind kind = kind_of(extension); kind != Kind::none) return {kind, stem};
-    if (ends_with_azimuth(stem)) return {Kind::horizontal, without_separator(stem.substr(0, stem.size() - 3))};
-    if (stem.size() > 3 && is_digit(stem[stem.size() - 3])) // a station's number, then the direction
-        for (const char* word : {"NS", "EW", "UD", "UP"})
-            if (in_capitals(stem.substr(stem.size() - 2)) == word)
-                return {kind_of(word), without_separator(stem.substr(0, stem.size() - 2))};
-    const std::size_t separator = stem.find_last_of("_-. ");
-    if (separator == std::string::npos || separator == 0) return {Kind::none, stem};
-    const Kind kind = kind_of(in_capitals(stem.substr(separator + 1)));
-    if (kind == Kind::none) return {Kind::none, stem};
-    return {kind, without_separator(stem.substr(0, separator))};
+    const std::vector<ComponentName> names = component_names(file);
+    return *std::find_if(names.begin(), names.end(), [](const ComponentName& name) { return name.alone; });
 }
 
 namespace {
 
-RecordList found_records(const std::string& pattern)
+RecordList found_records(const std::string& pattern, bool stations)
 {
     const std::filesystem::path path = pattern;
-    if (std::filesystem::is_directory(path)) return records_of_pattern((path / "*").string(), true);
+    if (std::filesystem::is_directory(path)) return records_of_pattern((path / "*").string(), true, stations);
     if (path.extension() == ".csv" && std::filesystem::is_regular_file(path)) {
         const std::string text = read_file(path);
         if (records::is_seed_list(text)) return records_of_a_seed_list(path);
-        if (text.find("horizontal") != std::string::npos) return records_of_list(path, text);
+        if (text.find("horizontal") != std::string::npos) return records_of_list(path, text, stations);
     }
-    return records_of_pattern(pattern, false);
+    return records_of_pattern(pattern, false, stations);
 }
 
 } // namespace
 
-RecordList record_list(const std::string& pattern)
+RecordList record_list(const std::string& pattern, bool stations)
 {
-    RecordList list = found_records(pattern);
+    RecordList list = found_records(pattern, stations);
     number_names(list.records);
     return list;
 }

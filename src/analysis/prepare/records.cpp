@@ -113,10 +113,22 @@ std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan)
     return with_sequence(scene, std::move(pairs));
 }
 
+std::vector<int> polarities_of(const Scene& scene, std::optional<int> asked)
+{
+    if (!asked) asked = scene.motion.polarity;
+    if (asked) return {*asked};
+    return {1, -1};
+}
+
+std::string polarity_words(const std::vector<int>& polarities)
+{
+    return polarities.size() > 1 ? "both polarities" : fmt::format("polarity {:+d} alone", polarities.front());
+}
+
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale, int polarity)
 {
     records::MotionOptions options;
-    options.polarity = scene.motion.polarity.value_or(1) * polarity;
+    options.polarity = polarity;
     options.scale = scene.motion.scale * scale;
     if (pair.parts.empty()) {
         options.scale = scene.motion.scale * pair.files.scale * scale;

@@ -23,9 +23,15 @@ std::size_t motion_count(const Scene& scene);
 /// Reads the scene's records, its sequence first; verticals only where the plan has vertical motion.
 std::vector<RecordPair> read_records(const Scene& scene, const EffectPlan& plan);
 
+/// The polarities that are run of each record: the one that is asked for, else motion.polarity, else +1 and -1. Everywhere
+/// in the program a polarity is the sign on the horizontal component as filed.
+std::vector<int> polarities_of(const Scene& scene, std::optional<int> asked = {});
+/// "both polarities", "polarity -1 alone"
+std::string polarity_words(const std::vector<int>& polarities);
+
 /// Both components on one grid, scaled as scene and record say; of a sequence all its records on one grid, and
-/// motion.scale_to_pga is the largest peak of them. @param scale  on top of them; @param polarity  on top
-/// of the scene's
+/// motion.scale_to_pga is the largest peak of them. @param scale  on top of them
+/// @param polarity  the sign on the horizontal component as filed, one of polarities_of()
 GroundMotion ground_motion(const Scene& scene, const RecordPair& pair, double scale = 1.0, int polarity = 1);
 
 } // namespace damslip

@@ -104,10 +104,14 @@ sliding::SlideOptions slide_options(const Scene& scene, const RigidModel& model,
 void check_length(const RigidModel& model, sliding::SlideResult& result)
 {
     const bool slides = result.status == Status::at_rest || result.status == Status::sliding_at_end;
-    if (!slides || !model.length || !(result.max_slip > *model.length)) return;
+    if (!slides || !model.length || !(result.max_slip > *model.length)) {
+        judge_events(result.status, 0.0, result.events);
+        return;
+    }
     result.status = Status::runs_away;
-    result.notes.push_back(
-        fmt::format("It slides further than the {:.4g} m it slides on: no slip is given.", *model.length));
+    const std::string event = judge_events(result.status, *model.length, result.events);
+    result.notes.push_back(fmt::format("{} slides further than the {:.4g} m it slides on: no slip is given.",
+                                       event.empty() ? "It" : "In \"" + event + "\" it", *model.length));
 }
 
 namespace {
@@ -133,6 +137,7 @@ void check_tipping(const RigidModel& model, double peak, sliding::SlideResult& r
     const double yield = model.downstream.law.constant;
     if (!reaches(model.tips, yield, peak)) return;
     result.status = Status::rocks_first;
+    judge_events(result.status, 0.0, result.events);
     result.notes.push_back("It " + tipping_words(model.tips, yield) +
                            ": the sliding block does not hold; take the block that rocks and slides.");
 }
@@ -225,7 +230,8 @@ std::string RigidModel::why_it_fails() const
 {
     return state == sliding::StaticState::lifts_off || !std::isfinite(critical_friction)
                ? "the uplift carries more than the weight, no friction would hold it"
-               : fmt::format("friction {:.4g} is below the {:.4g} that holds it", block.friction, critical_friction);
+               : fmt::format("friction {:.4g} is below the {:.4g} that would hold it", block.friction,
+                             critical_friction);
 }
 
 GroundMotion horizontal_only(GroundMotion motion)

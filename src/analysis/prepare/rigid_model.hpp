@@ -36,7 +36,7 @@ struct RigidModel {
     std::shared_ptr<const sliding::RestBetweenEvents> rests;
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
 
-    /// Why it is not at rest before the earthquake: "friction 0.5 is below the 0.645 that holds it".
+    /// Why it is not at rest before the earthquake: "friction 0.5 is below the 0.645 that would hold it".
     std::string why_it_fails() const;
 };
 

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "scene/key_methods.hpp"
 #include "scene/water.hpp"
 #include "sliding/equilibrium/lift_block.hpp"
 
@@ -208,9 +209,10 @@ std::vector<const sliding::SlideResult*> all_slides(const SlipRow& row)
     return slides;
 }
 
-void add_equilibrium(const Scene& scene, const sliding::SeepageProfile& seepage, Screening& s)
+void add_equilibrium(const Ready& ready, const sliding::SeepageProfile& seepage, Screening& s)
 {
-    s.combinations = sliding::evaluate_combinations(scene, {s.largest_pga, s.largest_vertical_pga}, seepage);
+    const Scene& scene = ready.scene;
+    s.combinations = ready.combinations();
     if (scene.reservoir || scene.tailwater)
         s.uplifts = sliding::compare_uplift(scene, s.plan.on(Effect::seepage) ? seepage : sliding::SeepageProfile{});
 }
@@ -323,7 +325,7 @@ GoverningSlip SlipRow::governing() const
 
 double slip_error(const sliding::SlideResult& slide)
 {
-    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : 0.0;
+    return slide.accuracy == sliding::SlideAccuracy::scheme ? std::nan("") : slide.slip_error;
 }
 
 Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& allowable)
@@ -335,6 +337,7 @@ Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
 {
     const GoverningSlip g = row.governing();
     const Verdict verdict = judge(g.slide.status, g.slide.max_slip, g.error, allowable);
+    if (verdict == Verdict::pass && row.leaves_out) return Verdict::undecided;
     if (g.method == "rocking") return verdict; // it has no such premise
     return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
 }
@@ -515,7 +518,7 @@ std::vector<LiftBlock> lift_blocks(const Scene& scene)
     return list;
 }
 
-Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking)
+Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking, FlexibleRuns flexible)
 {
     const Scene& scene = ready.scene;
     const std::vector<RecordPair>& records = ready.records();
@@ -531,12 +534,15 @@ Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking)
     s.bases.push_back(cracks ? base("uncracked", CrackRule::none)
                              : base("cracked under static loads", CrackRule::fixed_static));
     s.dry_base = base_taken_as_dry(scene);
-    s.flexible = flexible_block(scene);
+    if (flexible == FlexibleRuns::as_the_scene_says) s.flexible = flexible_block(scene);
     s.mass_ratio_words = ready.flexible_modes.empty() ? mass_ratio_words(scene) : "of the tied modes";
     const RowsOf rows{scene, s.bases.front(), s.flexible, rocking, jobs};
     add_slips(rows, records, s);
     add_slips_without_bond(scene, seepage, records, rows, s);
-    add_equilibrium(scene, seepage, s);
+    const bool leaves_out = !not_honoured(ready.given, methods::rigid | methods::flexible).empty();
+    for (std::vector<SlipRow>* slips : {&s.slips, &s.slips_without_bond})
+        for (SlipRow& row : *slips) row.leaves_out = leaves_out;
+    add_equilibrium(ready, seepage, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     if (s.bases.front().model.state == sliding::StaticState::at_rest) s.needed = needed_rows(ready, jobs);

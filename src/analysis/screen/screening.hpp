@@ -54,6 +54,7 @@ struct SlipRow {
 
     std::vector<std::string> broken_premises =
         {}; ///< why the sliding block does not hold for the dam in this motion: no PASS rests on it
+    bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on it either
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
@@ -140,9 +141,13 @@ StatusCount statuses_of(const Screening& screening);
 /// When the block that rocks and slides is run beside the sliding one.
 enum class RockingRuns { where_sliding_does_not_hold, always };
 
+/// Is the block that vibrates run beside the rigid one?
+enum class FlexibleRuns { as_the_scene_says, none };
+
 /// @param ready  for the rigid block @param jobs  threads, 0: all cores
 Screening run_screening(const Ready& ready, int jobs = 0,
-                        RockingRuns rocking = RockingRuns::where_sliding_does_not_hold);
+                        RockingRuns rocking = RockingRuns::where_sliding_does_not_hold,
+                        FlexibleRuns flexible = FlexibleRuns::as_the_scene_says);
 
 /// The resultant of the static loads acts outside the base: it tips without any earthquake.
 bool overturns(const BaseRow& base);

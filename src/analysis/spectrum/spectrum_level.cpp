@@ -103,16 +103,22 @@ UnitResponses unit_responses(const ModesResult& modes, const ModalForces& forces
     UnitResponses u;
     u.planes = planes_of(modes.scene.section);
     const std::vector<Unknown> unknowns = unknowns_of(modes.model);
-    const auto add = [&](const Eigen::VectorXd& force) {
+    const int axis = direction == ModalDirection::horizontal ? 0 : 1;
+    const Point d = axis == 0 ? Point{1.0, 0.0} : Point{0.0, 1.0};
+    const auto add = [&](const Eigen::VectorXd& force, double mass) {
         std::vector<Resultant>& list = u.of_mode.emplace_back();
         for (std::size_t k = 0; k < u.planes.size(); ++k) list.push_back(above(u.planes[k], k == 0, unknowns, force));
+        if (modes.model.mesh.has_rock()) return;
+        // Mass at fixed nodes (a dam without rock) is in no unknown: it acts in the base itself.
+        double fixed = mass;
+        for (std::size_t i = 0; i < unknowns.size(); ++i)
+            if (unknowns[i].component == axis) fixed -= force[static_cast<Eigen::Index>(i)];
+        const Plane& base = u.planes.front();
+        list.front().along += fixed * (d.x * base.t.x + d.y * base.t.y);
+        list.front().across += fixed * (d.x * base.n.x + d.y * base.n.y);
     };
-    for (Eigen::Index i = 0; i < forces.force.cols(); ++i) add(forces.force.col(i));
-    add(forces.residual);
-    // Mass at fixed nodes (a dam without rock) is in no unknown: it acts in the base itself.
-    double& of_base =
-        direction == ModalDirection::horizontal ? u.of_mode.back().front().along : u.of_mode.back().front().across;
-    of_base += (forces.residual_mass - of_base) * (modes.model.mesh.has_rock() ? 0.0 : 1.0);
+    for (Eigen::Index i = 0; i < forces.force.cols(); ++i) add(forces.force.col(i), forces.effective_mass[i]);
+    add(forces.residual, forces.residual_mass);
     const int dof = modes.model.dofs(modes.model.mesh.crest.back(), 0);
     u.crest = Eigen::VectorXd::Zero(forces.force.cols() + 1);
     if (dof != fe2d::no_dof) u.crest.head(forces.force.cols()) = forces.displacement.row(dof).transpose();
@@ -199,6 +205,7 @@ sliding::Equilibrium static_equilibrium(const Ready& ready)
 {
     Combination usual;
     usual.name = "static";
+    usual.ice = true; // where there is any, as in the slips
     usual.crack = CrackRule::none;
     sliding::EquilibriumOptions options;
     options.seepage = ready.seepage->profile_of(ready.scene);

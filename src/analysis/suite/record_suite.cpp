@@ -105,8 +105,11 @@ MatchedMember match_member(const RecordSuite& suite, const records::ChosenRecord
 SuiteLine line_of(const RecordList& list, std::size_t record, double factor)
 {
     const RecordFiles& files = list.records[record];
-    return {files.horizontal,    files.vertical,       files.other_horizontal,
-            list.events[record], list.weights[record], files.scale * factor};
+    const auto cell = [](const std::string& column) {
+        return column.substr(0, column.find(','));
+    }; // its first word is enough
+    return {files.horizontal,     files.vertical,       files.other_horizontal, list.events[record],
+            list.weights[record], files.scale * factor, cell(files.column),     cell(files.vertical_column)};
 }
 
 std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::filesystem::path& file,
@@ -116,13 +119,18 @@ std::string suite_list_text(const std::vector<SuiteLine>& lines, const std::file
     for (const std::string& comment : comments) text += "# " + visible(comment, LineEnds::replaced) + "\n";
     const bool others =
         std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) { return line.other_horizontal; });
+    const bool columns = std::any_of(lines.begin(), lines.end(), [](const SuiteLine& line) {
+        return !line.column.empty() || !line.vertical_column.empty();
+    });
     const auto path = [&file](const std::optional<std::filesystem::path>& of) {
         return of ? listed_path(*of, file) : std::string();
     };
-    text += fmt::format("horizontal,vertical,{}event,weight,scale\n", others ? "other_horizontal," : "");
+    text += fmt::format("horizontal,vertical,{}{}event,weight,scale\n", others ? "other_horizontal," : "",
+                        columns ? "column,vertical_column," : "");
     for (const SuiteLine& line : lines)
-        text += fmt::format("{},{},{}{},{},{}\n", path(line.horizontal), path(line.vertical),
-                            others ? path(line.other_horizontal) + "," : "", csv_cell(line.event),
+        text += fmt::format("{},{},{}{}{},{},{}\n", path(line.horizontal), path(line.vertical),
+                            others ? path(line.other_horizontal) + "," : "",
+                            columns ? csv_cell(line.column) + "," + csv_cell(line.vertical_column) + "," : "", csv_cell(line.event),
                             shortest(line.weight), shortest(line.scale));
     return text;
 }

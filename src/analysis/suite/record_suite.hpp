@@ -67,6 +67,7 @@ struct SuiteLine {
     std::optional<std::filesystem::path> vertical, other_horizontal;
     std::string event;
     double weight = 1.0, scale = 1.0;
+    std::string column, vertical_column; ///< of files that hold several
 };
 
 /// The line of a record, its factor times that of the list it comes from.

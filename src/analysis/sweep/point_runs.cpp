@@ -4,8 +4,10 @@
 #include "core/usage_error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tuple>
 
 namespace damslip {
 
@@ -65,10 +67,19 @@ PointAnswer PointRuns::run(const Scene& scene, const SweepMethod& method, const 
     check_fe_scenes(sweep);
     GridIndex at = sweep.tasks.index(0);
     at.record = record_index(records_, record);
+    std::vector<std::size_t> ids;
+    for (at.polarity = 0; at.polarity < sweep.axes.polarity.size(); ++at.polarity) ids.push_back(sweep.tasks.id(at));
     const Grid grid = make_grid(scene, sweep.axes, sweep.tasks, records_, 1);
-    SweepOutcome outcome = run_sweep(sweep, grid, {sweep.tasks.id(at)}, nullptr, 1, watch);
-    if (outcome.rows.empty()) throw Interrupted("a point");
-    return {std::move(outcome.rows.front()), (*records_)[at.record].files.name, method.id, clock.seconds()};
+    SweepOutcome outcome = run_sweep(sweep, grid, ids, nullptr, 1, watch);
+    if (outcome.rows.size() < ids.size()) throw Interrupted("a point");
+    const auto severity = [](const FinishedRow& row) {
+        return std::tuple(!row.good, !row.results.slip, row.results.max_slip ? std::abs(*row.results.max_slip) : 0.0);
+    };
+    FinishedRow& worse = *std::max_element(outcome.rows.begin(), outcome.rows.end(), [&](const auto& a, const auto& b) {
+        return severity(a) < severity(b);
+    });
+    const int polarity = sweep.axes.polarity[sweep.tasks.index(worse.id).polarity];
+    return {std::move(worse), (*records_)[at.record].files.name, polarity, method.id, clock.seconds()};
 }
 
 SweepMethod usual_method(const Scene& scene)

@@ -6,8 +6,10 @@ namespace damslip {
 
 /// One point of whoever asks from outside: a scene, a method, one of its records.
 struct PointAnswer {
-    FinishedRow row; ///< that of a sweep over this scene alone, bit for bit
-    std::string record, method;
+    FinishedRow row; ///< that of a sweep over this scene alone, bit for bit: of its polarities the worse
+    std::string record;
+    int polarity = 1;
+    std::string method;
     double seconds = 0.0; ///< processor time
 };
 

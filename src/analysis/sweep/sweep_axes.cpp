@@ -1,5 +1,6 @@
 #include "analysis/sweep/sweep_axes.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "analysis/sweep/sweep_size.hpp"
 #include "core/number.hpp"
 #include "scene/added_mass_row.hpp"
@@ -58,7 +59,7 @@ Axes axes_of(const Scene& scene)
     axes.friction = {scene.contact.friction};
     axes.level = {scene.reservoir ? scene.reservoir->level : 0.0};
     axes.size = axes.scale = {1.0};
-    axes.polarity = {1};
+    axes.polarity = polarities_of(scene);
     axes.uplift = {scene.uplift ? word(scene.uplift->model) : "none"};
     axes.reservoir = {reservoir_word(scene)};
     axes.method = {sweep_method("rigid")};

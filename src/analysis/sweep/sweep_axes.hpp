@@ -11,7 +11,7 @@ struct Axes {
     std::vector<double> level;                  ///< water surface above the heel at size 1 [m]
     std::vector<double> size;                   ///< of section, rock, water and elements (sized), factor [-]
     std::vector<double> scale;                  ///< of the motion, factor [-]
-    std::vector<int> polarity;                  ///< 1, -1
+    std::vector<int> polarity;                  ///< signs on the horizontal component as filed: 1, -1
     std::vector<std::string> uplift, reservoir; ///< words as typed
     std::vector<std::string> opening{""};       ///< words of uplift.opening as typed; empty: the scene's
     std::vector<double> period, damping;        ///< T_s [s] and zeta [-] of the flexible block; empty: the scene's
@@ -22,7 +22,7 @@ struct Axes {
     bool flexible() const;        ///< is there a method of the flexible block?
 };
 
-/// The axes that leave the scene as it is: one value each, the rigid block.
+/// The axes that leave the scene as it is: one value each, the polarities_of() the scene, the rigid block.
 Axes axes_of(const Scene& scene);
 
 /// Words of the water models an axis may have: "auto", "hydrostatic", "acoustic", and the added masses by their formula.

@@ -20,9 +20,8 @@ std::string rock_of(const Scene& scene, const SweepMethod& method)
 void find_modes(Grid& grid, const Scene& scene)
 {
     const TaskList& tasks = grid.tasks;
-    const std::size_t rows_of_variant = tasks.motions() * tasks.method;
     for (std::size_t i = 0; i < tasks.variants(); ++i) {
-        const Scene given = variant_of(scene, grid.axes, tasks.index(i * rows_of_variant));
+        const Scene given = variant_of(scene, grid.axes, tasks.index(i * tasks.rows_of_model()));
         Scene here = called_for(make_effect_plan(given, Method::rigid_block), given);
         resolve_flexible_modes(here);
         grid.flexible.push_back(flexible_block(here));
@@ -90,6 +89,8 @@ Grid begin_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, con
             grid.motions.emplace_back(motion);
         }
     }
+    for (std::size_t i = 0; i < tasks.motions(); ++i)
+        grid.pgas.push_back(grid.inputs_of(tasks.index(i * tasks.method)).pga_g * units::standard_gravity);
     return grid;
 }
 
@@ -101,12 +102,11 @@ void hold_models(Grid& grid, const Scene& scene, const Records& records, std::si
     const std::size_t variants = tasks.variants(), frictions = last - first + 1;
     grid.models.clear();
     grid.models.resize(frictions * variants);
-    const std::size_t rows_of_model = tasks.motions() * tasks.method; // ids of one model are consecutive
     const auto threads = static_cast<std::size_t>(thread_count(jobs));
     const std::size_t parts = std::min(frictions, (threads + variants - 1) / variants); // of the frictions of a variant
     parallel_for(variants * parts, jobs, [&](std::size_t i) {
         const std::size_t part = i / variants, v = i % variants;
-        const GridIndex at = tasks.index(v * rows_of_model);
+        const GridIndex at = tasks.index(v * tasks.rows_of_model());
         PrepareOptions options;
         options.seepage = grid.seepage[at.size];
         options.statics = grid.statics[v];

@@ -21,6 +21,7 @@ struct Grid {
     std::vector<sliding::SkippingMotion> motions,
         horizontal_motions;                          ///< of each record and scale, with and without the vertical
     std::vector<sliding::RegressionInputs> measured; ///< of each motion; the yield coefficient is the row's
+    std::vector<double> pgas;                        ///< of each motion, in the order of the ids [m/s^2]
     std::vector<std::string> records;                ///< names
     std::vector<std::string> events;                 ///< of the sequence; empty: none
     std::vector<std::string> anchors;                ///< names; empty: none
@@ -30,6 +31,8 @@ struct Grid {
     {
         return models[(at.friction - first_friction) * tasks.variants() + tasks.variant(at)];
     }
+    double yield(const GridIndex& at) const { return model(at).downstream.law.constant; }
+    double pga(std::size_t id) const { return pgas[id / tasks.method % tasks.motions()]; }
     const sliding::SkippingMotion& motion(const GridIndex& at) const { return motions[record_and_scale(at)]; }
     const sliding::SkippingMotion& horizontal(const GridIndex& at) const
     {
@@ -38,7 +41,7 @@ struct Grid {
     sliding::RegressionInputs inputs_of(const GridIndex& at) const
     {
         sliding::RegressionInputs inputs = measured[record_and_scale(at)];
-        inputs.yield_coefficient = model(at).downstream.law.constant / units::standard_gravity;
+        inputs.yield_coefficient = yield(at) / units::standard_gravity;
         return inputs;
     }
 

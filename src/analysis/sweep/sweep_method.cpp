@@ -53,6 +53,17 @@ const SweepMethod& sweep_method(const std::string& id)
     return *std::find_if(list.begin(), list.end(), [&](const SweepMethod& m) { return m.id == id; });
 }
 
+Methods methods_of(const std::vector<SweepMethod>& list)
+{
+    Methods set = 0;
+    for (const SweepMethod& method : list)
+        set |= method.kind == SweepKind::regression        ? methods::regressions
+               : method.kind != SweepKind::finite_elements ? methods::rigid
+               : method.reduced                            ? methods::reduced
+                                                           : methods::fe;
+    return set;
+}
+
 Scene with_law(Scene scene, FeLaw law, std::optional<double> penalty_stiffness)
 {
     if (law == FeLaw::scene) return scene;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/key_methods.hpp"
 
 #include <optional>
 #include <string>
@@ -44,6 +44,9 @@ std::vector<std::string> sweep_methods();
 
 /// The method of an id of the list.
 const SweepMethod& sweep_method(const std::string& id);
+
+/// As the table of keys and methods knows them.
+Methods methods_of(const std::vector<SweepMethod>& list);
 
 /// The scene with the contact law of an FE method. The law says how sticking gives way; exact, penalty and slip tolerance
 /// have a hard joint. goldgruber_2015 puts the whole preset in place of what the scene says.

@@ -41,25 +41,25 @@ sliding::SlideResult slide(const Scene& scene, const Grid& grid, const GridIndex
     return slide_model(scene, grid.model(at), motion, polarity, output);
 }
 
-/// Slip after each event of a sequence, and the anchors; of a row that has a slip.
+/// Slip after each event of a sequence as far as it has one, and the anchors of a row that has a slip.
 void add_events_and_anchors(const std::vector<EventSlip>& events, const std::vector<AnchorOutcome>& anchors,
                             RowResults& results)
 {
+    for (const EventSlip& event : events)
+        if (reported(event.status, event.slip)) results.event_slips.push_back(event.slip);
     if (!results.slip) return;
-    for (const EventSlip& event : events) results.event_slips.push_back(event.slip);
     for (const AnchorOutcome& anchor : anchors)
         results.anchors.push_back({anchor.name, anchor.history.largest_force, anchor_end(anchor.history)});
 }
 
-RowResults results_of(const sliding::SlideResult& r)
+void fill(const sliding::SlideResult& r, RowResults& results)
 {
-    RowResults results;
     results.slip = reported(r.status, r.slip);
     results.max_slip = reported(r.status, r.max_slip);
     results.upstream_slip = reported(r.status, r.upstream_slip);
+    if (r.slip_error > 0.0) results.slip_error = reported(r.status, r.slip_error);
     results.status = word(r.status);
     add_events_and_anchors(r.events, r.anchors, results);
-    return results;
 }
 
 RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& at,
@@ -69,16 +69,17 @@ RowResults block_results(const Scene& scene, const Grid& grid, const GridIndex& 
     const sliding::SlideResult r =
         slide(scene, grid, at, motion, keep ? sliding::HistoryOutput::samples : sliding::HistoryOutput::none);
     if (keep && reported(r.status, r.slip)) history = slip_history(r.history.time, r.history.slip);
-    return results_of(r);
+    RowResults results;
+    fill(r, results);
+    return results;
 }
 
-FinishedRow finished(const Grid& grid, const GridIndex& at, std::size_t id, RowResults results, SlipHistory history)
+void finish(const Grid& grid, const GridIndex& at, FinishedRow& row)
 {
-    results.critical_friction = grid.model(at).critical_friction;
-    FinishedRow row{id, true, std::move(results), std::move(history)};
+    row.results.yield = grid.yield(at);
+    row.results.critical_friction = grid.model(at).critical_friction;
     const std::optional<Status> status = status_of(row);
     row.good = !status || is_answer(*status); // others are remarks: the method does not apply
-    return row;
 }
 
 /// A plain block under the horizontal motion, without a history: rows of several frictions can go together.
@@ -101,19 +102,20 @@ FinishedRow rigid_row(const Scene& scene, const Grid& grid, std::size_t id)
 {
     const GridIndex at = grid.tasks.index(id);
     const SweepMethod& method = grid.axes.method[at.method];
-    RowResults results;
-    SlipHistory history;
+    FinishedRow row{id, true, {}, {}};
+    RowResults& results = row.results;
     if (method.kind == SweepKind::regression)
         results = regression_results(*sliding::find_regression(method.id), grid.inputs_of(at), grid.model(at).state);
     else if (method.kind == SweepKind::rigid)
-        results = block_results(scene, grid, at, grid.horizontal(at), history);
+        results = block_results(scene, grid, at, grid.horizontal(at), row.history);
     else if (method.kind == SweepKind::rocking && grid.model(at).wedge)
         results.status = "no block that rocks";
     else if (method.kind != SweepKind::rigid_vertical || grid.motion(at).has_vertical())
-        results = block_results(scene, grid, at, grid.motion(at), history);
+        results = block_results(scene, grid, at, grid.motion(at), row.history);
     else
         results.status = "no vertical component";
-    return finished(grid, at, id, std::move(results), std::move(history));
+    finish(grid, at, row);
+    return row;
 }
 
 void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::size_t> ids,
@@ -135,8 +137,12 @@ void add_rigid_rows(const Scene& scene, const Grid& grid, std::span<const std::s
     const bool vertical = grid.axes.method[at.method].kind == SweepKind::rigid_vertical;
     const std::vector<sliding::SlideResult> slides =
         slide_models(scene, models, vertical ? grid.motion(at) : grid.horizontal(at), grid.axes.polarity[at.polarity]);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-        rows.push_back(finished(grid, places[i], ids[i], results_of(slides[i]), {}));
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        FinishedRow& row = rows.emplace_back();
+        row.id = ids[i];
+        fill(slides[i], row.results);
+        finish(grid, places[i], row);
+    }
 }
 
 FinishedRow fe_row(std::size_t id, const FeSlip& slip)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/sweep/fe_sweep.hpp"
+#include "analysis/sweep/result_store.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
-#include "analysis/sweep/sweep_journal.hpp"
 
 namespace damslip {
 

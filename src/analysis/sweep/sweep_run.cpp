@@ -1,6 +1,8 @@
 #include "analysis/sweep/sweep_run.hpp"
 
+#include "analysis/sweep/sweep_store.hpp"
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -11,39 +13,41 @@ namespace damslip {
 
 namespace {
 
-constexpr std::size_t block_rows = 256;   ///< rigid rows that go into the journal at once
+constexpr std::size_t block_rows = 256;   ///< rigid rows that a thread takes at once
 constexpr std::size_t most_together = 16; ///< rows that differ in friction alone
 
 /// Rows by their place among the wanted ids, written from several threads, each place once.
-class RowStore {
+class WantedRows {
 public:
     /// @param memory  rows that nobody needs any more: new ones take their place
-    RowStore(const std::vector<std::size_t>& wanted, Journal* journal, Watch& watch,
-             std::vector<FinishedRow> memory = {})
-        : wanted_(wanted), journal_(journal), watch_(watch), rows_(std::move(memory)), finished_(wanted.size(), 0)
+    /// @param storing  false: the caller stores them, all at once
+    WantedRows(const std::vector<std::size_t>& wanted, ResultStore* kept, Watch& watch,
+               std::vector<FinishedRow> memory = {}, bool storing = true)
+        : wanted_(wanted), kept_(kept), watch_(watch), storing_(storing), rows_(std::move(memory)),
+          finished_(wanted.size(), 0)
     {
         rows_.resize(wanted.size());
     }
 
     void finish(std::vector<FinishedRow> rows)
     {
-        if (journal_)
-            journal_->append(rows);
-        else
+        if (!kept_)
             watch_.results_at_hand();
+        else if (storing_)
+            kept_->append(rows);
         put_all(std::move(rows));
     }
     void begin(std::span<const std::size_t> ids)
     {
-        if (journal_) journal_->begin(ids);
+        if (kept_) kept_->begin(ids);
     }
-    /// What the journal has of the wanted rows.
+    /// What the store has of the wanted rows.
     void take_finished()
     {
-        if (!journal_ || wanted_.empty()) return;
-        put_all(journal_->finished_rows(wanted_.front(), wanted_.back()));
+        if (!kept_ || kept_->finished() == 0 || wanted_.empty()) return;
+        put_all(kept_->rows(wanted_.front(), wanted_.back()));
     }
-    std::map<std::size_t, int> stopped() const { return journal_ ? journal_->stopped() : std::map<std::size_t, int>{}; }
+    std::map<std::size_t, int> stopped() const { return kept_ ? kept_->stopped() : std::map<std::size_t, int>{}; }
     std::vector<std::size_t> missing() const
     {
         std::vector<std::size_t> ids;
@@ -80,14 +84,15 @@ private:
     }
 
     const std::vector<std::size_t>& wanted_;
-    Journal* journal_;
+    ResultStore* kept_;
     Watch& watch_;
+    bool storing_;
     std::vector<FinishedRow> rows_; ///< one for each wanted id; its contents mean nothing before it is finished
     std::vector<char> finished_;
 };
 
-FeSweepCounts run_fe_rows(const Sweep& inputs, const std::vector<std::size_t>& missing, int jobs, Watch& watch,
-                          RowStore& store)
+FeSweepCounts run_fe_rows(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& missing, int jobs,
+                          Watch& watch, WantedRows& store)
 {
     const auto threads = static_cast<std::size_t>(thread_count(jobs));
     const std::vector<FeGroup> groups =
@@ -97,10 +102,13 @@ FeSweepCounts run_fe_rows(const Sweep& inputs, const std::vector<std::size_t>& m
     watch.begin("sweep, finite elements", static_cast<double>(runs));
     FeSweepCounts counts = run_fe_groups(
         inputs, groups, jobs, watch, [&store](std::span<const std::size_t> ids) { store.begin(ids); },
-        [&store](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
+        [&](std::span<const std::size_t> ids, std::span<const FeSlip> slips) {
             std::vector<FinishedRow> rows;
-            for (std::size_t i = 0; i < ids.size(); ++i)
-                if (slips[i].status != Status::interrupted) rows.push_back(fe_row(ids[i], slips[i]));
+            for (std::size_t i = 0; i < ids.size(); ++i) {
+                if (slips[i].status == Status::interrupted) continue;
+                rows.push_back(fe_row(ids[i], slips[i]));
+                rows.back().results.yield = grid.yield(grid.tasks.index(ids[i]));
+            }
             store.finish(std::move(rows));
         });
     watch.end();
@@ -122,13 +130,10 @@ std::vector<std::size_t> by_motion(const TaskList& tasks, const std::vector<std:
 {
     const std::size_t rows_of_friction = tasks.rows() / tasks.friction;
     if (ids.empty() || ids.back() - ids.front() < rows_of_friction) return ids;
-    std::vector<std::pair<std::size_t, std::size_t>> places; // in the rows of a friction; id
-    places.reserve(ids.size());
-    for (const std::size_t id : ids) places.emplace_back(id % rows_of_friction, id);
-    std::sort(places.begin(), places.end());
-    std::vector<std::size_t> ordered;
-    ordered.reserve(ids.size());
-    for (const auto& [place, id] : places) ordered.push_back(id);
+    std::vector<std::size_t> ordered = ids; // as numbers with the friction as the last axis
+    for (std::size_t& id : ordered) id = id % rows_of_friction * tasks.friction + id / rows_of_friction;
+    std::sort(ordered.begin(), ordered.end());
+    for (std::size_t& place : ordered) place = place % tasks.friction * rows_of_friction + place / tasks.friction;
     return ordered;
 }
 
@@ -149,7 +154,7 @@ std::vector<FinishedRow> rigid_rows_of(const Scene& scene, const Grid& grid, std
 
 /// @param done  rows before these, for the watch
 void run_rigid_rows(const Scene& scene, const Grid& grid, const std::vector<std::size_t>& missing, int jobs,
-                    Watch& watch, std::atomic<std::size_t>& done, RowStore& store)
+                    Watch& watch, std::atomic<std::size_t>& done, WantedRows& store)
 {
     const std::vector<std::size_t> ordered = by_motion(grid.tasks, missing);
     parallel_for((missing.size() + block_rows - 1) / block_rows, jobs, [&](std::size_t block) {
@@ -174,40 +179,44 @@ const FinishedRow* SweepOutcome::find(std::size_t id) const
     return at != rows.end() && at->id == id ? &*at : nullptr;
 }
 
-SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, Journal* journal,
+SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
                        int jobs, Watch& watch)
 {
-    RowStore store(wanted, journal, watch);
+    if (kept) kept->describe(axes_json(grid));
+    WantedRows store(wanted, kept, watch);
     SweepOutcome outcome;
     outcome.wanted = wanted.size();
     store.take_finished();
     std::vector<std::size_t> missing = store.missing();
     outcome.found = wanted.size() - missing.size();
-    if (inputs.axes.finite_elements()) outcome.fe = run_fe_rows(inputs, missing, jobs, watch, store);
+    if (inputs.axes.finite_elements()) outcome.fe = run_fe_rows(inputs, grid, missing, jobs, watch, store);
     without_finite_elements(missing, grid);
     std::atomic<std::size_t> done{0};
     watch.begin("sweep", static_cast<double>(missing.size()));
     run_rigid_rows(inputs.scene, grid, missing, jobs, watch, done, store);
     watch.end();
+    if (kept) kept->flush();
     outcome.rows = store.finished();
     return outcome;
 }
 
-SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, Journal* journal,
+SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
                            int jobs, Watch& watch, const TakePart& take)
 {
-    constexpr std::size_t rows_at_once = 8192;
+    std::size_t rows_at_once = 1024; // up to 4096, as long as they take no second: what a kill may lose
     SweepTotals totals;
     totals.wanted = wanted.size();
     std::atomic<std::size_t> done{0};
+    if (kept) kept->describe(axes_json(grid));
     watch.begin("sweep", static_cast<double>(wanted.size()));
     SweepOutcome part;
-    for (std::size_t first = 0; first < wanted.size() && !watch.stop_asked(); first += rows_at_once) {
+    for (std::size_t first = 0; first < wanted.size() && !watch.stop_asked(); first += part.wanted) {
+        const Stopwatch time;
         const std::size_t last = std::min(first + rows_at_once, wanted.size()) - 1;
         const std::vector<std::size_t> ids(wanted.begin() + first, wanted.begin() + last + 1);
         hold_models(grid, inputs.scene, inputs.records, grid.tasks.index(ids.front()).friction,
                     grid.tasks.index(ids.back()).friction, jobs);
-        RowStore store(ids, journal, watch, std::move(part.rows));
+        WantedRows store(ids, kept, watch, std::move(part.rows), false);
         store.take_finished();
         const std::vector<std::size_t> missing = store.missing();
         part.wanted = ids.size();
@@ -215,12 +224,16 @@ SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std
         done += part.found;
         run_rigid_rows(inputs.scene, grid, missing, jobs, watch, done, store);
         part.rows = store.finished();
+        if (kept && !missing.empty()) kept->append(part.rows);
+        if (rows_at_once < 4096 && time.seconds() < 0.25) rows_at_once *= 2;
+        if (rows_at_once > 1024 && time.seconds() > 1.0) rows_at_once /= 2;
         totals.rows += part.rows.size();
         totals.found += part.found;
         totals.bad += static_cast<std::size_t>(
             std::count_if(part.rows.begin(), part.rows.end(), [](const FinishedRow& row) { return !row.good; }));
         take(grid, ids, part);
     }
+    if (kept) kept->flush();
     watch.end();
     return totals;
 }

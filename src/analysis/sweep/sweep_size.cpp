@@ -36,6 +36,7 @@ void scale_water(Scene& scene, double factor)
         scene.reservoir->length *= factor;
         scale(scene.reservoir->mesh_size, factor);
     }
+    if (scene.gate) scene.gate->top *= factor;
     if (scene.tailwater) scene.tailwater->level *= factor;
     if (scene.silt) scene.silt->level *= factor;
     if (scene.ice) scene.ice->level *= factor;

@@ -24,6 +24,7 @@ struct TaskList {
         return level * uplift * opening * reservoir * size * period * damping;
     } ///< scenes but for the friction
     std::size_t motions() const { return record * scale * polarity; }
+    std::size_t rows_of_model() const { return motions() * method; } ///< ids of one friction and variant follow each other
 
     GridIndex index(std::size_t id) const;
     std::size_t id(const GridIndex& at) const;

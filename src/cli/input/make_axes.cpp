@@ -68,6 +68,12 @@ void look_at_levels(const std::string& text, const Scene& scene, const std::vect
 {
     if (text.empty() || scene.wedge || scene.section.rock_slope) return;
     const double highest = *std::max_element(levels.begin(), levels.end());
+    const double held = scene.gate ? scene.gate->top : upstream_face(scene.section).back().y;
+    if (highest > held * (1 + 1e-12) && !scene.reservoir->overtopped)
+        refuse_usage(fmt::format("--level {} is above the {} at {} m.", shortest(highest),
+                                 scene.gate ? "top of the gates" : "crest", shortest(held)),
+                     "levels that the dam or its gates hold, or  overtopped = true  in [reservoir]",
+                     "add  [gate]  with top_m to the scene, or write  overtopped = true  in [reservoir]");
     if (auto note = unusual_level("--level " + shortest(highest), highest, crest_level(scene.section)))
         notes.push_back(std::move(*note));
 }
@@ -182,6 +188,19 @@ std::vector<SweepMethod> method_axis(const SweepArguments& a, const Scene& scene
     return methods;
 }
 
+std::vector<int> polarity_axis(const std::string& text)
+{
+    if (text == "both") return {1, -1};
+    const std::string meaning = "1, -1, or both: the sign on the horizontal component as filed";
+    std::vector<int> values;
+    for (const double p : checked_numbers(text, "--polarity", 1, -1, 1, meaning)) {
+        if (p != 1 && p != -1)
+            refuse_usage(fmt::format("--polarity {} is not allowed.", p), meaning, "write  --polarity both");
+        values.push_back(static_cast<int>(p));
+    }
+    return values;
+}
+
 template <class Value>
 void refuse_repeats(const char* flag, const std::vector<Value>& values)
 {
@@ -273,12 +292,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
                         "water level above the heel at size 1 [m]");
     axes.size = checked_numbers(a.size, "--size", 1.0, 0.01, 100, "factor on all lengths of the scene, 0.01 ... 100");
     axes.scale = checked_numbers(a.scale, "--scale", 1.0, 0, 1e3, "factor on the records, 0 ... 1000");
-    axes.polarity.clear();
-    for (const double p : checked_numbers(a.polarity, "--polarity", 1, -1, 1, "1, -1 or 1,-1")) {
-        if (p != 1 && p != -1)
-            refuse_usage(fmt::format("--polarity {} is not allowed.", p), "1, -1 or 1,-1", "write  --polarity 1,-1");
-        axes.polarity.push_back(static_cast<int>(p));
-    }
+    if (!a.polarity.empty()) axes.polarity = polarity_axis(a.polarity);
     if (!a.uplift.empty()) axes.uplift = uplift_axis(a, scene);
     if (!a.opening_water.empty() && !scene.wedge) axes.opening = opening_axis(a, scene);
     if (!a.reservoir.empty()) axes.reservoir = reservoir_axis(a, scene);

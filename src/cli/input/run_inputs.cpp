@@ -61,7 +61,7 @@ Scene scene_as_written(const RunInputs& inputs)
 /// Those of --records, said one by one: what was paired with what is not to be guessed.
 void put_record_list(const RunInputs& inputs, Scene& scene, std::vector<Diagnostic>& notes)
 {
-    RecordList list = record_list(inputs.record_list);
+    RecordList list = record_list(inputs.record_list, inputs.column.empty());
     if (list.records.empty())
         refuse_usage(fmt::format("--records {}: there is no record.", inputs.record_list),
                      "a folder, a pattern in quotes, or a CSV with the column horizontal",

@@ -19,15 +19,15 @@ struct SweepArguments {
     std::optional<double> penalty_stiffness; ///< of fe-penalty [N/m^3], > 0; none: the scene's
 
     std::filesystem::path pdf;                ///< the report on paper; empty: none
-    std::filesystem::path out;                ///< CSV file, its journal beside it; empty: standard output, no journal
+    std::filesystem::path out;                ///< CSV file, its database beside it; empty: standard output, no database
     int jobs = 0;                             ///< threads; 0: all cores
-    bool resume = false;                      ///< go on from the journal
+    bool resume = false;                      ///< go on from the database
     std::string shard;                        ///< "i/n": this part only, into a file of its own; empty: all rows
     bool plan = false;                        ///< print the commands of all parts instead
     std::filesystem::path slurm_array;        ///< write a job script for all parts here instead; empty: no
     std::optional<int> parts;                 ///< of plan and job script; none: one for each scene variant and motion
     bool mean_polarity = false;               ///< a column with the mean slip of both polarities
-    std::vector<std::filesystem::path> merge; ///< part files, or folders of them, to put together instead
+    std::vector<std::filesystem::path> merge; ///< databases of parts, or folders of them, to put together instead
 };
 
 /// A flag of the grid and its list as typed.

@@ -10,7 +10,7 @@ namespace damslip::cli {
 /// A computation that does not ask within `longest_silence` of the signal, such as a factorisation of a large model, is
 /// not waited for: the process prints the farewell and ends with exit_no_answer. Nothing is lost by that before the first
 /// result is there; from then on results_at_hand() has the program wait for the next question. Files appear whole or not
-/// at all in either case, and the journal of a sweep has every finished row.
+/// at all in either case, and the database of a sweep has every finished row.
 class InterruptGuard {
 public:
     static constexpr double longest_silence = 0.7; ///< [s]

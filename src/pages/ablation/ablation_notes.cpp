@@ -1,6 +1,7 @@
 #include "pages/ablation/ablation_tables.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
 #include "scene/plausible.hpp"
 
@@ -55,6 +56,7 @@ std::vector<std::string> ablation_notes(const Ablations& in)
     if (const auto note = base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
         notes.push_back(*note + ".");
     for (std::string& note : note_texts(in.plan.full.notes)) notes.push_back(std::move(note));
+    notes.push_back("every run with " + polarity_words({polarities_of(in.plan.full).front()}));
     if (!in.water.empty()) notes.push_back(in.water + " in all runs");
     if (in.runs.step) notes.push_back(step_note(*in.runs.step));
     if (in.plan.method == Method::rigid_block)

@@ -151,6 +151,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> answers(const Asse
 std::vector<std::string> assess_notes(const Assessment& a)
 {
     std::vector<std::string> notes = note_texts(a.ready.given.notes);
+    if (a.fe)
+        for (std::string& note : note_texts(a.fe->given.notes))
+            if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
     for (const std::string& s : left_out_sentences(a)) notes.push_back(s);
     return notes;
 }
@@ -200,18 +203,18 @@ Headline assess_headline(const Assessment& a)
         if (std::find(ran.begin(), ran.end(), r.record) == ran.end()) ran.push_back(r.record);
     if (a.fe && !ran.empty() && ran.size() < a.fe->records().size())
         sentence += fmt::format(" Only {} of {} records fitted the budget.", ran.size(), a.fe->records().size());
+    if (a.recommended && a.recommended->level != SlipLevel::finite_elements)
+        sentence += " By the " + word(a.recommended->level) + ": no bound for an elastic dam.";
     sentence += " " + a.verdict_reason;
-    switch (a.verdict) {
-    case Verdict::pass:
-        return {sentence, Outcome::pass, "PASS"};
-    case Verdict::fail:
-        return {sentence, Outcome::fail, "FAIL"};
-    case Verdict::undecided:
-        return {sentence, Outcome::unresolved, "Undecided"};
-    default:
-        return {sentence, a.recommended ? Outcome::none : Outcome::unresolved,
-                a.recommended ? "No criterion." : "No answer."};
-    }
+    const Outcome outcome = a.slip_verdict == Verdict::pass   ? Outcome::pass
+                            : a.slip_verdict == Verdict::fail ? Outcome::fail
+                            : a.slip_verdict == Verdict::none && a.recommended ? Outcome::none
+                                                                              : Outcome::unresolved;
+    const std::string verdict = a.slip_verdict == Verdict::undecided ? "Undecided"
+                                : a.slip_verdict != Verdict::none    ? word(a.slip_verdict)
+                                : a.recommended                      ? "No criterion."
+                                                                     : "No answer.";
+    return with_failed_checks({sentence, outcome, verdict}, a.failed_checks);
 }
 
 Page assess_page(const Assessment& a, const Scene& given)
@@ -262,6 +265,8 @@ nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
     }
     j["verdict"] = word(a.verdict);
     j["verdict_reason"] = a.verdict_reason;
+    const Headline headline = assess_headline(a);
+    j["headline"] = headline.sentence + " " + headline.verdict;
     j["levels"] = json_of(level_table(a));
     j["assumptions"] = json_of(assumption_table(a));
     for (const auto& [title, sentences] : answers(a)) j["answers"][title] = sentences;

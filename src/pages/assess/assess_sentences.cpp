@@ -83,8 +83,11 @@ std::vector<std::string> governing_sentences(const Assessment& a)
 {
     std::vector<std::string> list;
     if (!a.recommended) {
-        list.push_back(a.runs.empty() ? "No level has a slip for every record."
-                                      : fmt::format("The finite elements decide: {}. {}",
+        list.push_back(a.runs.empty() && !a.interrupted ? "No level has a slip for every record."
+                               : a.interrupted          ? "Interrupted: nothing is recommended."
+                       : !all_answered(a.runs)  ? "The finite elements decide, and not every run has an answer: " +
+                                                     unanswered_words(a.runs) + "."
+                              : fmt::format("The finite elements decide: {}. {}",
                                                     word(governing_run(a).fe.status), governing_run(a).fe.message));
         return list;
     }

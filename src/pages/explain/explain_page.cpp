@@ -93,7 +93,7 @@ std::string cost_text(const ContactCost& cost)
 
 nlohmann::ordered_json explain_json(const Explained& in)
 {
-    auto j = json_header("explain", in.given);
+    auto j = json_header("explain", in.given, in.plan.scene_hash);
     j["method"] = in.method;
     j["effects"] = json_of(effect_table(in.plan));
     if (in.model) j["model"] = json_of(model_counts(in));

@@ -24,13 +24,13 @@ namespace damslip::pages {
 namespace {
 
 /// CSV files of one run, and its fields.
-void write_run(const std::filesystem::path& folder, const Scene& scene, const ContactRun& r)
+void write_run(const std::filesystem::path& folder, const FeReport::Input& in, const ContactRun& r)
 {
     const auto write = [&](const std::string& kind, const Table& table, const std::string& legend = {}) {
-        std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + scene_hash(scene),
+        std::vector<std::string> comments{"damslip " + program_version() + " fe", "scene " + in.plan.scene_hash,
                                           "record " + r.label(), "status " + word(r.fe.status)};
         if (!legend.empty()) comments.push_back(legend);
-        write_file(folder / (run_file(kind, scene, r.record, r.suffix()) + ".csv"), csv(table, comments));
+        write_file(folder / (run_file(kind, in.scene, r.record, r.suffix()) + ".csv"), csv(table, comments));
     };
     const std::string letters = "states: s sticks, d slips downstream, u slips upstream, o open, p pulled",
                       signs = "pressure: effective, compression positive; shear: on the dam, positive where it resists "
@@ -59,7 +59,7 @@ std::vector<fe2d::VtuArray> contact_arrays(const fe2d::Mesh& mesh, const fe2d::R
 void keep_contact_run(const std::filesystem::path& folder, const FeReport::Input& in, const ContactRun& r,
                       FieldSeries& fields)
 {
-    if (!folder.empty()) write_run(folder, in.scene, r);
+    if (!folder.empty()) write_run(folder, in, r);
     if (r.fe.displacement.size() == 0) return;
     Eigen::VectorXd elastic = r.fe.displacement; // gravity's part carries stress where it does not count as motion
     if (r.fe.zero_displacement.size() > 0) elastic += r.fe.zero_displacement;
@@ -116,28 +116,30 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
     return messages;
 }
 
-std::vector<std::string> bond_messages(const Scene& scene, const fe2d::EarthquakeRun& model)
+std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh)
 {
     std::vector<std::string> messages;
-    const fe2d::ContactPlanes& planes = model.structure().planes();
-    for (Eigen::Index k = scene.mesh.file ? 0 : 1; k < planes.count(); ++k) {
+    for (std::size_t k = scene.mesh.file ? 0 : 1; k <= mesh.lifts.size(); ++k) {
         const bool base = k == 0;
-        const LiftJoint* lift = base ? nullptr : &scene.lift_joints[static_cast<std::size_t>(k - 1)];
+        const LiftJoint* lift = base ? nullptr : &scene.lift_joints[k - 1];
         const Contact& strength = base ? scene.contact : lift->strength;
+        const fe2d::NodeChain& nodes = base ? mesh.contact.dam_nodes : mesh.lifts[k - 1].upper_nodes;
         const auto modulus = joint_modulus(scene, base);
-        if (!modulus || !breaks_by_energy(strength) || planes[k].pairs() < 2) continue;
-        const double length = planes[k].length() / static_cast<double>(planes[k].pairs() - 1);
+        if (!modulus || !breaks_by_energy(strength) || nodes.size() < 2) continue;
+        const Point &from = mesh.nodes[static_cast<std::size_t>(nodes.front())],
+                    &to = mesh.nodes[static_cast<std::size_t>(nodes.back())];
+        const double length = std::hypot(to.x - from.x, to.y - from.y) / static_cast<double>(nodes.size() - 1);
         const CarriedBond carried = carried_bond(strength, *modulus, length);
         if (!carried.lowered) continue;
         messages.push_back(fmt::format(
-            "{}: elements of {:.3g} m are longer than a quarter of the bond's process zone; it ran with tensile "
-            "strength "
-            "{:.4g} kPa and cohesion {:.4g} kPa, fracture energies kept. Elements of at most {:.3g} m carry the whole "
-            "bond (E' G/(4 f^2), Bazant & Oh 1983).",
+            "{}: elements of {:.3g} m are longer than a quarter of the bond's process zone; FE runs with tensile "
+            "strength {:.4g} kPa and cohesion {:.4g} kPa, fracture energies kept. Elements of at most {:.3g} m carry the "
+            "whole bond (E' G/(4 f^2), Bazant & Oh 1983): {}.",
             base                 ? std::string("base")
             : lift->name.empty() ? fmt::format("lift joint {}", k)
                                  : lift->name,
-            length, 1e-3 * carried.tensile_strength, 1e-3 * carried.cohesion, bond_element_length(strength, *modulus)));
+            length, 1e-3 * carried.tensile_strength, 1e-3 * carried.cohesion, bond_element_length(strength, *modulus),
+            scene.mesh.file ? "give a finer mesh" : "give a mesh.size_m of about that"));
     }
     return messages;
 }
@@ -152,7 +154,7 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
                 slips = contact_slip_table(runs), run_out = run_out_table(runs),
                 lifts = contact_lift_table(runs, allowable), law = contact_law_table(runs);
     const bool has_lifts = !in.scene.lift_joints.empty(), gives_way = with_exact_contact(in.scene).has_value();
-    const Headline headline = fe_headline(in.scene, runs);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations);
 
     FeAnswer answer = begin_fe_answer(FeKind::contact, contact_frame(in));
     auto& j = answer.json;

@@ -1,5 +1,6 @@
 #include "pages/fe/contact_tables.hpp"
 
+#include "core/units.hpp"
 #include "pages/scene/anchor_tables.hpp"
 
 #include <algorithm>
@@ -75,11 +76,15 @@ std::vector<ColumnOf<fe2d::Energy>> energy_columns_of(const std::vector<fe2d::En
 {
     using E = fe2d::Energy;
     std::vector<ColumnOf<E>> columns = energy_columns();
-    const auto add = [&](const char* key, const char* heading, double E::*term) {
-        if (std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; }))
-            columns.push_back({{key, heading, "J/m", 6}, term});
+    const auto any = [&](double E::*term) {
+        return std::any_of(rows.begin(), rows.end(), [=](const E& e) { return e.*term != 0.0; });
     };
-    add("joint_stored_J_m", "stored in joints", &E::joint_stored);
+    const auto add = [&](const char* key, const char* heading, double E::*term, bool shown = false) {
+        if (shown || any(term)) columns.push_back({{key, heading, "J/m", 6}, term});
+    };
+    // A bond that is broken, or a bar that has snapped, stores nothing any more.
+    add("joint_stored_J_m", "stored in joints", &E::joint_stored,
+        any(&E::bond_fracture) || any(&E::anchor_plastic) || any(&E::anchor_loss));
     add("bond_fracture_J_m", "bond fracture", &E::bond_fracture);
     add("anchor_plastic_J_m", "anchors plastic", &E::anchor_plastic);
     add("anchor_loss_J_m", "anchors snapped", &E::anchor_loss);
@@ -193,7 +198,7 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
     }
     return table_of<R>(
         "Static stages", columns, rows,
-        {"after the earthquake: residual friction, ruptured curtain, ineffective drains; slip since the start of the "
+        {"after the earthquake: cohesion lost where the joint has opened or slipped, friction of the path, curtain and drains of the post-seismic combination; slip since the start of the "
          "stages."});
 }
 
@@ -366,8 +371,9 @@ Table contact_event_table(const std::vector<ContactRun>& runs)
     const auto of_rigid = [](const Row& r, double EventSlip::*value) {
         const auto place = static_cast<std::size_t>(&r.event - r.run.fe.events.data());
         const bool known = r.run.rigid && place < r.run.rigid->events.size();
-        return known && reported(r.run.rigid->status, r.run.rigid->slip) ? Cell(1e3 * r.run.rigid->events[place].*value)
-                                                                         : Cell();
+        if (!known) return Cell();
+        const EventSlip& event = r.run.rigid->events[place];
+        return reported(event.status, event.slip) ? Cell(1e3 * event.*value) : Cell();
     };
     return table_of<Row>(
         "Slip by event",
@@ -376,8 +382,9 @@ Table contact_event_table(const std::vector<ContactRun>& runs)
          {{"event", "event"}, [](const Row& r) { return r.event.name; }},
          {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
          {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
-         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.change); }},
-         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return slip_cell(r.run, r.event.slip); }},
+         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), units::mm); }},
+         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), units::mm); }},
+         {{"status", "status"}, [](const Row& r) { return word(r.event.status); }},
          {{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5},
           [=](const Row& r) { return of_rigid(r, &EventSlip::change); }}},
         rows, {"slip: mean of the base, positive downstream, the run to rest after each event included."});

@@ -88,7 +88,7 @@ FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
     const Table counts = count_table(frame.model.counts, frame.water);
     const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt;
-    FeAnswer answer{json_header("fe", frame.scene),
+    FeAnswer answer{json_header("fe", frame.scene, frame.plan.scene_hash),
                     (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts)};
     answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
     if (kind == FeKind::reduced) answer.json["reduced"] = true;
@@ -97,11 +97,17 @@ FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
     return answer;
 }
 
+Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
+                       const std::optional<double>& allowable)
+{
+    return headline.outcome == Outcome::fail ? Verdict::fail : verdict_of(runs, allowable);
+}
+
 void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
                  FeAnswer& answer)
 {
     answer.json["headline"] = headline.sentence;
-    answer.json["verdict"] = word(verdict_of(runs, allowable));
+    answer.json["verdict"] = word(joined_verdict(headline, runs, allowable));
     answer.json["worst"] = worst_json(runs, allowable);
 }
 

@@ -34,6 +34,10 @@ struct FeAnswer {
 /// Scene, base, effects and counts of the model.
 FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame);
 
+/// FAIL where the headline says so, of the slip or of the load combinations; else verdict_of() the runs.
+Verdict joined_verdict(const Headline& headline, const std::vector<ContactRun>& runs,
+                       const std::optional<double>& allowable);
+
 /// Headline, verdict and worst run, in the object.
 void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, const std::optional<double>& allowable,
                  FeAnswer& answer);

@@ -15,7 +15,8 @@ namespace damslip::pages {
 Page begin_fe_page(const FePageFrame& in)
 {
     const std::optional<std::string> first = in.slides ? base_note(in.scene) : std::nullopt;
-    Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""));
+    Page page = begin_page(in.scene, "Sliding in an earthquake: " + in.kind + ". " + (first ? *first + ". " : ""),
+                           in.plan.scene_hash);
     page.warnings = record_warnings(in.records);
     page.sections.push_back(
         {"Section", {section_drawing(in.scene, in.uplift, dam_mesh_lines(in.model.mesh))}, Fold::open});
@@ -37,7 +38,7 @@ void end_fe_page(const FePageFrame& in, const std::vector<GroundMotion>& motions
     page.sections.push_back(std::move(model));
     page.sections.push_back(limits_section(in.scene, Method::finite_elements));
     page.sections.push_back({"Scene", {scene_listing(in.scene)}, Fold::open});
-    page.provenance = scene_provenance(in.scene);
+    page.provenance = scene_provenance(in.scene, in.plan.scene_hash);
     page.provenance.emplace_back("method", in.method);
     add_record_provenance(in.records, page.provenance);
 }

@@ -8,11 +8,15 @@
 #include "scene/exact_contact.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/criteria.hpp"
+#include "sliding/equilibrium/equilibrium_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 
 namespace damslip::pages {
 
@@ -79,13 +83,23 @@ std::string error_text(const SlipError& e, const std::string& step)
     return fmt::format(", ± {} mm ({} {}, mesh {})", two_digits(e.total), step, two_digits(e.step), two_digits(e.mesh));
 }
 
+/// The smallest sliding factor after the earthquake of runs that stand then; infinite: none has one.
+double factor_after(const std::vector<ContactRun>& runs)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (const ContactRun& r : runs)
+        if (has_slip(r) && !falls_after(r) && !open_after(r) && r.fe.after.sliding_factor > 0.0)
+            least = std::min(least, r.fe.after.sliding_factor);
+    return least;
+}
+
 std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     const ContactRun& worst = worst_of(runs);
     const std::optional<double> most = reported(worst.fe.status, worst.fe.max_slip);
     if (!most) return worst.label() + ": " + worst.fe.message;
     const double slip = std::abs(*most);
-    const std::string over = number_of(runs);
+    const std::string over = number_of(runs), unanswered = unanswered_words(runs);
     if (status_row(worst.fe.status).slip == SlipMeaning::lower_bound) // no error holds for what has not ended
         return fmt::format("The {} slides at least {:.4g} mm by finite elements and had not come to rest ({}){}.",
                            sliding_body(scene), slip / mm, record_of(worst),
@@ -93,10 +107,13 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
                                ? fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm)
                                : "");
     std::string out =
-        slip < no_slip ? fmt::format("The {} does not slide in {}", sliding_body(scene),
-                                     over.empty() ? record_of(worst) : "any of " + over)
-                       : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
-                                     slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
+        !unanswered.empty()
+            ? fmt::format("No largest slip over {}: {}. The {} slides {:.4g} mm by finite elements in {}",
+                          over.empty() ? "the runs" : over, unanswered, sliding_body(scene), slip / mm, record_of(worst))
+        : slip < no_slip ? fmt::format("The {} does not slide in {}", sliding_body(scene),
+                                    over.empty() ? record_of(worst) : "any of " + over)
+                      : fmt::format("The {} slides {:.4g} mm at most by finite elements{} ({})", sliding_body(scene),
+                                    slip / mm, over.empty() ? "" : " over " + over, record_of(worst));
     out += error_text(slip_error(worst), step);
     if (const LiftSlip lift = largest_lift_slip(runs); lift.slip > no_slip)
         out += fmt::format("; lift joint {} {:.4g} mm{}", lift.name, lift.slip / mm,
@@ -106,7 +123,22 @@ std::string slip_sentence(const Scene& scene, const std::vector<ContactRun>& run
             out += fmt::format("; the rigid block {:.4g} mm", *rigid / mm);
     if (scene.criteria.allowable_slip)
         out += fmt::format("; allowable: {:.4g} mm", *scene.criteria.allowable_slip / mm);
+    if (const double after = factor_after(runs); std::isfinite(after))
+        out += fmt::format("; sliding factor after the earthquake {:.3g}", after);
     return out + ".";
+}
+
+/// The checks of the combinations that fail; of the sliding factor after the earthquake that of the runs, too.
+std::string failed_words(const Scene& scene, const std::vector<ContactRun>& runs,
+                         const std::vector<sliding::Equilibrium>& combinations)
+{
+    std::string words = sliding::failed_checks(combinations);
+    const Combination after = sliding::after_earthquake(scene);
+    const std::optional<double> required = sliding::requirements(scene, after).sliding;
+    if (const double factor = factor_after(runs); required && factor < *required)
+        words += fmt::format("{}{} by finite elements {}", words.empty() ? "" : "; ", after.name,
+                             sliding::unmet_words(factor, *required));
+    return words;
 }
 
 /// What a reader has to know beside the slip: runs that fail otherwise, and those without an answer.
@@ -174,7 +206,10 @@ std::string headline_text(const Headline& headline)
     return headline.sentence + "\n" + headline.verdict + "\n";
 }
 
-Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
+namespace {
+
+/// Without the load combinations.
+Headline slip_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step)
 {
     if (runs.empty()) return {"No earthquake was run.", Outcome::none, "No answer."};
     if (const ContactRun* r = find(runs, [](const ContactRun& run) { return fails_statically(run.fe.status); }))
@@ -188,8 +223,18 @@ Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, co
     if (find(runs, open_after)) return {sentence, Outcome::unresolved, word(Status::not_resolved)};
     if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
     if (verdict == Verdict::pass) return {sentence, Outcome::pass, "PASS"};
+    if (find(runs, [](const ContactRun& run) { return run.leaves_out; }))
+        return {sentence, Outcome::unresolved, "undecided: they leave out what the scene asks for, see the notes"};
     const bool known = !find(runs, [](const ContactRun& run) { return std::isnan(slip_error(run).total); });
     return {sentence, Outcome::unresolved, known ? "undecided within ±" : "undecided: the error is not known"};
+}
+
+} // namespace
+
+Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
+                     const std::vector<sliding::Equilibrium>& combinations, const std::string& step)
+{
+    return with_failed_checks(slip_headline(scene, runs, step), failed_words(scene, runs, combinations));
 }
 
 FeReport::FeReport(const Input& input) : in_(input), stresses_(input.model) {}
@@ -240,7 +285,7 @@ Page FeReport::page(const std::vector<ContactRun>& runs, const std::vector<std::
 {
     const FePageFrame frame = contact_frame(in_);
     Page page = begin_fe_page(frame);
-    page.headline = fe_headline(in_.scene, runs);
+    page.headline = fe_headline(in_.scene, runs, in_.combinations);
     page.key_figures = fe_key_figures(in_.scene, runs);
     std::vector<std::string> warnings = messages;
     for (std::string& w : after_earthquake(runs)) warnings.push_back(std::move(w));

@@ -3,6 +3,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "pages/fe/fe_output.hpp"
 #include "pages/fe/mesh_drawing.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 /// An FE contact run as the report that is handed in.
 namespace damslip::pages {
@@ -10,8 +11,10 @@ namespace damslip::pages {
 /// The whole answer in one sentence with its verdict (verdict_of), the worst run named. FAIL: no equilibrium before or after
 /// the earthquake, a slip of base or lift joint surely above the allowable or without end, in any of the runs. Unresolved:
 /// a run, or the state after it, without an answer, or an allowable slip within the error.
-/// @param step  what the step's part of the error holds
-Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs, const std::string& step = "step");
+/// Joined with the load combinations whose checks fail, the state after the earthquake of the runs among them.
+/// @param combinations  Ready::combinations() @param step  what the step's part of the error holds
+Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
+                     const std::vector<sliding::Equilibrium>& combinations = {}, const std::string& step = "step");
 
 /// Sentence and verdict for a terminal.
 std::string headline_text(const Headline& headline);
@@ -31,6 +34,7 @@ public:
         const fe2d::EarthquakeRun& model;
         const RigidModel& rigid;
         const PressureProfile& uplift; ///< under the base before the earthquake
+        std::vector<sliding::Equilibrium> combinations = {}; ///< Ready::combinations()
     };
     explicit FeReport(const Input& input);
 
@@ -67,7 +71,7 @@ std::vector<std::string> contact_messages(const Scene& scene, const std::vector<
 
 /// Bonds whose strength was lowered because the elements are too long for them, where the scene does not know the elements: a
 /// base on an imported mesh, lift joints.
-std::vector<std::string> bond_messages(const Scene& scene, const fe2d::EarthquakeRun& model);
+std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mesh);
 
 /// All runs of one call as the answer of `fe`. @param spread  spread_line()
 FeAnswer contact_answer(const FeReport::Input& input, const std::vector<ContactRun>& runs,

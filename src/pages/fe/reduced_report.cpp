@@ -111,12 +111,13 @@ constexpr const char* error_source = "step and modes";
 
 } // namespace
 
-void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const ReducedRecord& run)
+void write_reduced_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const ReducedRecord& run)
 {
     const ContactRun as_full = as_contact_run(run);
     write_file(folder / (run_file("history", scene, run.record, as_full.suffix()) + ".csv"),
                csv(history_table(run.result.history),
-                   {"damslip " + program_version() + " fe --reduced", "scene " + scene_hash(scene),
+                   {"damslip " + program_version() + " fe --reduced", "scene " + hash,
                     "record " + as_full.label(), "status " + word(run.result.status)}));
 }
 
@@ -131,7 +132,7 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
 {
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     const std::vector<ContactRun> runs = as_contact_runs(in.runs);
-    const Headline headline = fe_headline(in.scene, runs, error_source);
+    const Headline headline = fe_headline(in.scene, runs, in.combinations, error_source);
     const Table stages = contact_stage_table(runs), table = reduced_table(in.runs, allowable);
     FeAnswer answer = begin_fe_answer(FeKind::reduced, reduced_frame(in));
     answer.json["contact_pairs"] = in.full.structure().plane().pairs();
@@ -172,7 +173,7 @@ Page reduced_page(const ReducedReportInput& in)
             for (Chart& chart : history_charts(view)) section.parts.emplace_back(std::move(chart));
         sections.push_back(std::move(section));
     }
-    page.headline = fe_headline(in.scene, runs, error_source);
+    page.headline = fe_headline(in.scene, runs, in.combinations, error_source);
     page.key_figures = fe_key_figures(in.scene, runs);
     std::erase_if(page.key_figures,
                   [](const auto& figure) { return figure.first == "Largest open length"; }); // not kept

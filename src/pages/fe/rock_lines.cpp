@@ -113,7 +113,7 @@ std::vector<std::string> radiating_messages(const Scene& scene, const fe2d::Eart
 ModelNotes::ModelNotes(const Scene& scene, const fe2d::EarthquakeRun& model)
     : scene_(scene), model_(model), lines_(radiating_messages(scene, model))
 {
-    for (std::string& note : bond_messages(scene, model)) lines_.push_back(std::move(note));
+    for (std::string& note : bond_messages(scene, model.model().mesh)) lines_.push_back(std::move(note));
 }
 
 void ModelNotes::add(const std::string& record, const GroundMotion& motion)

@@ -173,11 +173,12 @@ FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::ve
             false};
 }
 
-void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const TiedRun& run)
+void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const TiedRun& run)
 {
     write_file(folder / (run_file("history", scene, run.record) + ".csv"),
                csv(fe2d::tabulate(run.history), {"damslip " + program_version() + " fe --base tied",
-                                                 "scene " + scene_hash(scene), "record " + run.record}));
+                                                 "scene " + hash, "record " + run.record}));
 }
 
 FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs)

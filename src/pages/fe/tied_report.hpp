@@ -10,8 +10,9 @@ FePageFrame tied_frame(const Scene& scene, const EffectPlan& plan, const std::ve
 
 FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);
 
-/// The history of one run as a CSV file.
-void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const TiedRun& run);
+/// The history of one run as a CSV file. @param hash  of the scene (EffectPlan::scene_hash)
+void write_tied_history(const std::filesystem::path& folder, const Scene& scene, const std::string& hash,
+                           const TiedRun& run);
 
 /// Histories of crest, base forces and energies of runs that cannot slide.
 Page tied_page(const FePageFrame& frame, const fe2d::StaticSolution& statics, const std::vector<TiedRun>& runs);

@@ -6,6 +6,7 @@
 #include "pages/fragility/interval_cost_report.hpp"
 #include "pages/report/json_object.hpp"
 #include "pages/report/table_text.hpp"
+#include "pages/scene/limits.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "probability/export/fragility_files.hpp"
 
@@ -28,13 +29,39 @@ std::string status_words(const FragilityView& view)
     return words;
 }
 
-/// The tables that have rows, in the order of the page.
-std::vector<Table> tables_of(const FragilityView& view)
+/// A table for each run of rows with the same first cell, which moves into its title; the notes stand below the last.
+std::vector<Table> by_first_column(Table table)
 {
-    std::vector<Table> tables;
-    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view), rate_table(view),
-                        rate_part_table(view), cause_table(view), needed_yield_table(view)})
-        if (!table.rows.empty()) tables.push_back(std::move(table));
+    std::vector<Table> parts;
+    const Cell* of = nullptr;
+    for (std::vector<Cell>& row : table.rows) {
+        if (!of || *of != row.front())
+            parts.push_back({fmt::format("{}: {}", table.title, std::get<std::string>(row.front())),
+                             {table.columns.begin() + 1, table.columns.end()},
+                             {},
+                             {}});
+        of = &row.front();
+        parts.back().rows.emplace_back(row.begin() + 1, row.end());
+    }
+    if (!parts.empty()) parts.back().notes = std::move(table.notes);
+    return parts;
+}
+
+/// What is shown of P: of each limit a table of its levels, then the curves.
+std::vector<Table> probability_tables(const FragilityView& view)
+{
+    std::vector<Table> tables = by_first_column(fragility_table(view, Readers::people));
+    for (Table& table : by_first_column(band_table(view))) tables.push_back(std::move(table));
+    for (Table& table : by_first_column(conditioned_table(view))) tables.push_back(std::move(table));
+    tables.push_back(curve_table(view));
+    return tables;
+}
+
+/// What P comes from.
+std::vector<Table> cause_tables(const FragilityView& view)
+{
+    std::vector<Table> tables{cause_table(view)};
+    for (Table& table : by_first_column(needed_yield_table(view))) tables.push_back(std::move(table));
     return tables;
 }
 
@@ -44,6 +71,15 @@ std::vector<double> log_spaced(double from, double to)
     std::vector<double> x;
     for (int i = 0; i <= n; ++i) x.push_back(from * std::pow(to / from, static_cast<double>(i) / n));
     return x;
+}
+
+/// Room for whole marks at both ends of a logarithmic axis.
+void keep_marks_inside(Axis& x, const std::vector<double>& levels, double unit)
+{
+    constexpr double room = 1.05;
+    if (levels.empty()) return;
+    x.low = levels.front() / unit / room;
+    x.high = levels.back() / unit * room;
 }
 
 Chart curve_chart(const FragilityView& view)
@@ -58,8 +94,9 @@ Chart curve_chart(const FragilityView& view)
                 "",
                 "",
                 380};
-    chart.y.low = 0.0;
-    chart.y.high = 1.0;
+    chart.y.low = -0.03;
+    chart.y.high = 1.03;
+    keep_marks_inside(chart.x, view.plan.input.intensity.levels, view.unit);
     int colour = 0;
     for (const LimitEstimate& limit : view.estimate.limits) {
         Curve stripes{limit.limit.text, {}, {}, {}, {}, Mark::points, Weight::normal, colour};
@@ -114,6 +151,7 @@ Chart rate_chart(const FragilityView& view)
                 "",
                 "",
                 330};
+    keep_marks_inside(chart.x, view.plan.input.intensity.levels, view.unit);
     for (const LimitEstimate& limit : view.estimate.limits) {
         if (!limit.rate) continue;
         Curve curve{limit.limit.text, {}, {}, {}, {}, Mark::line_and_points, Weight::normal, -1};
@@ -138,6 +176,16 @@ std::string rates_per_year(const FragilityView& view, const LimitEstimate& limit
            (upper.all_events
                 ? ""
                 : fmt::format(" by earthquakes above {:.3g} {}", upper.x_first / view.unit, view.unit_text));
+}
+
+/// "the rigid block: no bound for an elastic dam", "finite elements": what the runs are of.
+std::string method_words(const FragilityView& view)
+{
+    const SweepKind kind = sweep_method(view.method).kind;
+    if (kind == SweepKind::finite_elements) return "finite elements";
+    const bool dam = !view.scene.wedge && !view.scene.section.rock_slope;
+    return std::string(kind == SweepKind::rocking ? "the rocking block" : "the rigid block") +
+           (dam ? ": no bound for an elastic dam" : "");
 }
 
 /// "slip > 50 mm: P = 0.5 at PGA = 0.31 g; 1.1e-4 to 1.3e-4 per year"
@@ -198,10 +246,18 @@ nlohmann::ordered_json fragility_json(const FragilityView& view)
 std::string fragility_text(const FragilityView& view)
 {
     std::string out;
-    for (const Table& table : tables_of(view)) out += text(table) + "\n";
+    const auto add = [&out](const std::vector<Table>& tables) {
+        for (const Table& table : tables)
+            if (!table.rows.empty()) out += text(table) + "\n";
+    };
+    add(probability_tables(view));
+    add(rate_tables(view));
+    add(by_first_column(rate_part_table(view)));
+    add(cause_tables(view));
     out += fmt::format("{} runs by {}: {}\n", view.plan.samples.size(), view.method, status_words(view));
     out += fmt::format("share of the draws that do not stand without an earthquake: {:.4g}\n", view.estimate.p_static);
     for (const LimitEstimate& limit : view.estimate.limits) out += answer_sentence(view, limit) + "\n";
+    out += fmt::format("by {}\n", method_words(view));
     for (const std::string& note : view.notes) out += "note: " + note + "\n";
     return out;
 }
@@ -209,7 +265,8 @@ std::string fragility_text(const FragilityView& view)
 Page fragility_page(const FragilityView& view)
 {
     Page page = begin_page(view.scene, "How likely the dam slides too far, by the strength of the earthquake. ");
-    page.headline.sentence = view.estimate.limits.empty() ? "" : answer_sentence(view, view.estimate.limits.front());
+    page.headline.sentence =
+        fmt::format("{}; by {}.", answer_sentence(view, view.estimate.limits.front()), method_words(view));
     page.key_figures = {{"Runs", fmt::format("{} by {}", view.plan.samples.size(), view.method)},
                         {"Events", std::to_string(view.estimate.clusters)},
                         {"Does not stand", fmt::format("{:.3g}", view.estimate.p_static)}};
@@ -219,16 +276,19 @@ Page fragility_page(const FragilityView& view)
     page.warnings = view.notes;
     Section curves{"Fragility", {curve_chart(view)}, Fold::open};
     Section rates{"Rates", {}, Fold::open}, causes{"What it comes from", {}, Fold::open};
-    for (Table table : {fragility_table(view), conditioned_table(view), curve_table(view)})
-        if (!table.rows.empty()) curves.parts.push_back(rows_part(std::move(table)));
+    const auto add = [](Section& to, std::vector<Table> tables, Fold fold = Fold::open) {
+        for (Table& table : tables)
+            if (!table.rows.empty()) to.parts.push_back(TablePart{std::move(table), Layout::rows, 1, fold});
+    };
+    add(curves, probability_tables(view));
     page.sections.push_back(std::move(curves));
-    if (const Table table = rate_table(view); !table.rows.empty()) {
-        rates.parts = {rate_chart(view), rows_part(table),
-                       TablePart{rate_part_table(view), Layout::rows, 1, Fold::folded}};
+    if (std::vector<Table> tables = rate_tables(view); !tables.empty()) {
+        rates.parts = {rate_chart(view)};
+        add(rates, std::move(tables));
+        add(rates, by_first_column(rate_part_table(view)), Fold::folded);
         page.sections.push_back(std::move(rates));
     }
-    for (Table table : {cause_table(view), needed_yield_table(view)})
-        if (!table.rows.empty()) causes.parts.push_back(rows_part(std::move(table)));
+    add(causes, cause_tables(view));
     if (!causes.parts.empty()) page.sections.push_back(std::move(causes));
     if (view.own_cost.size() > 1)
         page.sections.push_back(
@@ -239,6 +299,9 @@ Page fragility_page(const FragilityView& view)
              Fold::open});
     page.sections.push_back(
         {"Runs", {Paragraph{status_words(view) + ". Each run is a row of samples.csv."}}, Fold::open});
+    page.sections.push_back(limits_section(view.scene, sweep_method(view.method).kind == SweepKind::finite_elements
+                                                           ? Method::finite_elements
+                                                           : Method::rigid_block));
     page.sections.push_back({"Scene", {scene_listing(view.scene)}, Fold::open});
     page.provenance = scene_provenance(view.scene);
     add_record_provenance(*view.plan.suite.pairs, page.provenance);

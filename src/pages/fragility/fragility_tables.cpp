@@ -97,6 +97,27 @@ Table sample_table(const FragilityView& view, std::size_t first, std::size_t end
 
 namespace {
 
+/// Percentiles of P by lack of knowledge; none: there is none.
+std::vector<ColumnOf<LevelRow>> band_columns(const FragilityView& view)
+{
+    std::vector<ColumnOf<LevelRow>> columns;
+    if (view.plan.epistemic)
+        for (std::size_t q = 0; q < probability::band_levels.size(); ++q)
+            columns.push_back(
+                {{fmt::format("band_{:02.0f}", 100.0 * probability::band_levels[q]),
+                  fmt::format("{:.0f} % of P", 100.0 * probability::band_levels[q]), "–", 3},
+                 [q](const LevelRow& r) { return r.level.bands ? Cell(r.level.bands->percentiles[q]) : Cell(); }});
+    return columns;
+}
+
+std::vector<LevelRow> level_rows(const FragilityView& view)
+{
+    std::vector<LevelRow> rows;
+    for (const LimitEstimate& limit : view.estimate.limits)
+        for (const LevelEstimate& level : limit.levels) rows.push_back({limit, level});
+    return rows;
+}
+
 /// Weighted runs are no whole number.
 Cell count_of(double n)
 {
@@ -105,11 +126,9 @@ Cell count_of(double n)
 
 } // namespace
 
-Table fragility_table(const FragilityView& view)
+Table fragility_table(const FragilityView& view, Readers readers)
 {
-    std::vector<LevelRow> rows;
-    for (const LimitEstimate& limit : view.estimate.limits)
-        for (const LevelEstimate& level : limit.levels) rows.push_back({limit, level});
+    const std::vector<LevelRow> rows = level_rows(view);
     using R = LevelRow;
     const bool counted = view.plan.input.intensity.design != FragilityDesign::cloud;
     const auto number = [counted](auto get) {
@@ -131,22 +150,20 @@ Table fragility_table(const FragilityView& view)
              return counted && r.level.records.clusters > 1 ? Cell(r.level.records.upper) : Cell();
          }},
         {{"runs", "runs"}, number([](const LevelEstimate& e) { return count_of(e.n); })},
-        {{"failures", "failures"}, number([](const LevelEstimate& e) { return count_of(e.z); })},
+        {{"failures", "failures"}, number([](const LevelEstimate& e) { return count_of(e.z); })}};
+    const bool missing = std::any_of(rows.begin(), rows.end(), [](const R& r) { return r.level.missing > 0.0; });
+    const std::vector<ColumnOf<R>> of_missing = {
         {{"missing", "missing"}, number([](const LevelEstimate& e) { return e.missing; })},
         {{"probability_low", "missing survive", "–", 3}, number([](const LevelEstimate& e) { return e.p_low; })},
-        {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })},
-        {{"fitted", "curve", "–"}, [](const R& r) { return optional_cell(r.level.fitted); }}};
-    if (view.plan.epistemic)
-        for (std::size_t q = 0; q < probability::band_levels.size(); ++q)
-            columns.push_back(
-                {{fmt::format("band_{:02.0f}", 100.0 * probability::band_levels[q]),
-                  fmt::format("{:.0f} % of P", 100.0 * probability::band_levels[q]), "–", 3},
-                 [q](const R& r) { return r.level.bands ? Cell(r.level.bands->percentiles[q]) : Cell(); }});
+        {{"probability_high", "missing fail", "–", 3}, number([](const LevelEstimate& e) { return e.p_high; })}};
+    if (missing || readers == Readers::files) columns.insert(columns.end(), of_missing.begin(), of_missing.end());
+    columns.push_back({{"fitted", "curve", "–"}, [](const R& r) { return optional_cell(r.level.fitted); }});
+    if (readers == Readers::files)
+        for (ColumnOf<R>& column : band_columns(view)) columns.push_back(std::move(column));
     Table t = table_of("Probabilities", columns, rows);
     if (!counted) return t;
-    t.notes = {"draws: 95 % by the draws of variables and records, the suite taken as all there is; records: 95 % by "
-               "drawing its events anew. "
-               "The two are never added up."};
+    t.notes = {"draws: 95 % by the draws of variables and records, the suite taken as all there is;",
+               "records: 95 % by drawing its events anew. The two are never added up."};
     if (view.estimate.clusters < 10)
         t.notes.push_back(
             fmt::format("records: {} event{}, fewer than 10: that interval is too short, or there is none.",
@@ -159,6 +176,15 @@ Table fragility_table(const FragilityView& view)
                 return t;
             }
     return t;
+}
+
+Table band_table(const FragilityView& view)
+{
+    std::vector<ColumnOf<LevelRow>> columns = {
+        {{"limit", "limit"}, [](const LevelRow& r) { return r.limit.limit.text; }},
+        {intensity_column(view), [&](const LevelRow& r) { return r.level.x / view.unit; }}};
+    for (ColumnOf<LevelRow>& column : band_columns(view)) columns.push_back(std::move(column));
+    return view.plan.epistemic ? table_of("Bands of P by lack of knowledge", columns, level_rows(view)) : Table{};
 }
 
 Table curve_table(const FragilityView& view)
@@ -193,7 +219,7 @@ Table curve_table(const FragilityView& view)
         if (const std::string levels = levels_apart_from_median(view, limit); !levels.empty())
             t.notes.push_back(
                 fmt::format("{}: the median is extrapolated from the levels, {}; levels about P = 0.5 would "
-                            "say where it is.",
+                            "say it.",
                             limit.limit.text, levels));
     for (const LimitEstimate& limit : view.estimate.limits)
         if (limit.capacity_roots && limit.capacities)
@@ -248,21 +274,55 @@ Table rate_table(const FragilityView& view)
                 fmt::format("{}: {:.0f} % of the upper bound stem from intensities outside the tested levels.",
                             l.limit.text, 100.0 * l.rate->raw.outside_share));
         if (!l.rate->raw_high.all_events)
-            t.notes.push_back(
-                fmt::format("{}: earthquakes weaker than {:.3g} {}, where the hazard curve begins, are not "
-                            "in the rate; P is {:.3g} at most there. hazard.all_events, the rate of all "
-                            "earthquakes, counts them.",
-                            l.limit.text, l.rate->raw.x_first / view.unit, view.unit_text, l.rate->raw_high.p_first));
+            t.notes.push_back(fmt::format(
+                "{}: earthquakes below {:.3g} {}, the curve's first point, are left out; P is {:.3g} at most there.",
+                l.limit.text, l.rate->raw.x_first / view.unit, view.unit_text, l.rate->raw_high.p_first));
     }
-    if (!rated.empty())
-        t.notes.push_back("from … to: below the lowest level P is between 0 and P there, above the highest between P "
-                          "there and 1; draws and records: of the lower end.");
+    if (std::any_of(rated.begin(), rated.end(), [](const L& l) { return !l.rate->raw_high.all_events; }))
+        t.notes.push_back("hazard.all_events, the rate of all earthquakes, counts the weaker ones, too.");
+    if (!rated.empty()) {
+        t.notes.push_back("from … to: P is 0 … P of the lowest level below it, P of the highest … 1 above it;");
+        t.notes.push_back("draws, records, lack of knowledge: of the lower end.");
+    }
     if (!rated.empty())
         t.notes.push_back(view.plan.input.probability.static_failure == StaticFailure::infinite
                               ? "A dam that does not stand without an earthquake counts at every intensity."
                               : fmt::format("Of a dam that stands without an earthquake; {:.3g} of the draws do not.",
                                             view.estimate.p_static));
     return t;
+}
+
+std::vector<Table> rate_tables(const FragilityView& view)
+{
+    struct Row {
+        std::string what;
+        std::optional<double> from, to = {};
+    };
+    std::vector<Table> tables;
+    for (const LimitEstimate& limit : view.estimate.limits) {
+        if (!limit.rate) continue;
+        const LimitRate& rate = *limit.rate;
+        const auto between = [](std::string what, const probability::Interval& i) {
+            return Row{std::move(what), i.lower, i.upper};
+        };
+        std::vector<Row> rows{between("rate per year, stripes", rate.bounds()), between("draws, 95 %", rate.sampling)};
+        if (rate.records.clusters > 1) rows.push_back(between("records, 95 %", rate.records));
+        if (rate.fitted) rows.push_back({"rate per year, curve", rate.fitted->lower, rate.fitted->upper});
+        if (!rate.bands.empty()) {
+            rows.push_back({"lack of knowledge, 5 … 95 %", rate.bands[0], rate.bands[4]});
+            rows.push_back({"lack of knowledge, 16 … 84 %", rate.bands[1], rate.bands[3]});
+            rows.push_back({"lack of knowledge, median", rate.bands[2]});
+        }
+        rows.push_back({"P in 50 years", probability::probability_in(rate.bounds().lower, 50.0),
+                        probability::probability_in(rate.bounds().upper, 50.0)});
+        tables.push_back(table_of<Row>("Rates: " + limit.limit.text,
+                                       {{{"what", "what"}, &Row::what},
+                                        {{"from", "from", "", 3}, [](const Row& r) { return optional_cell(r.from); }},
+                                        {{"to", "to", "", 3}, [](const Row& r) { return optional_cell(r.to); }}},
+                                       rows));
+    }
+    if (!tables.empty()) tables.back().notes = rate_table(view).notes;
+    return tables;
 }
 
 Table rate_part_table(const FragilityView& view)
@@ -401,13 +461,11 @@ Table cause_table(const FragilityView& view)
     for (const ColumnOf<Row>& column : correlated ? of_shapley : of_sobol) columns.push_back(column);
     Table t = table_of<Row>("What P comes from", columns, rows);
     if (view.causes) {
-        t.notes = {fmt::format("P({}) at {:.4g} {} by the rigid block under the whole suite; others at their medians. "
-                               "share: of the variance of P "
-                               "{}.",
+        t.notes = {fmt::format("P({}) at {:.4g} {} by the rigid block under the whole suite; others at their medians.",
                                view.causes->limit.text,
-                               view.plan.input.intensity.levels[view.causes->level] / view.unit, view.unit_text,
-                               correlated ? "(Shapley) among correlated variables; the shares sum up to 1"
-                                          : "(Sobol'), alone and with all others")};
+                               view.plan.input.intensity.levels[view.causes->level] / view.unit, view.unit_text),
+                   correlated ? "share: of the variance of P (Shapley) among correlated variables; they sum up to 1."
+                              : "share: of the variance of P (Sobol'), alone and with all others."};
         if (!view.causes->shares && !correlated)
             t.notes.push_back(fmt::format("No shares: P does not vary, or there are more than {} correlated variables.",
                                           most_shapley));

@@ -42,7 +42,10 @@ std::string csv_head(const std::vector<Column>& columns, const std::vector<std::
 {
     std::string out;
     for (const std::string& comment : comments) out += "# " + visible(comment, LineEnds::replaced) + "\n";
-    for (std::size_t j = 0; j < columns.size(); ++j) out += (j ? "," : "") + columns[j].key;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        if (j) out += ',';
+        add_csv_field(out, columns[j].key); // the name of a variable may be a key
+    }
     return out + "\n";
 }
 

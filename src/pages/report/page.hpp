@@ -68,6 +68,10 @@ struct Headline {
     std::string verdict; ///< "PASS", or why there is none
 };
 
+/// The verdict on the slip joined with that on the load combinations: "Slip: PASS; load combinations: FAIL usual 2.95 < 3.0".
+/// @param failed  checks that fail (sliding::failed_checks()); empty: the slip's stands alone
+Headline with_failed_checks(Headline slip, const std::string& failed);
+
 /// Whose report it is; nothing given: no block.
 struct TitleBlock {
     std::vector<std::pair<std::string, std::string>> entries; ///< name, value: "client", "Valley Power"

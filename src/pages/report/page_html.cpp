@@ -6,6 +6,16 @@
 
 namespace damslip::pages {
 
+Headline with_failed_checks(Headline slip, const std::string& failed)
+{
+    if (failed.empty()) return slip;
+    std::string verdict = slip.outcome == Outcome::none ? "no criterion" : slip.verdict;
+    if (verdict.ends_with('.')) verdict.pop_back();
+    return {std::move(slip.sentence), Outcome::fail,
+            "Slip: " + verdict + "; load combinations: FAIL " + failed};
+}
+
+
 namespace {
 
 std::string note_html(const std::string& note)

@@ -34,22 +34,28 @@ TitleBlock title_block(const Project& project)
 
 } // namespace
 
-nlohmann::ordered_json json_header(const std::string& what, const Scene& given)
+nlohmann::ordered_json json_header(const std::string& what, const Scene& scene, const std::string& hash)
 {
     nlohmann::ordered_json j = json_header(what);
-    j["scene"] = {{"title", given.title}, {"file", given.file.string()}, {"hash", scene_hash(given)}};
+    const std::string resolved = scene_hash(scene);
+    j["scene"] = {{"title", scene.title},
+                  {"file", scene.file.string()},
+                  {"hash", hash.empty() ? resolved : hash},
+                  {"resolved_hash", resolved}};
     return j;
 }
 
-Page begin_page(const Scene& scene, const std::string& about)
+Page begin_page(const Scene& scene, const std::string& about, const std::string& hash)
 {
+    const std::string words =
+        ", scene " + (hash.empty() ? scene_hash(scene) : hash).substr(0, 12) + ", damslip " + program_version();
     const std::string file = scene.file.filename().string();
     Page page;
     page.title = scene.title.empty() ? file : scene.title;
     page.title_block = title_block(scene.project);
-    page.footer = page.title + (scene.project.revision.empty() ? "" : ", revision " + scene.project.revision) +
-                  ", scene " + scene_hash(scene).substr(0, 12) + ", damslip " + program_version();
-    page.subtitle = about + file + ", scene " + scene_hash(scene).substr(0, 12) + ", damslip " + program_version();
+    page.footer =
+        page.title + (scene.project.revision.empty() ? "" : ", revision " + scene.project.revision) + words;
+    page.subtitle = about + file + words;
     return page;
 }
 
@@ -58,10 +64,14 @@ Listing scene_listing(const Scene& scene)
     return {"The resolved scene, all defaults written out (TOML)", resolved_toml(scene)};
 }
 
-std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& scene)
+std::vector<std::pair<std::string, std::string>> scene_provenance(const Scene& scene, const std::string& hash)
 {
-    return {
-        {"program", "damslip " + program_version()}, {"scene", scene.file.string()}, {"scene hash", scene_hash(scene)}};
+    const std::string resolved = scene_hash(scene);
+    std::vector<std::pair<std::string, std::string>> list{{"program", "damslip " + program_version()},
+                                                          {"scene", scene.file.string()},
+                                                          {"scene hash", hash.empty() ? resolved : hash}};
+    if (list.back().second != resolved) list.emplace_back("hash of the resolved scene", resolved);
+    return list;
 }
 
 void add_record_provenance(const std::vector<RecordPair>& records,

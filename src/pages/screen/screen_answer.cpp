@@ -57,10 +57,6 @@ std::vector<std::string> screen_notes(const Ready& ready)
 {
     std::vector<std::string> notes = note_texts(ready.given.notes);
     if (!ready.flexible_modes.empty()) notes.push_back(ready.flexible_modes);
-    if (!ready.given.lift_joints.empty())
-        notes.push_back(fmt::format("Combinations and displacements are of the base only; slip on the {} "
-                                    "[[lift_joint]] is left to `damslip fe`.",
-                                    ready.given.lift_joints.size()));
     return notes;
 }
 
@@ -68,7 +64,7 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    auto j = json_header("screen", in.scene);
+    auto j = json_header("screen", in.scene, s.plan.scene_hash);
     j["records"] = record_provenance(in.records);
     j["effects"] = json_of(effect_table(s.plan));
     if (in.scene.wedge) {
@@ -96,6 +92,9 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s.regressions));
     if (in.spectrum) j["response_spectrum"] = spectrum_json(*in.spectrum);
+    const Headline headline = screen_headline(in.scene, s);
+    j["headline"] = headline.sentence;
+    j["verdict"] = headline.verdict;
     j["warnings"] = s.warnings;
     return j;
 }
@@ -105,7 +104,7 @@ std::string screen_text(const ScreenReportInput& in)
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     std::string out = in.scene.title + "   (" + in.scene.file.string() + ", scene " +
-                      scene_hash(in.scene).substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
+                      s.plan.scene_hash.substr(0, 12) + ")\n" + effects_line(s.plan) + "\n";
     const auto show = [&out](const Table& table) {
         if (!table.rows.empty()) out += text(table) + "\n";
     };
@@ -138,13 +137,15 @@ std::string screen_text(const ScreenReportInput& in)
     if (s.flexible) show(flexible_table(s, allowable));
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
+    const Headline headline = screen_headline(in.scene, s);
+    out += headline.sentence + "\n" + headline.verdict + "\n";
     for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
     return out;
 }
 
 void write_screening(const std::filesystem::path& folder, const ScreenReportInput& in)
 {
-    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + scene_hash(in.scene)};
+    const std::vector<std::string> comments{"damslip " + program_version(), "scene " + in.screening.plan.scene_hash};
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));

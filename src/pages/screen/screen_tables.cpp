@@ -277,9 +277,10 @@ Table event_table(const Screening& s)
                           {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
                           {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
                           {{"slip_of_event_mm", "slip of it", "mm", 5},
-                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.change / mm); }},
+                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), mm); }},
                           {{"slip_so_far_mm", "slip so far", "mm", 5},
-                           [](const Row& r) { return slip_cell(r.of.rigid(), r.event.slip / mm); }}},
+                           [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), mm); }},
+                          {{"status", "status"}, [](const Row& r) { return word(r.event.status); }}},
                          rows,
                          {"slip: positive downstream, the run to rest after each event included; with the vertical "
                           "component where the records have one."});

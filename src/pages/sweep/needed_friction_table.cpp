@@ -1,5 +1,6 @@
 #include "pages/sweep/needed_friction_table.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -104,7 +105,9 @@ Table needed_friction_table(const SweepView& view, const std::optional<double>& 
         {{"polarity", "polarity"}, [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
     if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &N::variant});
     return table_of(
-        fmt::format("Friction for a slip of {:.4g} mm at most", allowable.value_or(0.0) / units::mm), columns, list,
+        fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
+                    list.empty() ? "" : ", " + polarity_words(view.polarities)),
+        columns, list,
         {"all motions together: at \"holds from\" and every friction of the grid above it the largest slip, with its "
          "error where it has one, is no more. friction: between the two, the slip taken as linear in it; ±: to the "
          "farther of the two. Nothing in \"slips more at\": the lowest friction of the grid holds already; nothing in "

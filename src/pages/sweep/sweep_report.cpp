@@ -1,6 +1,7 @@
 #include "pages/sweep/sweep_report.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "analysis/prepare/seepage_source.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
@@ -201,6 +202,8 @@ Headline headline(const SweepView& view, const std::optional<double>& allowable)
                                 *allowable / mm);
     }
     sentence += ".";
+    if (!view.polarities.empty()) sentence += " Run: " + polarity_words(view.polarities) + ".";
+    if (worst && !worst->finite_elements()) sentence += " By " + std::string(worst->method) + ": no bound for an elastic dam.";
     if (!unanswered.empty()) return {sentence, Outcome::unresolved, unanswered + "."};
     return {sentence, Outcome::none, ""};
 }

@@ -170,6 +170,8 @@ SweepRow SweepViewMaker::row_of(const std::vector<Cell>& row)
     r.method = p.method.of(row);
     r.yield_acceleration = p.yield.number(row).value_or(0.0);
     r.pga = p.pga.number(row).value_or(0.0);
+    if (std::find(view_.polarities.begin(), view_.polarities.end(), r.polarity) == view_.polarities.end())
+        view_.polarities.push_back(r.polarity);
     r.critical_friction = p.critical.number(row);
     r.slip = p.max_slip.number(row);
     if (!r.slip) r.slip = p.slip.number(row);

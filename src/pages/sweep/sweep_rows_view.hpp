@@ -70,6 +70,7 @@ struct SweepView {
     std::vector<std::string> variant_names; ///< what sets each apart from the others; empty for a single one
     std::vector<std::string> methods, records;
     std::vector<double> frictions; ///< ascending
+    std::vector<int> polarities;   ///< in order of appearance
 
     /// Rows of a variant, method and friction, ascending; empty: none.
     std::span<const std::uint32_t> group(std::size_t variant, std::string_view method, double friction) const;

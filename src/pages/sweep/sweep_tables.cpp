@@ -3,6 +3,7 @@
 #include "pages/sweep/opening_water_table.hpp"
 
 #include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/report_provenance.hpp"
 #include "scene/plausible.hpp"
@@ -25,7 +26,7 @@ struct SweepLine {
     std::optional<double> mean; ///< slip of both polarities [m]
 
     const Axes& axes() const { return grid.axes; }
-    double yield() const { return grid.model(at).downstream.law.constant; }
+    double yield() const { return results.yield ? *results.yield : grid.yield(at); }
 };
 
 /// What the numbers of a row do not say by themselves.
@@ -50,8 +51,8 @@ const RowAnchor* anchor_of(const SweepLine& l, const std::string& name)
     return at == all.end() ? nullptr : &*at;
 }
 
-/// @param with  columns that are there
-std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
+/// Of what the grid has. @param mean  of both polarities, too
+std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
 {
     using L = SweepLine;
     using units::standard_gravity;
@@ -73,7 +74,7 @@ std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
         {{"method", "method"}, [](const L& l) { return l.axes().method[l.at.method].id; }},
         {{"yield_acceleration_m_s2", "a_y", "m/s²", 5}, [](const L& l) { return l.yield(); }},
         {{"yield_coefficient_g", "a_y", "g", 5}, [](const L& l) { return l.yield() / standard_gravity; }},
-        {{"pga_m_s2", "PGA", "m/s²", 4}, [](const L& l) { return l.grid.inputs_of(l.at).pga_g * standard_gravity; }},
+        {{"pga_m_s2", "PGA", "m/s²", 4}, [](const L& l) { return l.grid.pga(l.id); }},
         {{"slip_m", "slip", "m", 5}, given(&R::slip)},
         {{"max_slip_m", "largest", "m", 5}, given(&R::max_slip)},
         {{"upstream_slip_m", "upstream", "m", 4}, given(&R::upstream_slip)},
@@ -96,26 +97,26 @@ std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
         {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
         {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
     const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
-    if (with.opening)
+    if (has_opening_axis(grid.axes))
         all.insert(after,
                    {{"opening_water", "opening water"}, [](const L& l) { return l.axes().opening[l.at.opening]; }});
     const auto before_scale = [&all] {
         return std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "scale"; });
     };
-    if (with.period)
+    if (!grid.axes.period.empty())
         all.insert(before_scale(),
                    {{"period_s", "T_s", "s", 4}, [](const L& l) { return l.axes().period[l.at.period]; }});
-    if (with.damping)
+    if (!grid.axes.damping.empty())
         all.insert(before_scale(),
                    {{"damping", "damping", "–", 4}, [](const L& l) { return l.axes().damping[l.at.damping]; }});
-    for (std::size_t k = 0; k < with.events.size(); ++k)
+    for (std::size_t k = 0; k < grid.events.size(); ++k)
         all.push_back(
-            {{fmt::format("slip_after_event_{}_m", k + 1), "after " + with.events[k], "m", 5}, [k](const L& l) {
+            {{fmt::format("slip_after_event_{}_m", k + 1), "after " + grid.events[k], "m", 5}, [k](const L& l) {
                  const std::vector<double>& slips = l.results.event_slips;
                  return k < slips.size() ? Cell(slips[k]) : Cell();
              }});
-    for (std::size_t k = 0; k < with.anchors.size(); ++k) {
-        const std::string& name = with.anchors[k];
+    for (std::size_t k = 0; k < grid.anchors.size(); ++k) {
+        const std::string& name = grid.anchors[k];
         all.push_back(
             {{fmt::format("anchor_{}_largest_force_N_m", k + 1), "largest N, " + name, "N/m", 5}, [name](const L& l) {
                  const RowAnchor* anchor = anchor_of(l, name);
@@ -126,7 +127,7 @@ std::vector<ColumnOf<SweepLine>> columns(const AxisColumns& with)
                            return anchor ? Cell(anchor->state) : Cell();
                        }});
     }
-    if (with.mean)
+    if (mean)
         all.push_back(
             {{"mean_slip_m", "mean of both polarities", "m", 5}, [](const L& l) { return optional_cell(l.mean); }});
     return all;
@@ -144,13 +145,6 @@ std::optional<double> mean_of_polarities(const Grid& grid, GridIndex at, const S
     return sum / static_cast<double>(grid.axes.polarity.size());
 }
 
-/// What this sweep has columns for.
-AxisColumns columns_of(const Grid& grid, bool mean)
-{
-    const Axes& axes = grid.axes;
-    return {has_opening_axis(axes), !axes.period.empty(), !axes.damping.empty(), grid.events, grid.anchors, mean};
-}
-
 std::vector<Column> headings(const std::vector<ColumnOf<SweepLine>>& columns)
 {
     std::vector<Column> list;
@@ -164,7 +158,7 @@ void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, c
                         const TakeRow& take)
 {
     static const RowResults unreached = not_run();
-    const std::vector<ColumnOf<SweepLine>> list = columns(columns_of(grid, mean));
+    const std::vector<ColumnOf<SweepLine>> list = columns(grid, mean);
     std::vector<Cell> cells(list.size());
     auto next = outcome.rows.begin(); // both ascend
     for (const std::size_t id : ids) {
@@ -189,12 +183,7 @@ Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const S
 
 std::vector<Column> sweep_columns(const Grid& grid, bool mean)
 {
-    return headings(columns(columns_of(grid, mean)));
-}
-
-std::vector<Column> sweep_columns(const AxisColumns& with)
-{
-    return headings(columns(with));
+    return headings(columns(grid, mean));
 }
 
 Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared)
@@ -229,7 +218,7 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
         all.insert(all.begin() + 3,
                    {{"opening_water", "opening water"}, [&](const C& c) { return axes.opening[c.at.opening]; }});
     return table_of<C>(
-        "Slip by finite elements against the rigid block", all, compared,
+        "Slip by finite elements against the rigid block, " + polarity_words(axes.polarity), all, compared,
         {"both with the vertical component where the record has one; only motions that both methods carried to their "
          "end count; not compared: FE runs without a slip or an answer. No ± step: sub-steps are fixed."});
 }

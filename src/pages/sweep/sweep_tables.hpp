@@ -21,18 +21,7 @@ using TakeRow = std::function<void(const std::vector<Cell>& cells, const Finishe
 void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
                         const TakeRow& take);
 
-/// What has columns in the table only where the sweep has it.
-struct AxisColumns {
-    bool opening = false;                  ///< uplift.opening
-    bool period = false;                   ///< flexible_block.period_s
-    bool damping = false;                  ///< flexible_block.damping
-    std::vector<std::string> events = {};  ///< names of a sequence's events
-    std::vector<std::string> anchors = {}; ///< names of anchors
-    bool mean = false;                     ///< slip of both polarities, their mean; of no axis, asked for
-};
-
 /// Its columns.
-std::vector<Column> sweep_columns(const AxisColumns& with = {});
 std::vector<Column> sweep_columns(const Grid& grid, bool mean = false);
 
 /// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.

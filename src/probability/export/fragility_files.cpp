@@ -1,5 +1,7 @@
 #include "probability/export/fragility_files.hpp"
+
 #include "core/number.hpp"
+#include "core/text.hpp"
 #include "probability/laws/distribution.hpp"
 
 #include <algorithm>
@@ -11,24 +13,6 @@
 namespace damslip::probability {
 
 namespace {
-
-std::string xml_text(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 void check_word(const char* what, const std::string& word)
 {
