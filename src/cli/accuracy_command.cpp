@@ -105,7 +105,7 @@ std::vector<std::string> messages_of(const LadderFacts& facts, const Loaded& loa
                                        "worst counts.",
                                        loaded.in_scene, loaded.records->front().files.name));
     const std::vector<int> polarities = polarities_of(loaded.scene);
-    messages.push_back(fmt::format("Every rung is run with {}.", polarity_words({polarities.front()})));
+    messages.push_back(fmt::format("Every model level is run with {}.", polarity_words({polarities.front()})));
     for (const RungResult& r : results)
         if (!r.done())
             messages.push_back(fmt::format("{} {}: {}", rung_id(r.rung),

@@ -53,7 +53,7 @@ std::string unanswered_words(const std::vector<ContactRun>& runs)
         if (is_answer(r.fe.status)) continue;
         const std::optional<double> walked = walked_at_least(r.fe.status, r.fe.slip);
         words += fmt::format("{}{}, polarity {:+d} {}{}", words.empty() ? "" : "; ", r.record, r.polarity,
-                             word(r.fe.status), walked ? fmt::format(", walked ≥ {:.4g} mm", 1e3 * *walked) : "");
+                             word(r.fe.status), walked ? fmt::format(", slid at least {:.4g} mm", 1e3 * *walked) : "");
     }
     return words;
 }
