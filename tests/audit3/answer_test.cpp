@@ -352,9 +352,6 @@ TEST_F(Audit3Answer, D7_FiniteElementsBeforeADearFlexibleBlock)
     EXPECT_EQ(a["recommended"]["level"], "finite elements");
 }
 
-<<<<<<< HEAD
-TEST_F(Audit3Answer, D2_InterruptedAssessmentRecommendsNothing)
-=======
 /// A user who stops it some time after it has begun.
 class StopsSoon final : public Watch {
 public:
@@ -364,8 +361,7 @@ private:
     mutable std::atomic<int> asked_{0};
 };
 
-TEST_F(Audit3, D2_InterruptedAssessmentRecommendsNothing)
->>>>>>> answer
+TEST_F(Audit3Answer, D2_InterruptedAssessmentRecommendsNothing)
 {
     const Scene scene = read_scene(write("long", dam("friction = 0.5", water() + "[time]\ndt_s = 0.0002")));
     StopsSoon user;
