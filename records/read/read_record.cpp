@@ -35,8 +35,9 @@ const RecordFormat& recognise(const RecordText& text)
 
 std::vector<Record> parse_record(std::string_view content, std::string_view file_name, const ReadOptions& options)
 {
+    RecordText text = split_lines(content, file_name); // refuses what is no text by its first bytes as they are
     const std::string converted = is_utf8(content) ? std::string() : utf8_text(std::string(content));
-    const RecordText text = split_lines(converted.empty() ? content : converted, file_name);
+    if (!converted.empty()) text = split_lines(converted, file_name);
     std::vector<Record> records = recognise(text).read(text, options);
     const std::string digest = sha256(content);
     for (Record& record : records) record.source.sha256 = digest;

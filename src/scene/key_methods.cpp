@@ -66,7 +66,7 @@ constexpr std::array rows{
     Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
     Row{"reservoir.bottom_modulus", fe},
     Row{"added_mass", all},
-    Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
+    Row{"gate", statics}, Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
     Row{"ice.level", moments}, Row{"force.x", moments}, Row{"force.y", moments},
 
     Row{"motion", statics}, Row{"motion.polarity", slips}, Row{"motion.vertical", slips | spectrum},

@@ -132,6 +132,7 @@ constexpr std::array rows{
     Row{"reservoir.bottom_density", 1200, 3100, rock_weight},
     Row{"reservoir.bottom_modulus", 0.01, 100, "Hoek & Diederichs 2006"},
     Row{"reservoir.mesh_size", 0.01, 20, judgement},
+    Row{"gate.top", 0.5, 330, "ICOLD register"}, // above the highest crest, as combination.reservoir_level
     Row{"added_mass.period", 0.02, 5, judgement},
     Row{"added_mass.zangar_table", 0, 1, "Zangar 1952"},
     Row{"tailwater.level", 0, 150, judgement},

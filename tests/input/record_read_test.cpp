@@ -50,7 +50,7 @@ const std::vector<BadRecord> bad_records{
     {"latin1",
      "\xe9t\xe9\n",
      {},
-     "x.txt:1: error: no accelerogram is recognised; the file starts with '?t?'.",
+     "x.txt:1: error: no accelerogram is recognised; the file starts with 'été'.",
      "convert"},
     {"html",
      "<!DOCTYPE html>\n1 2\n",
