@@ -100,7 +100,7 @@ TEST(Audit, A18_a_value_one_unit_step_away_is_named_with_its_place_range_and_sou
         "if t/m3 was meant:  density_t_m3 = 1.");
     EXPECT_EQ(
         only_note_of(std::string(dam_text) + "cohesion_MPa = 300\n"),
-        "dam.toml:10: contact.cohesion_MPa = 300, 300000 kPa, is unusual. Usual: 0 ... 3000 kPa (EPRI 1992). 300 kPa "
+        "dam.toml:10: contact.cohesion_MPa = 300, 300000 kPa, is unusual. Usual: 1 ... 3000 kPa (EPRI 1992). 300 kPa "
         "if kPa was meant:  cohesion_kPa = 300.");
     EXPECT_EQ(only_note_of(std::string(dam_text) + "[foundation]\nyoung_modulus_GPa = 20\npermeability_m_s = 1e3\n"),
               "dam.toml:12: foundation.permeability_m_s = 1000 is unusual. Usual: 1e-12 ... 0.01 m/s (Freeze & Cherry "

@@ -2,6 +2,7 @@
 // with it.
 #include "program_answer.hpp"
 #include "sliding/empirical/ensemble.hpp"
+#include "without_breaks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,8 +126,11 @@ TEST(Audit, A10_table_folds_what_does_not_apply)
     EXPECT_NE(text.find("sine: "), std::string::npos);
     EXPECT_NE(text.find("outside its range, not weighted: jibson-2007-ratio "), std::string::npos) << text;
     EXPECT_NE(text.find("needs magnitude: "), std::string::npos) << text;
-    const std::size_t note = text.find("\n  sine: "); // the one line at the end
-    EXPECT_EQ(text.find('\n', note + 1), std::string::npos) << text;
+    const std::size_t note = text.find("\n  sine: "); // the one sentence at the end
+    for (std::size_t line = note; line != std::string::npos; line = text.find('\n', line + 1))
+        EXPECT_EQ(text.substr(line + 1, 2), "  ") << text;
+    EXPECT_EQ(text.find("sine: ", note + 4), std::string::npos) << text;
+    EXPECT_TRUE(without_breaks(text).ends_with("; needs magnitude: 12; needs period: 1.")) << text;
     std::size_t digits = 0; // in a row
     for (const char c : text) {
         digits = (c >= '0' && c <= '9') ? digits + 1 : 0;

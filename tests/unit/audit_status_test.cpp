@@ -280,7 +280,7 @@ TEST(Audit, Statuses_each_command_tolerance_missed)
     const std::string scene = files.block(b);
     expect_status(swept_fe, scene, Status::tolerance_missed);
     expect_rung("fe-dry:dt=auto", scene, Status::tolerance_missed);
-    const ProgramAnswer answer = answer_of({"sweep", scene, "--method", "fe", "--json"});
+    const ProgramAnswer answer = answer_of({"sweep", scene, "--method", "fe", "--polarity", "1", "--json"});
     EXPECT_NE(answer.talk.find("1 row has no answer: 1 tolerance missed (row 0)"), std::string::npos) << answer.talk;
     const ProgramAnswer ablation = answer_of(with_scene(ablated_fe.arguments, scene));
     EXPECT_EQ(ablation.code, exit_no_answer); // the step that all its runs share is not what was asked for
@@ -347,8 +347,9 @@ TEST(Audit, B1_a_sweeps_stage_that_is_not_resolved_is_no_static_failure)
 {
     const Scenes files;
     const std::string scene = files.unsolvable_dam();
-    const ProgramAnswer answer =
-        answer_of({"sweep", scene, "--method", "fe-whole-steps", "--out", files.path("r.csv")});
+    const std::vector<std::string> sweep{"sweep", scene, "--method",  "fe-whole-steps",
+                                         "--polarity", "1",   "--out", files.path("r.csv")};
+    const ProgramAnswer answer = answer_of(sweep);
     EXPECT_EQ(answer.code, exit_no_answer);
     EXPECT_NE(answer.talk.find("3 rows have no answer: 3 not resolved (rows 0, 1, 2)"), std::string::npos)
         << answer.talk;
@@ -357,8 +358,9 @@ TEST(Audit, B1_a_sweeps_stage_that_is_not_resolved_is_no_static_failure)
     EXPECT_EQ(csv.find("static failure"), std::string::npos) << csv;
 
     // The same input gives it again: it is finished.
-    const ProgramAnswer again =
-        answer_of({"sweep", scene, "--method", "fe-whole-steps", "--out", files.path("r.csv"), "--resume"});
+    std::vector<std::string> resumed = sweep;
+    resumed.emplace_back("--resume");
+    const ProgramAnswer again = answer_of(resumed);
     EXPECT_EQ(again.code, exit_no_answer);
     EXPECT_NE(again.talk.find("3 rows were finished before"), std::string::npos) << again.talk;
     EXPECT_EQ(text_of(files.path("r.csv")), csv);
@@ -568,16 +570,25 @@ TEST(Audit, A16_sweep_slips_of_fixed_steps_say_that_they_have_no_error_estimate)
     BlockText b;
     b.friction = 0.15;
     const std::string scene = files.block(b); // time.substeps = 0
-    const ProgramAnswer answer = answer_of({"sweep", scene, "--method", "rigid,fe", "--json"});
+    const ProgramAnswer answer = answer_of({"sweep", scene, "--method", "rigid,fe", "--polarity", "1", "--json"});
     const json rows = rows_of(answer, {"rows"});
     EXPECT_TRUE(rows[0]["remark"].is_null()); // the rigid block has no such error
     EXPECT_TRUE(rows[1]["slip_error_m"].is_null());
     EXPECT_EQ(rows[1]["remark"], pages::no_error_estimate);
     EXPECT_NE(answer.talk.find("1 slip by finite elements has no error estimate"), std::string::npos) << answer.talk;
     EXPECT_TRUE(rows_of(answer, {"comparison"})[0]["largest_slip_error_mm"].is_null()); // not ± 0
+    // Both polarities by default: their slips, mirrored, do not cancel.
+    const ProgramAnswer both_ways = answer_of({"sweep", scene, "--method", "fe", "--json"});
+    EXPECT_NE(both_ways.talk.find("2 slips by finite elements have no error estimate"), std::string::npos);
+    const json mean = rows_of(both_ways, {"comparison"})[0];
+    const double one = rows_of(answer, {"comparison"})[0]["mean_fe_mm"];
+    EXPECT_GT(one, 50.0);
+    EXPECT_NEAR(mean["mean_fe_mm"].get<double>(), one, 1e-6 * one);
+    EXPECT_NEAR(mean["ratio_of_means"].get<double>(), 1.0, 0.01);
 
     b.time = "slip_tolerance = 0.1\n";
-    const ProgramAnswer chosen = answer_of({"sweep", files.block(b), "--method", "fe,fe-whole-steps", "--json"});
+    const ProgramAnswer chosen =
+        answer_of({"sweep", files.block(b), "--method", "fe,fe-whole-steps", "--polarity", "1", "--json"});
     const json both = rows_of(chosen, {"rows"});
     EXPECT_TRUE(both[0]["slip_error_m"].is_number());
     EXPECT_TRUE(both[0]["remark"].is_null());

@@ -1,6 +1,7 @@
 #include "analysis/sweep/sweep_comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace damslip {
 
@@ -25,12 +26,13 @@ SweepComparison comparison_at(const Scene& scene, const Grid& grid, const SweepO
             if (!is_answer(status) || !found.slip || model.state != sliding::StaticState::at_rest) continue;
             const sliding::SlideResult slide =
                 slide_model(scene, model, grid.motion(g), grid.axes.polarity[g.polarity]);
-            const std::optional<double> block = reported(slide.status, slide.slip);
+            const std::optional<double> block = reported(slide.status, std::abs(slide.slip));
             if (!block) continue;
+            const double slip = std::abs(*found.slip);
             ++c.motions;
-            fe += *found.slip;
+            fe += slip;
             rigid += *block;
-            c.largest_fe = std::max(c.largest_fe, *found.slip);
+            c.largest_fe = std::max(c.largest_fe, slip);
             c.largest_rigid = std::max(c.largest_rigid, *block);
             c.largest_error = found.slip_error && c.largest_error
                                   ? std::optional(std::max(*c.largest_error, *found.slip_error))

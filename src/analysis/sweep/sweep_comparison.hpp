@@ -6,7 +6,7 @@
 namespace damslip {
 
 /// FE slip against the rigid block's, over the motions of one friction, variant and FE method that both carried to their
-/// end, with the vertical component where the record has one.
+/// end, with the vertical component where the record has one. Slips are sizes: those of the two polarities do not cancel.
 struct SweepComparison {
     GridIndex at; ///< of the first motion
     std::int64_t motions = 0, static_failures = 0;
