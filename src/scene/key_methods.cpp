@@ -52,7 +52,7 @@ constexpr std::array rows{
     Row{"anchor.dowel", rigid | equilibrium | regressions | spectrum | fe},
     Row{"anchor.limit_force", equilibrium | spectrum},
 
-    Row{"uplift", statics}, Row{"uplift.crack", blocks | equilibrium}, Row{"uplift.opening", blocks | fe},
+    Row{"uplift", statics}, Row{"uplift.crack", blocks | equilibrium | regressions | finite_elements}, Row{"uplift.opening", blocks | fe},
     Row{"uplift.mouth_speed", blocks | fe}, Row{"uplift.after", rigid | fe}, Row{"uplift.joint_clearance", fe},
     Row{"uplift.water_viscosity", fe}, Row{"uplift.cavitation_pressure", fe}, Row{"uplift.wet_end", fe},
     Row{"curtain", statics}, Row{"curtain.young_modulus", model}, Row{"curtain.poisson_ratio", model},
@@ -63,7 +63,7 @@ constexpr std::array rows{
     Row{"reservoir", fe | modes}, Row{"reservoir.level", all}, Row{"reservoir.density", all}, Row{"reservoir.model", all},
     Row{"reservoir.bulk_modulus", fe | tied}, Row{"reservoir.length", fe | tied}, Row{"reservoir.far_end", fe | tied},
     Row{"reservoir.mesh_size", fe | tied}, Row{"reservoir.floor_pressure", finite_elements},
-    Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
+    Row{"reservoir.surface", fe}, Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
     Row{"reservoir.bottom_modulus", fe},
     Row{"added_mass", all},
     Row{"gate", statics}, Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
