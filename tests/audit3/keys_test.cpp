@@ -285,6 +285,15 @@ protected:
     }
 };
 
+/// Pairs that this walk cannot see, each with its reason.
+Methods out_of_sight(const std::string& key)
+{
+    if (key == "motion.polarity") return methods::rigid | methods::flexible; // `screen` runs both; A12 has `sweep`
+    if (key == "ice.level_m" || key == "force[].y_m") return methods::rigid; // matter to a block that tips
+    if (key == "regressions.period_s") return methods::flexible;            // the scene states flexible_block.period_s
+    return 0;
+}
+
 /// Every key of a scene that matters, by every method: what the table calls honoured changes the answer, and nothing else
 /// does. A method that is not named may refuse the key.
 class Audit3KeyWalk : public Audit3Keys, public testing::WithParamInterface<std::size_t> {};
@@ -302,7 +311,9 @@ TEST_P(Audit3KeyWalk, A1_EveryKeyByEveryMethod)
         for (Methods method = 1; method <= methods::modes; method <<= 1) {
             const bool answered = first.contains(method) && second.contains(method);
             const std::string what = c.key + " = " + c.first + " | " + c.second + " by " + method_words(method);
-            if (honoured & method)
+            if (out_of_sight(c.key) & method)
+                continue;
+            else if (honoured & method)
                 EXPECT_TRUE(!answered || first.at(method) != second.at(method)) << what << ": the same answer";
             else
                 EXPECT_TRUE(!answered || first.at(method) == second.at(method)) << what << ": not in the table";
