@@ -375,11 +375,16 @@ TEST(Audit, C_the_resolved_scene_has_the_sizes_of_elements_and_gives_the_same_bi
     const ProgramAnswer second = answer_of({"fe", folder.path("first/scene.resolved.toml"), "--polarity", "1",
                                             "--no-mesh-error", "--out", folder.path("second")});
     ASSERT_EQ(second.code, 0) << second.talk;
+    const auto numbers_of = [](const std::filesystem::path& file) { // the resolved scene is another input: its hash differs
+        const std::string text = content_of(file);
+        const std::size_t scene = text.find("# scene ");
+        return text.substr(0, scene) + text.substr(text.find('\n', scene));
+    };
     int compared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder.at / "first")) {
         if (entry.path().extension() != ".csv") continue;
         ++compared;
-        EXPECT_EQ(content_of(entry.path()), content_of(folder.at / "second" / entry.path().filename())) << entry.path();
+        EXPECT_EQ(numbers_of(entry.path()), numbers_of(folder.at / "second" / entry.path().filename())) << entry.path();
     }
     EXPECT_GE(compared, 4);
     EXPECT_EQ(resolved, content_of(folder.at / "second" / "scene.resolved.toml"));
