@@ -172,7 +172,9 @@ double EarthquakeRun::window() const
 {
     std::call_once(window_found_, [this] {
         double frequency = 0.0;
-        if (water_) {
+        if (!in_motion().model().mesh.contact.matching && scene_.mesh.file) {
+            // Nodes that do not face each other cannot be tied: the frequency is not known.
+        } else if (water_) {
             const CoupledModes modes = coupled_modes_up_to(coupled_pencil(tied_model(), water_->water), 0.0, 1);
             frequency = leading_modal_masses(modes, 1).front().frequency;
         } else if (const VectorXd found = bonded_frequencies(1); found.size() > 0)
@@ -351,7 +353,10 @@ void EarthquakeRun::judge(RunResult& result) const
         result.status = Status::runs_away;
         result.message = away;
     }
-    const std::string event = judge_events(result.status, structure_->planes()[0].length(), result.events);
+    // Where the state between two records does not stand, the records before it have been answered.
+    const bool stopped_between = !result.between.empty() && result.rest().status != StageStatus::ok;
+    const std::string event = judge_events(stopped_between ? Status::at_rest : result.status,
+                                           structure_->planes()[0].length(), result.events);
     if (!event.empty() && !result.message.empty()) result.message = "In \"" + event + "\": " + result.message;
     switch (result.status) {
     case Status::at_rest:
@@ -399,7 +404,7 @@ void EarthquakeRun::judge(RunResult& result) const
     // Where contact gives way before it slips, what that stores comes back through friction.
     if (scene_.contact.enforcement == ContactEnforcement::exact && scene_.contact.normal == NormalContact::hard)
         result.message += friction_gave_back(result.history);
-    if (result.events_left > 0 && !result.between.empty() && result.rest().status != StageStatus::ok)
+    if (result.events_left > 0 && stopped_between)
         result.message += fmt::format(" {} of the sequence {} not run.",
                                       result.events_left == 1 ? std::string("1 record")
                                                               : fmt::format("{} records", result.events_left),

@@ -35,7 +35,7 @@ struct SlideInstant {
 };
 
 /// Length of the windows after the record, and of the rest that ends a run: five periods of the dam, 5/f₁ [s].
-/// @param first_frequency  f₁ of the dam on its bonded base [Hz]; 0: not known, 1 s
+/// @param first_frequency  f₁ of the dam on its bonded base [Hz]; 0: not known (imported sides whose nodes do not face each other), 1 s
 double slide_window(double first_frequency);
 
 /// What is watched for.

@@ -164,7 +164,7 @@ Table check_matrix(const std::vector<Equilibrium>& all)
             if (check.verdict == Verdict::no_criterion) continue;
             if (judged.empty() || judged.back() != &e) judged.push_back(&e);
             add_new(quantities, check.quantity);
-            add_new(sources, check.source);
+            if (!check.source.empty()) add_new(sources, check.source);
         }
     std::vector<ColumnOf<E>> columns{{{"combination", "combination"}, [](E e) { return e->name; }},
                                      {{"crack_rule", "crack rule"}, [](E e) { return word(e->crack_rule); }}};
@@ -183,7 +183,7 @@ Table check_matrix(const std::vector<Equilibrium>& all)
         "Factors are to be at least what is required, the resultant's distance at most; –: no criterion.");
     std::string by;
     for (const std::string& source : sources) by += (by.empty() ? "Required by: " : "; ") + source;
-    table.notes.push_back(by + ".");
+    if (!by.empty()) table.notes.push_back(by + ".");
     return table;
 }
 

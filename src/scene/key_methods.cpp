@@ -52,7 +52,7 @@ constexpr std::array rows{
     Row{"anchor.dowel", rigid | equilibrium | regressions | spectrum | fe},
     Row{"anchor.limit_force", equilibrium | spectrum},
 
-    Row{"uplift", statics}, Row{"uplift.crack", blocks | equilibrium}, Row{"uplift.opening", blocks | fe},
+    Row{"uplift", statics}, Row{"uplift.crack", blocks | equilibrium | regressions | finite_elements}, Row{"uplift.opening", blocks | fe},
     Row{"uplift.mouth_speed", blocks | fe}, Row{"uplift.after", rigid | fe}, Row{"uplift.joint_clearance", fe},
     Row{"uplift.water_viscosity", fe}, Row{"uplift.cavitation_pressure", fe}, Row{"uplift.wet_end", fe},
     Row{"curtain", statics}, Row{"curtain.young_modulus", model}, Row{"curtain.poisson_ratio", model},
@@ -63,14 +63,16 @@ constexpr std::array rows{
     Row{"reservoir", fe | modes}, Row{"reservoir.level", all}, Row{"reservoir.density", all}, Row{"reservoir.model", all},
     Row{"reservoir.bulk_modulus", fe | tied}, Row{"reservoir.length", fe | tied}, Row{"reservoir.far_end", fe | tied},
     Row{"reservoir.mesh_size", fe | tied}, Row{"reservoir.floor_pressure", finite_elements},
-    Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
+    Row{"reservoir.surface", fe}, Row{"reservoir.floor", fe}, Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
     Row{"reservoir.bottom_modulus", fe},
     Row{"added_mass", all},
     Row{"gate", statics}, Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
     Row{"ice.level", moments}, Row{"force.x", moments}, Row{"force.y", moments},
 
     Row{"motion", statics}, Row{"motion.polarity", slips}, Row{"motion.vertical", slips | spectrum},
-    Row{"motion.sequence", rigid | regressions | spectrum | fe}, Row{"motion.sequence_pause", fe},
+    // Modified Rayleigh damping is fitted to the record.
+    Row{"motion.scale", statics | modes}, Row{"motion.record.scale", statics | modes},
+    Row{"motion.sequence", rigid | regressions | spectrum | fe | modes}, Row{"motion.sequence_pause", fe},
     Row{"motion.record", statics}, Row{"motion.record.magnitude", regressions},
     Row{"sliding", blocks}, Row{"sliding.scheme", rigid}, Row{"sliding.restitution", rigid},
     Row{"sliding.run_out_max", slips}, Row{"sliding.steady_rate_change", finite_elements},

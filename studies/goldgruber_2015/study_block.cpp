@@ -149,7 +149,7 @@ pages::Chart yield_with_vertical(const Scene& scene, const std::string& uplift, 
 
 RegressionsBeside regressions_beside_block(const Scene& scene, const RecordPair& record)
 {
-    const GroundMotion motion = horizontal_only(ground_motion(scene, record));
+    const GroundMotion motion = horizontal_only(ground_motion(scene, record, 1.0, study_polarity(scene)));
     const sliding::SkippingMotion prepared(motion);
     Scene here = variant(scene, scene.reservoir->level, "seepage", chapter_4::block_water, 1.0);
     SeepageSource seepage;

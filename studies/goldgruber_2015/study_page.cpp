@@ -46,12 +46,17 @@ Section block_section(const StudyPageInput& in)
     return section;
 }
 
+GroundMotion study_motion(const StudyPageInput& in)
+{
+    return ground_motion(in.scene, in.records.front(), 1.0, study_polarity(in.scene));
+}
+
 Section yield_section(const StudyPageInput& in)
 {
     Section section{"Figures 4-6 and 4-7: yield acceleration of the rigid block", {}, Fold::open};
     section.parts.emplace_back(yield_by_level(in.scene, "curtain"));
     section.parts.emplace_back(yield_by_level(in.scene, "seepage"));
-    section.parts.emplace_back(yield_with_vertical(in.scene, "curtain", ground_motion(in.scene, in.records.front())));
+    section.parts.emplace_back(yield_with_vertical(in.scene, "curtain", study_motion(in)));
     return section;
 }
 
@@ -216,7 +221,7 @@ pages::Page study_page(const StudyPageInput& in)
         page.sections.push_back(settings_section(in));
         page.sections.push_back(printed_uplift_section(in.rows));
     }
-    const std::vector<GroundMotion> motions{ground_motion(in.scene, in.records.front())};
+    const std::vector<GroundMotion> motions{study_motion(in)};
     page.sections.push_back({"Record", {rows_part(record_table(motions)), spectra(motions, 1)}, Fold::open});
     Table table = in.table;
     table.title = "Rows";

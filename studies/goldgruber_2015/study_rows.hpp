@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/prepare/records.hpp"
 #include "analysis/sweep/sweep_run.hpp"
 
 /// The grid of Goldgruber (2015), chapter 4, and what came out at its points.
@@ -18,6 +19,12 @@ inline constexpr const char* radiating_method =
     "fe-radiating"; ///< rock that radiates, beside the source's massless one
 } // namespace chapter_4
 
+/// The one polarity of the study: motion.polarity, else the record as filed.
+inline int study_polarity(const Scene& scene)
+{
+    return polarities_of(scene).front();
+}
+
 /// Where in the grid.
 struct StudyCase {
     std::string uplift = "seepage", water = "westergaard";
@@ -25,7 +32,7 @@ struct StudyCase {
     std::string method = "rigid";
 };
 
-/// Rows by their case, of the first record and polarity.
+/// Rows by their case, of the first record in the study's polarity.
 class StudyRows {
 public:
     StudyRows(const Grid& grid, const SweepOutcome& outcome) : grid_(grid), outcome_(outcome) {}

@@ -48,7 +48,6 @@ Axes ladder_axes()
     axes.uplift = {"seepage"};
     axes.reservoir = {"acoustic", "westergaard"};
     axes.size = axes.scale = {1.0};
-    axes.polarity = {1};
     axes.method = {sweep_method("fe")};
     return axes;
 }
@@ -60,6 +59,7 @@ std::vector<SettingsStep> settings_ladder(const Scene& given, const Records& rec
     std::vector<SettingsStep> steps;
     Axes axes = ladder_axes();
     axes.level = {given.reservoir->level};
+    axes.polarity = {study_polarity(given)};
     const TaskList tasks = make_tasks(axes, 1);
     std::vector<std::size_t> wanted(tasks.rows());
     std::iota(wanted.begin(), wanted.end(), 0u);

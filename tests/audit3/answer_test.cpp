@@ -342,7 +342,8 @@ TEST_F(Audit3Answer, D7_FiniteElementsBeforeADearFlexibleBlock)
     for (int k = 0; k <= 200; ++k)
         motion << fmt::format("{:.2f},{:.6f}\n", 0.01 * k, 9.0 * std::sin(2.0 * 3.141592653589793 * k / 20.0));
     motion.close();
-    std::string text = dam("friction = 1.2", water() + "opening = \"mouth\"\nmouth_speed_m_s = 5\n[regressions]\nperiod_s = 0.1");
+    std::string text = dam("friction = 1.2", water() + "opening = \"mouth\"\nmouth_speed_m_s = 5\n[regressions]\n"
+                                               "period_s = 0.1\n[time]\nsubsteps = 4");
     text.replace(text.find("pulses.csv"), 10, "long.csv");
     const auto start = std::chrono::steady_clock::now();
     const json a = answer({"assess", write("dear", text), "--budget", "6"});

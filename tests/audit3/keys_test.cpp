@@ -65,6 +65,7 @@ anchor[].limit_force : "prestress" | "yield" : anchor[].inclination_deg=30; anch
 uplift.model : "linear" | "none"
 uplift.curtain_ratio : 0.66 | 0.3 : uplift.model="curtain"; curtain.distance_m=4
 uplift.points_m : [[0,1],[24,0]] | [[0,1],[10,0.2],[24,0]] : uplift.model="points"
+uplift.crack : "none" | "seismic-zero" : section.base_m=20; reservoir.level_m=29; contact.friction=1.2
 uplift.opening : "unchanged" | "full"
 uplift.opening : "unchanged" | "zero"
 uplift.after : "unchanged" | "full" : motion.sequence=["a","a"]
@@ -284,18 +285,35 @@ protected:
     }
 };
 
+/// Pairs that this walk cannot see, each with its reason.
+Methods out_of_sight(const std::string& key)
+{
+    if (key == "motion.polarity") return methods::rigid | methods::flexible; // `screen` runs both; A12 has `sweep`
+    if (key == "ice.level_m" || key == "force[].y_m") return methods::rigid; // matter to a block that tips
+    if (key == "regressions.period_s") return methods::flexible;            // the scene states flexible_block.period_s
+    return 0;
+}
+
 /// Every key of a scene that matters, by every method: what the table calls honoured changes the answer, and nothing else
 /// does. A method that is not named may refuse the key.
-TEST_F(Audit3Keys, A1_EveryKeyByEveryMethod)
+class Audit3KeyWalk : public Audit3Keys, public testing::WithParamInterface<std::size_t> {};
+
+constexpr std::size_t parts_of_the_walk = 6;
+
+TEST_P(Audit3KeyWalk, A1_EveryKeyByEveryMethod)
 {
-    for (const Case& c : all_cases()) {
+    const std::vector<Case> every = all_cases();
+    for (std::size_t i = GetParam(); i < every.size(); i += parts_of_the_walk) {
+        const Case& c = every[i];
         const auto [table, key] = table_and_key(c.key);
         const Methods honoured = honoured_by(table, key);
         const auto first = answers(scene_of(c, c.first)), second = answers(scene_of(c, c.second));
         for (Methods method = 1; method <= methods::modes; method <<= 1) {
             const bool answered = first.contains(method) && second.contains(method);
             const std::string what = c.key + " = " + c.first + " | " + c.second + " by " + method_words(method);
-            if (honoured & method)
+            if (out_of_sight(c.key) & method)
+                continue;
+            else if (honoured & method)
                 EXPECT_TRUE(!answered || first.at(method) != second.at(method)) << what << ": the same answer";
             else
                 EXPECT_TRUE(!answered || first.at(method) == second.at(method)) << what << ": not in the table";
@@ -303,6 +321,8 @@ TEST_F(Audit3Keys, A1_EveryKeyByEveryMethod)
         EXPECT_TRUE(honoured) << c.key;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(part, Audit3KeyWalk, testing::Range<std::size_t>(0, parts_of_the_walk));
 
 /// No number of a scene is one that nothing computes with.
 TEST_F(Audit3Keys, A1_EveryNumberIsHonouredBySomeMethod)

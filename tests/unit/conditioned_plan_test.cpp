@@ -20,6 +20,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace damslip {
 namespace {
@@ -32,6 +33,8 @@ FragilityInput input_of_pulse(double limit)
     input.probability.variables = {pulse::mu()};
     input.intensity.levels = {pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
+    input.suite = SuiteInput{};
+    input.suite->polarity = SuitePolarity::as_recorded;
     return input;
 }
 
@@ -83,6 +86,9 @@ TEST(ConditionedPlan, RigidBlockIsExact)
         EXPECT_NEAR(p(level) / ((lognormal_share(mu, 0.30, 0.2) - below) / (1.0 - below)), 1.0, 1e-9);
         input.probability.variables[0].law = {"uniform", {{"min", 0.15}, {"max", 0.5}}, {}, {}, {}};
         EXPECT_NEAR(p(level) / ((mu - 0.15) / 0.35), 1.0, 1e-9);
+        const std::optional<SuiteInput> as_recorded = std::exchange(input.suite, {});
+        EXPECT_NEAR(p(level) / (0.5 * (mu - 0.15) / 0.35), 1.0, 1e-9); // both polarities: reversed, nothing slides
+        input.suite = as_recorded;
     }
 }
 

@@ -27,6 +27,23 @@ TEST_F(FragilityCommand, ProbabilitiesAreThoseByHand)
     }
 }
 
+// Both by default, also where the scene has a motion.polarity, which is for fe and sweep.
+TEST_F(FragilityCommand, TheTableNamesThePolaritiesBehindIt)
+{
+    for (const auto& [suite, more, words] :
+         {std::tuple{"polarity = \"as-recorded\"\n", "", "polarity +1 alone"},
+          std::tuple{"polarity = \"reversed\"\n", "", "polarity -1 alone"},
+          std::tuple{"max_scale = 4\n", "[motion]\npolarity = 1\n", "both polarities"}}) {
+        Tables tables;
+        tables.suite = suite;
+        tables.more = more;
+        write_scene(tables);
+        const ProgramAnswer answer = fragility({"--samples", "16", "--conditioning", "off"});
+        EXPECT_NE(answer.out.find(std::string("each record with ") + words), std::string::npos)
+            << answer.out << answer.talk;
+    }
+}
+
 TEST_F(FragilityCommand, PartsPutTogetherHaveTheBytesOfOneRun)
 {
     const std::vector<std::string> size{"--samples", "64", "--conditioning", "off"};

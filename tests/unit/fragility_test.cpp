@@ -31,6 +31,8 @@ FragilityInput pulse_input(double limit)
     input.probability.variables = {pulse::mu()};
     input.intensity.levels = {pulse::accel};
     input.limits = {{LimitQuantity::slip, limit, "slip"}};
+    input.suite = SuiteInput{};
+    input.suite->polarity = SuitePolarity::as_recorded;
     return input;
 }
 
@@ -77,6 +79,31 @@ TEST(Fragility, PulseAndRandomFriction)
     }
 }
 
+// Without [suite] a record shakes both ways round, half of the runs each: reversed, this pulse moves no block that slides one way; as recorded every
+// run slides farther than the limit whose friction is below mu*.
+TEST(Fragility, WithoutASuiteBothPolaritiesCountAlike)
+{
+    const SceneText text = pulse::scene();
+    FragilityInput input = pulse_input(0.2);
+    input.suite.reset();
+    const Done both = fragility(text, input, 1024);
+    double reversed = 0.0, fails = 0.0;
+    for (std::size_t id = 0; id < both.plan.samples.size(); ++id) {
+        const FragilitySample sample = both.plan.samples[id];
+        const double mu = std::get<double>(both.plan.draws[sample.draw].values[0]);
+        const bool far = sample.polarity > 0 && mu < pulse::friction(0.2);
+        EXPECT_EQ(both.runs.rows[id]->results.slip.value_or(NAN) > 0.2, far) << mu << " " << sample.polarity;
+        reversed += sample.polarity < 0;
+        fails += far;
+    }
+    EXPECT_EQ(reversed, 512.0);
+    EXPECT_GT(fails, 100.0);
+    EXPECT_NEAR(both.estimate.limits[0].levels[0].p, fails / 1024.0, 1e-12);
+    input.suite = SuiteInput{};
+    input.suite->polarity = SuitePolarity::reversed;
+    EXPECT_EQ(fragility(text, input, 1024).estimate.limits[0].levels[0].p, 0.0);
+}
+
 // Slip of a one-way block, D(k a; a_y) = k D(a; a_y / k): mu random and levels k A0 with thresholds k d give the same P as mu / k.
 TEST(Fragility, LevelsScaleTheRecord)
 {
@@ -100,8 +127,6 @@ TEST(Fragility, RefusesRecordsScaledTooFar)
     input.intensity.levels = {4.1 * pulse::accel};
     const SceneText text = pulse::scene();
     EXPECT_THROW(plan_fragility(input, pulse::suite(text), {64}, text.file(), written), InputError);
-    input.suite = SuiteInput{};
-    input.suite->polarity = SuitePolarity::as_recorded;
     input.suite->allow_scaling = true;
     EXPECT_EQ(plan_fragility(input, pulse::suite(text), {64}, text.file(), written).scaled_far.size(), 1u);
 }

@@ -101,7 +101,7 @@ TEST_F(SweepScene, FrictionForTheAllowableSlipLiesBetweenTwoOfTheGrid)
 TEST_F(SweepScene, FlexibleRowsAreThoseOfScreen)
 {
     write("block.toml", content("block.toml") + "[flexible_block]\nperiod_s = 0.3\ndamping = 0.07\n");
-    const Answer rows = sweep({"--method", "rigid,decoupled,coupled", "--json"});
+    const Answer rows = sweep({"--method", "rigid,decoupled,coupled", "--polarity", "1", "--json"});
     ASSERT_EQ(rows.code, 0) << rows.talk;
     const Answer screened = answer_of({"screen", path("block.toml"), "--json"});
     const auto swept = nlohmann::json::parse(rows.out)["rows"];
@@ -118,8 +118,8 @@ TEST_F(SweepScene, FlexibleRowsAreThoseOfScreen)
 
 TEST_F(SweepScene, PeriodsAndDampingAreAxes)
 {
-    const Answer rows = sweep({"--method", "rigid,coupled", "--period", "0.2,0.4", "--damping", "0.02,0.1", "--record",
-                               path("pulse.csv"), "--json"});
+    const Answer rows = sweep({"--method", "rigid,coupled", "--period", "0.2,0.4", "--damping", "0.02,0.1",
+                               "--polarity", "1", "--record", path("pulse.csv"), "--json"});
     ASSERT_EQ(rows.code, 0) << rows.talk;
     const auto swept = nlohmann::json::parse(rows.out)["rows"];
     ASSERT_EQ(swept.size(), 8u);
@@ -132,15 +132,15 @@ TEST_F(SweepScene, PeriodsAndDampingAreAxes)
     }
     // Each row is that of a scene with these values.
     write("block.toml", content("block.toml") + "[flexible_block]\nperiod_s = 0.4\ndamping = 0.02\n");
-    const Answer one = sweep({"--method", "coupled", "--record", path("pulse.csv"), "--json"});
+    const Answer one = sweep({"--method", "coupled", "--polarity", "1", "--record", path("pulse.csv"), "--json"});
     EXPECT_EQ(nlohmann::json::parse(one.out)["rows"][0]["max_slip_m"], swept[5]["max_slip_m"]);
     // Parts put together have the rows of the whole.
     const std::vector<std::string> grid_of{"--method", "rigid,coupled", "--period",
                                            "0.2,0.4",  "--out",         path("all.csv")};
     ASSERT_EQ(sweep(grid_of).code, 0);
     for (const char* part : {"0/2", "1/2"}) ASSERT_EQ(sweep(with(grid_of, {"--shard", part})).code, 0);
-    const Answer merged =
-        answer_of({"sweep", "--merge", path("all.0-of-2.sqlite"), path("all.1-of-2.sqlite"), "--out", path("merged.csv")});
+    const Answer merged = answer_of(
+        {"sweep", "--merge", path("all.0-of-2.sqlite"), path("all.1-of-2.sqlite"), "--out", path("merged.csv")});
     ASSERT_EQ(merged.code, 0) << merged.talk;
     EXPECT_EQ(content("merged.csv"), content("all.csv"));
 }

@@ -185,12 +185,12 @@ TEST_F(RecordSuiteCommand, writes_a_list_that_is_read_back_with_its_factors)
     EXPECT_EQ(answer["selected"][0]["name"], "ec8_3.0_h"); // made for that spectrum
     const double factor = answer["selected"][0]["factor"];
     EXPECT_NEAR(factor, 0.5, 0.05); // its spectrum follows the target within 10 %
-    const auto screened =
-        answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records", list, "--json"});
+    const auto screened = answer_of(
+        {"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records", list, "--json"});
     const auto row = nlohmann::json::parse(screened.out)["displacements"][0];
     EXPECT_NEAR(row["pga_m_s2"].get<double>(), factor * answer["records"][0]["pga_m_s2"].get<double>(), 1e-9);
-    const auto reported = answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records",
-                                     list, "--out", (folder / "out").string()});
+    const auto reported = answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml",
+                                     "--records", list, "--out", (folder / "out").string()});
     EXPECT_NE(read_file(folder / "out" / "report.html").find(fmt::format("times {:.6g}", factor)), std::string::npos);
 }
 
@@ -238,8 +238,8 @@ TEST_F(RecordSuiteCommand, a_matched_suite_meets_the_target_and_is_read_back)
         const double factor = std::stod(a.out.substr(at + std::string(name).size() + 13));
         EXPECT_NEAR(measure(scaled_up).pga / measure(up).pga, factor, 1e-3 * factor); // printed with four digits
     }
-    const auto screened = answer_of(
-        {"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml", "--records", list.string(), "--json"});
+    const auto screened = answer_of({"screen", std::string(source_dir()) + "/examples/reference_dam_profile.toml",
+                                     "--records", list.string(), "--json"});
     ASSERT_EQ(screened.code, 0) << screened.talk;
     for (const auto& row : nlohmann::json::parse(screened.out)["displacements"])
         EXPECT_NEAR(row["pga_m_s2"].get<double>(), 1.5, 1e-5);
@@ -256,10 +256,17 @@ TEST_F(RecordSuiteCommand, refuses_records_that_cannot_serve)
     a = answer_of({"record", "suite", (folder / "*.at2").string()});
     EXPECT_EQ(a.code, 3);
     EXPECT_NE(a.talk.find("*.at2"), std::string::npos) << a.talk;
-    std::filesystem::copy_file(folder / "rock_1.0_h.csv", folder / "a,b.csv");
+    std::filesystem::copy_file(folder / "rock_1.0_h.csv", folder / "a,\tb.csv");
     a = answer_of({"record", "suite", (folder / "a*.csv").string(), "--out", (folder / "list.csv").string()});
     EXPECT_EQ(a.code, 3);
     EXPECT_NE(a.talk.find("a list cannot hold this path."), std::string::npos) << a.talk;
+    EXPECT_FALSE(std::filesystem::exists(folder / "list.csv"));
+    std::filesystem::rename(folder / "a,\tb.csv", folder / "a,b.csv"); // a cell between quotes holds a comma
+    a = answer_of({"record", "suite", (folder / "a*.csv").string(), "--out", (folder / "list.csv").string()});
+    EXPECT_EQ(a.code, 0) << a.talk;
+    a = answer_of({"record", "suite", (folder / "list.csv").string()});
+    EXPECT_EQ(a.code, 0) << a.talk;
+    EXPECT_NE(a.out.find("a,b"), std::string::npos) << a.out;
     a = answer_of({"record", "suite", (folder / "rock_1.0_h.csv").string(), (folder / "ec8_3.0_h.csv").string()});
     EXPECT_EQ(a.code, 2);
     EXPECT_NE(a.talk.find("record suite has 2 patterns."), std::string::npos) << a.talk;

@@ -1,6 +1,7 @@
 // `damslip study`: its grid, findings and files on a small dam.
 #include "studies/goldgruber_2015/study_findings.hpp"
 #include "sweep_scene.hpp"
+#include "verifier_answer.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -20,8 +20,9 @@ TEST_F(SweepScene, RulesForOpeningWaterAreRunsOfFe)
     tall.replace(tall.find("friction = 0.1"), 14, "friction = 0.6");
     write("block.toml", tall);
     write("pulse.csv", "time_s,accel_m_s2\n0,0\n0.1,5\n0.2,5\n0.3,5\n0.4,-4\n0.5,0\n0.6,0\n");
-    const Answer answer = sweep({"--opening-water", "unchanged,zero,full", "--method", "fe", "--friction", "0.6,0.65",
-                                 "--record", path("pulse.csv"), "--json"});
+    const Answer answer =
+        sweep({"--opening-water", "unchanged,zero,full", "--method", "fe", "--friction", "0.6,0.65", "--record",
+               path("pulse.csv"), "--polarity", "1", "--out", path("rules.csv"), "--json"});
     ASSERT_EQ(answer.code, 0) << answer.talk;
     const Json lines = Json::parse(answer.out)["opening_water"];
     ASSERT_EQ(lines.size(), 2u);

@@ -100,7 +100,7 @@ TEST(SweepSizeOfScene, GrowsEveryLengthAndNothingElse)
 
 TEST_F(SweepScene, ARowOfSizeTwoIsTheRunOfASceneTwiceAsLarge)
 {
-    const std::vector<std::string> methods{"--method", "rigid,fe,fe-reduced", "--json"};
+    const std::vector<std::string> methods{"--method", "rigid,fe,fe-reduced", "--polarity", "1", "--json"};
     const Answer grown = sweep(with(methods, {"--size", "2"}));
     ASSERT_EQ(grown.code, 0) << grown.talk;
     std::string text = content("block.toml");

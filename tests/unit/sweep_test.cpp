@@ -39,7 +39,7 @@ TEST_F(SweepScene, EveryFeMethodGivesItsOwnRow)
     const Answer a =
         sweep({"--friction", "0.1", "--method",
                "rigid,fe,fe-exact,fe-penalty,fe-slip-tolerance,fe-goldgruber-2015,fe-reduced,fe-whole-steps",
-               "--penalty-stiffness", "1e9", "--truncation-error", "--json"});
+               "--polarity", "1", "--penalty-stiffness", "1e9", "--truncation-error", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto rows = nlohmann::json::parse(a.out)["rows"];
     ASSERT_EQ(rows.size(), 16u);
@@ -82,7 +82,8 @@ TEST_F(SweepScene, TheErrorOfModesIsEstimatedOnDemand)
 
 TEST_F(SweepScene, SizeAndReservoirReachTheModel)
 {
-    const Answer a = sweep({"--size", "1,2", "--reservoir", "auto,hydrostatic,zangar,acoustic", "--json"});
+    const Answer a =
+        sweep({"--size", "1,2", "--polarity", "1", "--reservoir", "auto,hydrostatic,zangar,acoustic", "--json"});
     ASSERT_EQ(a.code, 0) << a.talk;
     const auto rows = nlohmann::json::parse(a.out)["rows"];
     ASSERT_EQ(rows.size(), 16u); // 4 waters x 2 sizes x 2 records

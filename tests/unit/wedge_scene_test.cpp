@@ -192,7 +192,7 @@ TEST_F(WedgeScene, ExplainNamesItsEffects)
 TEST_F(WedgeScene, SweepOverFriction)
 {
     const std::string file = scene(symmetric_wedge_text + "[[motion.record]]\nhorizontal = \"pulse.csv\"\n");
-    ASSERT_EQ(run({"sweep", file, "--friction-deg", "38,40,44", "--json", "--quiet"}), 0) << told;
+    ASSERT_EQ(run({"sweep", file, "--friction-deg", "38,40,44", "--polarity", "1", "--json", "--quiet"}), 0) << told;
     const WedgeJson rows = WedgeJson::parse(said)["rows"];
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_GT(rows[0]["slip_m"].get<double>(), rows[1]["slip_m"].get<double>());

@@ -94,6 +94,8 @@ FragilityInput input_of_command()
     input.probability.variables = {lognormal_variable("mu", "contact.friction", friction_median, friction_beta)};
     input.intensity.levels = {plateau};
     input.limits = {{LimitQuantity::slip, slip_limit, "slip > 200 mm"}};
+    input.suite = SuiteInput{};
+    input.suite->polarity = SuitePolarity::as_recorded;
     return input;
 }
 
@@ -177,14 +179,20 @@ std::vector<Check> conditioned_pulses()
               return yield < plateau ? exact::slip_under_half_sine(plateau, std::numbers::pi / 0.8, yield) : 0.0;
           }));
     std::vector<RecordPair> pairs;
-    double mean = 0.0;
+    double mean = 0.0, reversed = 0.0;
     for (const double phase : {0.0, 0.7, 1.9}) {
-        const std::vector<double> samples = irregular_samples(phase);
+        std::vector<double> samples = irregular_samples(phase);
         mean += share_below(interpolant_friction(samples, 0.02, slip_limit)) / 3.0;
         pairs.push_back(recorded(fmt::format("phase {}", phase), samples, 0.02));
+        for (double& a : samples) a = -a;
+        reversed += share_below(interpolant_friction(samples, 0.02, slip_limit)) / 3.0;
     }
-    const LevelEstimate found = conditioned_command(text, input, suite_of_pairs(std::move(pairs)));
-    checks.push_back({"three irregular motions: P = mean of F(μ*)", "–", mean, found.p, 1e-9});
+    const ShakingSuite suite = suite_of_pairs(std::move(pairs));
+    checks.push_back(
+        {"three irregular motions: P = mean of F(μ*)", "–", mean, conditioned_command(text, input, suite).p, 1e-9});
+    input.suite.reset();
+    checks.push_back({"both polarities, as without [suite]: mean over six", "–", 0.5 * (mean + reversed),
+                      conditioned_command(text, input, suite).p, 1e-9});
     return checks;
 }
 

@@ -72,7 +72,8 @@ int study(const StudyArguments& arguments, const Streams& streams)
     check_scene(scene);
     scene.motion.records.resize(1);
     const SweepArguments sweep = grid_arguments(arguments);
-    const Axes axes = make_axes(sweep, scene);
+    Axes axes = make_axes(sweep, scene);
+    axes.polarity = {study_polarity(scene)};
     const TaskList tasks = make_tasks(axes, 1);
     const Records records = load_records(scene, Method::rigid_block);
 

@@ -126,7 +126,8 @@ ModesResult compute_modes(const Ready& ready, const ModesOptions& options)
     } else {
         m.modes = fe2d::natural_modes(m.model, options.count.value_or(usual_modes));
     }
-    m.damping = damping_of_modes(m.scene, total_mass, m.modes, ready.records());
+    if (options.damping || options.transfer)
+        m.damping = damping_of_modes(m.scene, total_mass, m.modes, ready.records());
     if (options.transfer) find_transfer(ready, m);
     return m;
 }

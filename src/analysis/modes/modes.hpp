@@ -48,6 +48,7 @@ inline constexpr int usual_modes = 10;           ///< without acoustic water, wh
 struct ModesOptions {
     std::optional<int> count = {}; ///< modes; none: ten, with acoustic water all up to coupled_modes_to
     bool transfer = false;         ///< transfer functions, too
+    bool damping = true;           ///< constants of damping, too; those of the records take many response spectra
 };
 
 /// The leading coupled modes as modes of a structure, for what knows no water; without shapes.

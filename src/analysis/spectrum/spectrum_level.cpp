@@ -433,7 +433,7 @@ std::vector<LevelSpectrum> record_spectra(const Ready& ready)
 SpectrumLevel spectrum_level(const Ready& ready, const std::vector<LevelSpectrum>& given)
 {
     const std::vector<LevelSpectrum> spectra = given.empty() ? record_spectra(ready) : given;
-    const ModesResult modes = compute_modes(ready, {spectrum_modes, false});
+    const ModesResult modes = compute_modes(ready, {spectrum_modes, false, false});
     const ModalForces forces = modal_forces(modes);
     const UnitResponses unit = unit_responses(modes, forces, ModalDirection::horizontal);
     const sliding::Equilibrium e = static_equilibrium(ready);

@@ -26,9 +26,15 @@ using units::mm;
 constexpr std::array slip_levels{SlipLevel::regressions, SlipLevel::rigid_block, SlipLevel::flexible_block,
                                  SlipLevel::finite_elements};
 
+/// The product, as `fe` and `worker` write it: a quotient by 0.001 can differ in the last bit.
 double in_mm(const std::optional<double>& slip)
 {
-    return slip ? *slip / mm : std::nan("");
+    return slip ? 1e3 * *slip : std::nan("");
+}
+
+Cell cell_in_mm(const std::optional<double>& slip)
+{
+    return slip ? Cell(in_mm(slip)) : Cell();
 }
 
 /// "no uplift": what the narrow margin of a chart has room for.
@@ -170,9 +176,9 @@ Table level_table(const Assessment& a)
          {{"how", "how"}, &L::how},
          {{"polarity", "polarity"}, [](const L& l) { return l.polarity ? Cell(std::int64_t{l.polarity}) : Cell(); }},
          {{"status", "status"}, [](const L& l) { return word(l.status); }},
-         {{"slip_mm", "largest slip", "mm"}, [](const L& l) { return optional_cell(l.slip, mm); }},
-         {{"low_mm", "from", "mm"}, [](const L& l) { return optional_cell(l.low, mm); }},
-         {{"high_mm", "to", "mm"}, [](const L& l) { return optional_cell(l.high, mm); }}},
+         {{"slip_mm", "largest slip", "mm"}, [](const L& l) { return cell_in_mm(l.slip); }},
+         {{"low_mm", "from", "mm"}, [](const L& l) { return cell_in_mm(l.low); }},
+         {{"high_mm", "to", "mm"}, [](const L& l) { return cell_in_mm(l.high); }}},
         a.levels,
         {"from, to: numerical error of finite elements; 16 and 84 % of the regressions, which are of both "
          "polarities. The rigid block is exact for its record."});
@@ -185,7 +191,7 @@ Table assumption_table(const Assessment& a)
     return table_of<R>("Finite elements with one assumption changed",
                        {{{"assumption", "assumption"}, &R::what},
                         {{"status", "status"}, [](const R& r) { return word(r.status); }},
-                        {{"slip_mm", "largest slip", "mm"}, [](const R& r) { return optional_cell(r.slip, mm); }},
+                        {{"slip_mm", "largest slip", "mm"}, [](const R& r) { return cell_in_mm(r.slip); }},
                         {{"change_mm", "change", "mm"},
                          [&](const R& r) { return r.slip ? finite_cell(*r.slip - full, mm) : Cell(); }}},
                        a.assumptions, {"on the worst record and its polarity, without a second mesh."});
@@ -257,8 +263,8 @@ nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
     auto j = json_header("assess", given);
     if (a.recommended) {
         const Recommendation& r = *a.recommended;
-        j["recommended"] = {{"slip_mm", r.slip / mm},       {"low_mm", r.low / mm}, {"high_mm", r.high / mm},
-                            {"level", word(r.level)},       {"record", r.record},   {"polarity", r.polarity},
+        j["recommended"] = {{"slip_mm", in_mm(r.slip)},     {"low_mm", in_mm(r.low)}, {"high_mm", in_mm(r.high)},
+                            {"level", word(r.level)},       {"record", r.record},     {"polarity", r.polarity},
                             {"error_known", r.error_known}, {"range_of", r.from}};
     } else {
         j["recommended"] = nullptr;

@@ -1,5 +1,6 @@
 #include "pages/fragility/fragility_tables.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
 
 #include <algorithm>
@@ -161,9 +162,13 @@ Table fragility_table(const FragilityView& view, Readers readers)
     if (readers == Readers::files)
         for (ColumnOf<R>& column : band_columns(view)) columns.push_back(std::move(column));
     Table t = table_of("Probabilities", columns, rows);
+    const SuitePolarity polarity = view.plan.input.suite.value_or(SuiteInput{}).polarity;
+    t.notes = {"each record with " + polarity_words(polarity == SuitePolarity::both       ? std::vector{1, -1}
+                                                    : polarity == SuitePolarity::reversed ? std::vector{-1}
+                                                                                          : std::vector{1})};
     if (!counted) return t;
-    t.notes = {"draws: 95 % by the draws of variables and records, the suite taken as all there is;",
-               "records: 95 % by drawing its events anew. The two are never added up."};
+    t.notes.emplace_back("draws: 95 % by the draws of variables and records, the suite taken as all there is;");
+    t.notes.emplace_back("records: 95 % by drawing its events anew. The two are never added up.");
     if (view.estimate.clusters < 10)
         t.notes.push_back(
             fmt::format("records: {} event{}, fewer than 10: that interval is too short, or there is none.",

@@ -1,0 +1,20 @@
+// What the program says to sections that it does not model, and how its users go on.
+#include "program_answer.hpp"
+
+#include "core/file.hpp"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace damslip;
+
+TEST(Audit3, C_AKeyedBaseIsRefusedWithTheWayOut)
+{
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "damslip_keyed_base.toml";
+    write_file(file, "[section]\npolygon_m = [[0, 0], [6, 0], [6, -2], [10, -2], [10, 0], [24, 0], [4, 30], [0, 30]]\n[dam]\ndensity_kg_m3 = 2400\n[contact]\nfriction = 0.7\n");
+    const ProgramAnswer answer = answer_of({"screen", file.string()});
+    EXPECT_EQ(answer.code, 3);
+    for (const char* word : {"keyed_base.toml:2", "(6, -2)", "plane through the underside of the key", "[[force]]", "cohesion_kPa"})
+        EXPECT_NE(answer.talk.find(word), std::string::npos) << word << "\n" << answer.talk;
+    std::filesystem::remove(file);
+}
