@@ -115,8 +115,8 @@ void EarthquakeRun::go_on(StaticContact& statics, Lane& lane, const RunState& fr
     }
     lane.result.stages.push_back(
         solve_stage(statics, *structure_, "as it was left", load_of(lane), lane.strength, lane.memory, &before));
-    if (water && options_.cracked_uplift_after)
-        lane.result.stages.back().water = water_in(water->report().largest);
+    if (const auto* now = lane.memory.laws.find<CrackWater>(); now && options_.cracked_uplift_after) // a stage makes the memory anew
+        lane.result.stages.back().water = water_in(now->report().largest);
 }
 
 /// Where the static stages leave the dam, and the loads that go on.
