@@ -1,9 +1,9 @@
 #include "cli/arguments.hpp"
 
 #include "cli/command.hpp"
-#include "core/number.hpp"
-#include "core/usage_error.hpp"
-#include "core/version.hpp"
+#include "core/text.hpp"
+#include "core/input_error.hpp"
+#include "core/build.hpp"
 
 #include <CLI/CLI.hpp>
 

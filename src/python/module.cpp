@@ -2,8 +2,8 @@
 // package python/damslip is around it.
 #include "result.hpp"
 
-#include "core/cache_folder.hpp"
-#include "core/version.hpp"
+#include "core/file.hpp"
+#include "core/build.hpp"
 
 PYBIND11_MODULE(_core, module)
 {
