@@ -41,7 +41,7 @@ std::vector<double> base_stations(const Scene& scene)
 }
 
 /// Layer stations of the dam: all kinks and joints, and the water level where it is not a sliver away from one of them.
-std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const Grading& heights)
+std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const DamSizes& sizes)
 {
     std::vector<double> stations = faces.kinks();
     if (!scene.reservoir) return stations;
@@ -50,7 +50,7 @@ std::vector<double> layer_stations(const Scene& scene, const Faces& faces, const
     // A water that is meshed itself must have its surface on a row; loads alone do not need one.
     const bool meshed_water =
         scene.reservoir->model == ReservoirModel::acoustic || scene.reservoir->model == ReservoirModel::automatic;
-    const double sliver = (meshed_water ? 0.02 : 0.3) * heights.size_at(s * faces.height()) / faces.height();
+    const double sliver = (meshed_water ? 0.02 : 0.3) * sizes.size_at(s * faces.height()) / faces.height();
     const auto next = std::lower_bound(stations.begin(), stations.end(), s);
     if (*next - s > sliver && s - *(next - 1) > sliver) stations.insert(next, s);
     return stations;
@@ -63,15 +63,32 @@ int index_of(const std::vector<double>& values, double value)
     return static_cast<int>(nearest - values.begin());
 }
 
+/// Around a bonded lift joint elements grow at least by this ratio.
+constexpr double least_growth = 1.2;
+
+double parameter_of(const Faces& faces, const LiftJoint& joint)
+{
+    const auto nearest = std::min_element(faces.layers.begin(), faces.layers.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.level - joint.elevation) < std::abs(b.level - joint.elevation);
+    });
+    return nearest->s;
+}
+
 DamLayout dam_layout(const Scene& scene, const Faces& faces, const MeshSizes& sizes)
 {
     DamLayout layout;
-    layout.heights = {.first = std::min(sizes.contact, sizes.dam), .growth = scene.mesh.growth, .largest = sizes.dam};
     layout.base = even_positions(base_stations(scene), sizes.contact);
     const double height = faces.height();
-    std::vector<double> levels = layer_stations(scene, faces, layout.heights);
+    layout.sizes.base = {
+        .first = std::min(sizes.contact, sizes.dam), .growth = scene.mesh.growth, .largest = sizes.dam};
+    for (const LiftJoint& joint : scene.lift_joints)
+        if (const double size = lift_mesh_size(scene, joint); size < sizes.dam)
+            layout.sizes.lifts.push_back(
+                {parameter_of(faces, joint) * height,
+                 {.first = size, .growth = std::max(scene.mesh.growth, least_growth), .largest = sizes.dam}});
+    std::vector<double> levels = layer_stations(scene, faces, layout.sizes);
     for (double& s : levels) s *= height;
-    layout.rows = graded_positions(levels, layout.heights);
+    layout.rows = layout.sizes.positions(levels);
     for (double& s : layout.rows) s /= height;
     layout.rows.back() = 1.0;
     for (const Faces::Layer& joint : faces.layers) layout.joints.push_back(index_of(layout.rows, joint.s));
@@ -276,6 +293,27 @@ public:
         return row;
     }
 
+    /// Two columns become four, below a layer that needs fine elements; a column left over is halved by triangles.
+    Row split(const Row& below, double s)
+    {
+        Row row;
+        for (int i = 0; i < below.columns(); ++i) {
+            row.fractions.push_back(below.fractions[i]);
+            row.fractions.push_back(0.5 * (below.fractions[i] + below.fractions[i + 1]));
+        }
+        row.fractions.push_back(below.fractions.back());
+        place(row, s);
+        for (int g = 0; g < below.columns() / 2; ++g) split_two(below, row, g);
+        if (below.columns() % 2 == 1) {
+            const int* b = &below.nodes[below.columns() - 1];
+            const int* t = &row.nodes[row.columns() - 2];
+            mesh_.elements.push_back({{b[0], t[1], t[0], -1}, Region::dam});
+            mesh_.elements.push_back({{b[0], b[1], t[1], -1}, Region::dam});
+            mesh_.elements.push_back({{b[1], t[2], t[1], -1}, Region::dam});
+        }
+        return row;
+    }
+
     /// The same row again, for the block above a joint.
     Row again(const Row& below)
     {
@@ -331,14 +369,39 @@ private:
         quad(m2, m3, t[2], t[1]);
     }
 
+    // The same upside down: m1, m2, m3 at half height below t1, t2, t3.
+    void split_two(const Row& below, const Row& above, int group)
+    {
+        const int* b = &below.nodes[2 * group];
+        const int* t = &above.nodes[4 * group];
+        const double s = 0.5 * (below.s + above.s);
+        const double* f = &above.fractions[4 * group];
+        const int m1 = node(s, f[1]), m2 = node(s, f[2]), m3 = node(s, f[3]);
+        quad(b[0], m1, t[1], t[0]);
+        quad(m1, m2, t[2], t[1]);
+        quad(m2, m3, t[3], t[2]);
+        quad(m3, b[2], t[4], t[3]);
+        quad(b[0], b[1], m2, m1);
+        quad(b[1], b[2], m3, m2);
+    }
+
     Mesh& mesh_;
     const Faces& faces_;
 };
 
 bool wants_joining(const Row& row, double s_next, const Faces& faces, const DamLayout& layout)
 {
-    const double wanted = layout.heights.size_at(s_next * faces.height());
-    return row.columns() >= 4 && faces.width_at(s_next) / row.columns() < narrowest_column * wanted;
+    // Beside columns that split, half: what has been split is not joined again.
+    const double narrowest = layout.sizes.lifts.empty() ? narrowest_column : 0.5;
+    const double wanted = layout.sizes.size_at(s_next * faces.height());
+    return row.columns() >= 4 && faces.width_at(s_next) / row.columns() < narrowest * wanted;
+}
+
+bool wants_splitting(const Row& row, double s_next, const Faces& faces, const DamLayout& layout)
+{
+    if (layout.sizes.lifts.empty() || row.columns() < 2) return false;
+    const double wanted = layout.sizes.size_at(s_next * faces.height());
+    return faces.width_at(s_next) / row.columns() > wanted * (1.0 + 1e-9);
 }
 
 LiftPlane lift_plane(const Mesh& mesh, const Row& lower, const Row& upper)
@@ -368,6 +431,8 @@ void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout)
             row = build.point(row);
         else if (wants_joining(row, s, faces, layout))
             row = build.joined(row, s);
+        else if (wants_splitting(row, s, faces, layout))
+            row = build.split(row, s);
         else
             row = build.plain(row, s);
         add_to_faces(row);
@@ -498,6 +563,39 @@ std::vector<double> graded_positions(const std::vector<double>& stations, const 
         positions.push_back(stations[i + 1]);
     }
     return positions;
+}
+
+double DamSizes::size_at(double height) const
+{
+    double size = base.size_at(height);
+    for (const FineLayer& lift : lifts) size = std::min(size, lift.grading.size_at(std::abs(height - lift.height)));
+    return size;
+}
+
+std::vector<double> DamSizes::positions(const std::vector<double>& stations) const
+{
+    if (lifts.empty()) return graded_positions(stations, base);
+    // Elements up to a height, as the integral of dy/h(y) over parts that are short beside the smallest size.
+    double smallest = base.first;
+    for (const FineLayer& lift : lifts) smallest = std::min(smallest, lift.grading.first);
+    std::vector<double> result{stations.front()};
+    for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+        const double from = stations[i], length = stations[i + 1] - from;
+        const int parts = static_cast<int>(std::ceil(8.0 * length / smallest));
+        const double part = length / parts;
+        std::vector<double> elements{0.0};
+        for (int k = 0; k < parts; ++k) elements.push_back(elements.back() + part / size_at(from + (k + 0.5) * part));
+        const int count = nearest_count(elements.back());
+        std::size_t k = 0;
+        for (int n = 1; n < count; ++n) {
+            const double wanted = elements.back() * n / count;
+            while (elements[k + 1] < wanted) ++k;
+            const double share = (wanted - elements[k]) / (elements[k + 1] - elements[k]);
+            result.push_back(from + (static_cast<double>(k) + share) * part);
+        }
+        result.push_back(stations[i + 1]);
+    }
+    return result;
 }
 
 std::vector<double> even_positions(const std::vector<double>& stations, double size)

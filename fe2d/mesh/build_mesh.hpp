@@ -55,17 +55,32 @@ std::vector<double> even_positions(const std::vector<double>& stations, double s
 
 /// The bodies build_mesh() makes, each by a layout that is fixed before any node is made.
 
+/// Wanted element size over the mean height above the base: fine at the base, and at every lift joint whose bond breaks by its
+/// fracture energy (lift_mesh_size), growing from there.
+struct DamSizes {
+    struct FineLayer {
+        double height = 0.0; ///< mean height of the layer above the base [m]
+        Grading grading;     ///< of the distance from it, up and down
+    };
+    Grading base;
+    std::vector<FineLayer> lifts = {};
+
+    double size_at(double height) const;
+    /// Positions from the base to the crest with every station among them.
+    std::vector<double> positions(const std::vector<double>& stations) const;
+};
+
 /// Sizes the dam is meshed with.
 struct DamLayout {
     std::vector<double> base; ///< node distances from the heel along the base [m], 0 ... base length
     std::vector<double> rows; ///< face parameter s of every row of nodes, 0 ... 1
     std::vector<int> joints;  ///< indices in `rows` of the lift joints, increasing
-    Grading heights;          ///< element size against the mean height above the base [m]
+    DamSizes sizes;           ///< element size against the mean height above the base [m]
 };
 
 /// Appends the dam to an empty mesh: quadrilaterals in rows that follow both faces. Where the columns have become much
 /// narrower than the element size of their height, four columns become two by a row of six quadrilaterals, so that
-/// elements stay near square up to a narrow crest; a section that ends in a point ends in triangles. Rows at
+/// elements stay near square up to a narrow crest; below a bonded lift two columns become four in the same way; a section that ends in a point ends in triangles. Rows at
 /// lift joints are made twice. Fills dam nodes, elements, faces, crest, contact.dam_nodes and lifts.
 void append_dam(Mesh& mesh, const Faces& faces, const DamLayout& layout);
 

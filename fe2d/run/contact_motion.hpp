@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "fe2d/contact/joint_water.hpp"
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/static_contact.hpp"

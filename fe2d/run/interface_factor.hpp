@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "fe2d/run/node_products.hpp"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

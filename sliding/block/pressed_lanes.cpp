@@ -1,6 +1,6 @@
 #include "sliding/block/pressed_lanes.hpp"
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "sliding/block/four.hpp"
 
 namespace damslip::sliding {

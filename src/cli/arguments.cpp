@@ -3,7 +3,7 @@
 #include "cli/command.hpp"
 #include "core/text.hpp"
 #include "core/input_error.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 

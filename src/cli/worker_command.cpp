@@ -7,7 +7,7 @@
 #include "core/file.hpp"
 #include "core/text.hpp"
 #include "core/input_error.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "scene/scene_text.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "result.hpp"
 
 #include "core/file.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 
 PYBIND11_MODULE(_core, module)
 {

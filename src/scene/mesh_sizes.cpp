@@ -12,12 +12,11 @@ namespace damslip {
 
 namespace {
 
-/// Elements that resolve the process zone of the base's bond, but not more than 240 along the base.
-double bond_size(const Scene& scene)
+/// Elements that resolve the process zone of a joint's bond, but not more than 240 along the joint.
+double bond_size(const Contact& strength, const std::optional<double>& modulus, double length)
 {
-    const auto modulus = joint_modulus(scene, true);
-    if (!modulus || !breaks_by_energy(scene.contact)) return HUGE_VAL;
-    return std::max(bond_element_length(scene.contact, *modulus), base_length(scene.section) / 240.0);
+    if (!modulus || !breaks_by_energy(strength)) return HUGE_VAL;
+    return std::max(bond_element_length(strength, *modulus), length / 240.0);
 }
 
 /// 60 elements along the base; of one so short that they would be shorter than 0.1 m, 20 at least. A block of a few metres
@@ -36,10 +35,16 @@ MeshSizes mesh_sizes(const Scene& scene)
     const double lowest = std::min(heel(scene.section).y, toe(scene.section).y);
     MeshSizes sizes;
     sizes.dam = scene.mesh.size.value_or((crest_level(scene.section) - lowest) / 40.0);
-    sizes.contact =
-        scene.mesh.contact_size.value_or(std::min({sizes.dam, base_size(scene), bond_size(scene)}));
+    sizes.contact = scene.mesh.contact_size.value_or(
+        std::min({sizes.dam, base_size(scene),
+                  bond_size(scene.contact, joint_modulus(scene, true), base_length(scene.section))}));
     if (scene.foundation) sizes.rock = scene.mesh.rock_size.value_or(scene.foundation->depth / 8.0);
     return sizes;
+}
+
+double lift_mesh_size(const Scene& scene, const LiftJoint& joint)
+{
+    return bond_size(joint.strength, joint_modulus(scene, false), width_at_level(scene.section, joint.elevation));
 }
 
 double water_mesh_size(const Reservoir& water)

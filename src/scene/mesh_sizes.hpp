@@ -12,6 +12,10 @@ struct MeshSizes {
 };
 MeshSizes mesh_sizes(const Scene& scene);
 
+/// Length of the elements along a lift joint that resolve the process zone of its bond, a quarter of the characteristic length
+/// E' G / f^2 (Bazant & Oh 1983), but not more than 240 along the joint [m]; infinite where no bond breaks by its energy.
+double lift_mesh_size(const Scene& scene, const LiftJoint& joint);
+
 /// Element height in acoustic water: reservoir.mesh_size, else level / 20 [m].
 double water_mesh_size(const Reservoir& water);
 

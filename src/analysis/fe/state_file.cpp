@@ -2,7 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "scene/anchor_bar.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/write.hpp"

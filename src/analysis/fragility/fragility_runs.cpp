@@ -2,7 +2,7 @@
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"

@@ -4,7 +4,7 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"

@@ -1,7 +1,7 @@
 #include "pages/accuracy/accuracy_pages.hpp"
 
 #include "analysis/accuracy/ladder.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/units.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"

@@ -1,7 +1,7 @@
 #include "pages/fe/fe_pages.hpp"
 
 #include "analysis/prepare/ready.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "fe2d/run/slide_watch.hpp"

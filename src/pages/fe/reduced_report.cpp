@@ -1,6 +1,6 @@
 #include "pages/fe/fe_pages.hpp"
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"

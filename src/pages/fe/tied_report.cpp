@@ -2,7 +2,7 @@
 
 #include "core/file.hpp"
 #include "core/units.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"

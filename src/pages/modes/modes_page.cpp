@@ -1,7 +1,7 @@
 #include "pages/modes/modes_page.hpp"
 
 #include "core/file.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "fe2d/output/vtu.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/table_text.hpp"

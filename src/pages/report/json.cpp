@@ -1,6 +1,6 @@
 #include "pages/report/json.hpp"
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 
 #include <charconv>
 #include <cmath>

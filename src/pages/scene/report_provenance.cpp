@@ -1,6 +1,6 @@
 #include "pages/scene/scene_pages.hpp"
 
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"

@@ -1,7 +1,7 @@
 #include "pages/screen/screen_pages.hpp"
 
 #include "analysis/screen/variation.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"

@@ -4,7 +4,7 @@
 #include "analysis/prepare/records.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "core/units.hpp"
-#include "core/build.hpp"
+#include "core/version.hpp"
 #include "pages/fe/fe_pages.hpp"
 #include "pages/report/page.hpp"
 #include "pages/scene/scene_pages.hpp"

@@ -1,4 +1,4 @@
-#include "core/build.hpp"
+#include "core/version.hpp"
 
 #include <cstdlib>
 #include <string_view>
