@@ -436,7 +436,7 @@ namespace {
 
 constexpr int largest_space = 60;         ///< vectors; a few frequencies take ten to twenty
 constexpr double largest_error = 1e-13;   ///< of 1/ω², relative
-constexpr double smallest_change = 1e-14; ///< of a new vector's length to the old one's; below, the space is complete
+constexpr double least_new_length = 1e-14; ///< of a new vector's length to the old one's; below, the space is complete
 
 bool fits(const ContactStructure& structure)
 {
@@ -530,7 +530,7 @@ std::optional<VectorXd> tied_frequencies(const ContactStructure& structure, int 
             next -= vectors.leftCols(k + 1) * (momenta.leftCols(k + 1).transpose() * next).eval();
         momentum = mass * next;
         length = off[k] = std::sqrt(std::max(0.0, next.dot(momentum)));
-        if (!(length > smallest_change * diagonal[0])) return std::nullopt;
+        if (!(length > least_new_length * diagonal[0])) return std::nullopt;
         if (const auto found = converged(diagonal.head(k + 1), off, length, count))
             return found->cwiseSqrt().cwiseInverse();
     }
