@@ -1,16 +1,14 @@
-#include "analysis/fe/contact_runs.hpp"
-#include "analysis/fe/tied_runs.hpp"
-#include "analysis/modes/modes.hpp"
-#include "core/input_error.hpp"
+// Finite elements: the runs of a scene with their histories, as arrays that lie in the result.
 #include "opened_scene.hpp"
-#include "pages/fe/fe_pages.hpp"
-#include "pages/modes/modes_page.hpp"
 #include "result.hpp"
 #include "watched.hpp"
 
-#include <nlohmann/json.hpp>
+#include "analysis/fe/contact_runs.hpp"
+#include "analysis/fe/tied_runs.hpp"
+#include "core/input_error.hpp"
+#include "pages/fe/fe_pages.hpp"
 
-// Finite elements: the runs of a scene with their histories, as arrays that lie in the result.
+#include <nlohmann/json.hpp>
 
 namespace damslip::python {
 
@@ -27,8 +25,8 @@ struct FeResult final : Result {
 
     pages::FeReport::Input input() const
     {
-        return {ready.scene,     ready.plan,       ready.records(),       models->model(),
-                models->rigid(), models->uplift(), models->combinations()};
+        return {ready.scene, ready.plan, ready.records(), models->model(), models->rigid(), models->uplift(),
+                models->combinations()};
     }
     const std::optional<double>& allowable() const { return ready.scene.criteria.allowable_slip; }
 
@@ -190,9 +188,9 @@ void add_fe(py::module_& module)
                                    if (r->runs.empty()) return std::nullopt;
                                    return FeRun{r, &worst_of(r->runs)};
                                })
-        .def_property_readonly(
-            "verdict",
-            [](const FeResult& r) { return word(pages::joined_verdict(r.headline(), r.runs, r.allowable())); })
+        .def_property_readonly("verdict", [](const FeResult& r) {
+            return word(pages::joined_verdict(r.headline(), r.runs, r.allowable()));
+        })
         .def_property_readonly(
             "complete",
             [](const FeResult& r) { return !r.interrupted && r.models && r.runs.size() == r.models->whole(); })
@@ -201,68 +199,6 @@ void add_fe(py::module_& module)
 
     module.def("_fe", &fe, py::arg("scene"), py::arg("polarity"), py::arg("mesh_error"), py::arg("spread"),
                py::arg("progress"));
-}
-
-// Natural modes of dam and rock.
-
-namespace {
-
-struct ModesAnswer final : Result {
-    Scene given;
-    std::optional<ModesResult> found;
-
-    std::vector<std::pair<std::string, Table>> tables() const override
-    {
-        std::vector<std::pair<std::string, Table>> list{{"modes", pages::frequency_table(*found)},
-                                                        {"damping", pages::damping_table(*found)}};
-        if (!found->transfer.empty()) list.emplace_back("transfer_functions", pages::transfer_table(*found));
-        return list;
-    }
-    std::string json() const override { return pages::modes_json(given, *found).dump(2); }
-    pages::Headline headline() const override
-    {
-        return {given.title + ": " + std::to_string(found->modes.frequency.size()) + " modes", pages::Outcome::none,
-                ""};
-    }
-    pages::Page page() const override
-    {
-        pages::Page page;
-        page.title = given.title;
-        page.headline = headline();
-        pages::Section section{"Modes", {}, pages::Fold::open};
-        for (auto& [name, table] : tables()) section.parts.push_back(pages::rows_part(std::move(table)));
-        page.sections.push_back(std::move(section));
-        return page;
-    }
-};
-
-std::shared_ptr<ModesAnswer> modes(const OpenedScene& opened, std::optional<int> count, bool transfer,
-                                   const py::object& progress)
-{
-    if (opened.scene.wedge)
-        refuse_usage("a wedge has no modes: it is rigid.", "a scene with a [section]", "scene.screen() gives its slip");
-    if (count && *count < 1) refuse_usage("modes(count < 1).", "1 or more modes", "leave count out for 10");
-    auto answer = std::make_shared<ModesAnswer>();
-    answer->given = opened.scene;
-    answer->interrupted = run_watched(progress, [&](Watch& watch) {
-        const Ready ready = prepare(opened.scene, Method::finite_elements, {.stop = watch.stop()});
-        answer->found.emplace(compute_modes(ready, {count, transfer}));
-    });
-    return answer;
-}
-
-} // namespace
-
-void add_modes(py::module_& module)
-{
-    py::class_<ModesAnswer, Result, std::shared_ptr<ModesAnswer>>(module, "ModesResult")
-        .def_property_readonly("frequencies",
-                               [](const py::object& self) {
-                                   const auto& f = self.cast<const ModesAnswer&>().found->modes.frequency;
-                                   return view_of(f.data(), {static_cast<py::ssize_t>(f.size())}, self);
-                               })
-        .def_property_readonly("complete", [](const ModesAnswer& r) { return r.found->complete(); });
-    module.def("_modes", &modes, py::arg("scene"), py::arg("count"), py::arg("transfer"), py::arg("progress"));
 }
 
 } // namespace damslip::python

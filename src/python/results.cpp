@@ -1,58 +1,10 @@
-#include "core/csv.hpp"
-#include "core/input_error.hpp"
-#include "pages/report/page.hpp"
-#include "pages/report/table_text.hpp"
+// Tables and what all results have in common.
 #include "result.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-#include <string>
-#include <utility>
-#include <vector>
+#include "pages/report/page.hpp"
+#include "pages/report/table_text.hpp"
 
 namespace damslip::python {
-
-namespace py = pybind11;
-
-/// What every result has: the tables of its command by their names in the JSON object, this object, and the report.
-class Result {
-public:
-    virtual ~Result() = default;
-    virtual std::vector<std::pair<std::string, Table>> tables() const = 0; ///< the one people look at first
-    virtual std::string json() const = 0; ///< text of the object that the command prints with --json
-    virtual pages::Page page() const = 0; ///< of the report
-    virtual pages::Headline headline() const = 0;
-    bool interrupted = false; ///< Ctrl-C: what is there is what was finished
-};
-
-/// Values that lie in a result, without a copy: the array keeps the result alive and cannot be written to.
-/// @param owner  the Python object of the result
-template <class Value>
-py::array view_of(const Value* values, std::vector<py::ssize_t> shape, const py::object& owner)
-{
-    py::array view = py::array_t<Value>(std::move(shape), values, owner);
-    view.attr("flags").attr("writeable") = false;
-    return view;
-}
-
-inline py::array view_of(const std::vector<double>& values, const py::object& owner)
-{
-    return view_of(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
-}
-
-// The parts of the module, each with its classes.
-void add_errors(py::module_& module);
-void add_results(py::module_& module); ///< Table, Result
-void add_scene(py::module_& module);   ///< Scene, ScreenResult
-void add_fe(py::module_& module);
-void add_modes(py::module_& module);
-void add_sweep(py::module_& module);
-void add_accuracy(py::module_& module);
-void add_fragility(py::module_& module);
-
-// Tables and what all results have in common.
 
 namespace {
 
@@ -80,8 +32,9 @@ pages::Page charts_of(pages::Page page)
 {
     std::vector<pages::Section> sections;
     for (pages::Section& section : page.sections) {
-        std::erase_if(section.parts,
-                      [](const pages::Part& part) { return !std::holds_alternative<pages::Chart>(part); });
+        std::erase_if(section.parts, [](const pages::Part& part) {
+            return !std::holds_alternative<pages::Chart>(part);
+        });
         section.fold = pages::Fold::open;
         if (!section.parts.empty()) sections.push_back(std::move(section));
     }
@@ -147,51 +100,6 @@ void add_results(py::module_& module)
         .def_property_readonly("sentence", [](const Result& result) { return result.headline().sentence; })
         .def_property_readonly("outcome", [](const Result& result) { return outcome_word(result.headline()); })
         .def_readonly("interrupted", &Result::interrupted);
-}
-
-// Errors of the library as exceptions of Python; their classes are in python/damslip/errors.py.
-
-namespace {
-
-py::list as_dictionaries(const std::vector<Diagnostic>& diagnostics)
-{
-    py::list list;
-    for (const Diagnostic& d : diagnostics) {
-        py::dict entry;
-        entry["file"] = d.file;
-        entry["line"] = d.line;
-        entry["column"] = d.column;
-        entry["problem"] = d.problem;
-        entry["expected"] = d.expected;
-        entry["fix"] = d.fix;
-        list.append(entry);
-    }
-    return list;
-}
-
-void raise(const char* name, const char* text, const std::vector<Diagnostic>& diagnostics)
-{
-    const py::object type = py::module_::import("damslip.errors").attr(name);
-    PyErr_SetObject(type.ptr(), type(text, as_dictionaries(diagnostics)).ptr());
-}
-
-} // namespace
-
-void add_errors(py::module_&)
-{
-    py::register_exception_translator([](std::exception_ptr error) {
-        try {
-            if (error) std::rethrow_exception(error);
-        } catch (const UsageError& e) {
-            raise("UsageError", e.what(), e.diagnostics());
-        } catch (const InputError& e) {
-            raise("InputError", e.what(), e.diagnostics());
-        } catch (const NotConverged& e) {
-            raise("NotConverged", e.what(), {e.diagnostic()});
-        } catch (const Interrupted&) {
-            PyErr_SetNone(PyExc_KeyboardInterrupt);
-        }
-    });
 }
 
 } // namespace damslip::python

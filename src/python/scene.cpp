@@ -1,44 +1,17 @@
-#include "analysis/screen/screening.hpp"
-#include "core/file.hpp"
+// A scene, and its screening.
 #include "opened_scene.hpp"
+#include "result.hpp"
+
+#include "analysis/screen/screening.hpp"
 #include "pages/scene/scene_pages.hpp"
 #include "pages/screen/screen_pages.hpp"
-#include "result.hpp"
 #include "scene/plausible.hpp"
-#include "scene/read.hpp"
-#include "scene/scene_text.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 namespace damslip::python {
-
-/// A scene file, or text, that was read once, with the keys that were set since; checked.
-struct OpenedScene {
-    std::shared_ptr<const SceneText> text;
-    std::shared_ptr<const std::string> written; ///< what the text was read from
-    std::vector<KeyChange> changes;
-    Scene scene;
-
-    /// With keys set; what is wrong names the key.
-    OpenedScene(std::shared_ptr<const SceneText> read, std::shared_ptr<const std::string> from,
-                std::vector<KeyChange> set)
-        : text(std::move(read)), written(std::move(from)), changes(std::move(set)), scene(text->with(changes))
-    {
-    }
-    /// As the file is; what is wrong names its line, which a SceneText does not keep.
-    explicit OpenedScene(const std::filesystem::path& file) : scene(read_scene(file))
-    {
-        written = std::make_shared<std::string>(read_file(file, 4u << 20));
-        text = std::make_shared<SceneText>(*written, file);
-    }
-};
-
-// A scene, and its screening.
 
 namespace {
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/csv.hpp"
+#include "pages/report/page.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace damslip::python {
+
+namespace py = pybind11;
+
+/// What every result has: the tables of its command by their names in the JSON object, this object, and the report.
+class Result {
+public:
+    virtual ~Result() = default;
+    virtual std::vector<std::pair<std::string, Table>> tables() const = 0; ///< the one people look at first
+    virtual std::string json() const = 0; ///< text of the object that the command prints with --json
+    virtual pages::Page page() const = 0; ///< of the report
+    virtual pages::Headline headline() const = 0;
+    bool interrupted = false; ///< Ctrl-C: what is there is what was finished
+};
+
+/// Values that lie in a result, without a copy: the array keeps the result alive and cannot be written to.
+/// @param owner  the Python object of the result
+template <class Value>
+py::array view_of(const Value* values, std::vector<py::ssize_t> shape, const py::object& owner)
+{
+    py::array view = py::array_t<Value>(std::move(shape), values, owner);
+    view.attr("flags").attr("writeable") = false;
+    return view;
+}
+
+inline py::array view_of(const std::vector<double>& values, const py::object& owner)
+{
+    return view_of(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+}
+
+// The parts of the module, each with its classes.
+void add_errors(py::module_& module);
+void add_results(py::module_& module); ///< Table, Result
+void add_scene(py::module_& module);   ///< Scene, ScreenResult
+void add_fe(py::module_& module);
+void add_modes(py::module_& module);
+void add_sweep(py::module_& module);
+void add_accuracy(py::module_& module);
+void add_fragility(py::module_& module);
+
+} // namespace damslip::python
