@@ -1,7 +1,5 @@
 #include "fe2d/assembly/surface_load.hpp"
 
-#include "fe2d/assembly/added_mass_points.hpp"
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,17 +1,24 @@
 #pragma once
 
-#include "fe2d/assembly/added_mass_law.hpp"
+#include "core/geometry.hpp"
 #include "fe2d/assembly/assemble.hpp"
-#include "scene/pressure_profile.hpp"
+#include "scene/uplift_models.hpp"
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <vector>
+
+namespace damslip::fe2d {
+
+/// Mass of water that moves with the face in its normal direction, per area of wet face [kg/m^2]; `face_angle` phi is
+/// the inclination of the face from the vertical, positive where the body widens downwards [rad].
+using AddedMassLaw = std::function<double(Point, double face_angle)>;
 
 /// Loads and added mass on boundary chains. Integrals are taken below `surface_level` only: an edge that the water
 /// surface cuts is integrated over its wet part, so a level between two nodes costs no accuracy in the resultant. Chains
 /// are of corners; edges with a node in their middle are integrated with their three shape functions.
-namespace damslip::fe2d {
 
 inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 
@@ -48,5 +55,19 @@ Eigen::VectorXd lift_water_load(const Mesh& mesh, const DofMap& dofs, std::size_
 /// A force at a point of the dam, shared by the nodes of its element so that force and moment are kept [N/m].
 /// @returns nothing when the point is more than 1e-6 of the dam's size outside.
 std::optional<Eigen::VectorXd> point_load(const Mesh& mesh, const DofMap& dofs, Point at, const Eigen::Vector2d& force);
+
+/// One quadrature point of the added mass: a mass that moves with the face in its normal direction alone.
+struct AddedMassPoint {
+    std::array<int, 3> nodes{-1, -1, -1}; ///< both corners of the edge and its middle; -1: linear edge
+    std::array<double, 3> shape{};        ///< N_i there [-]
+    Eigen::Vector2d normal;               ///< outward unit vector
+    Point at;
+    double mass = 0.0; ///< [kg/m]
+};
+
+/// The points of added_mass_matrix(): the sum of mass N_i N_j n n^T over them is that matrix, to round-off. For programs
+/// that know point masses, but no matrices of a face.
+std::vector<AddedMassPoint> added_mass_points(const Mesh& mesh, const NodeChain& chain, const AddedMassLaw& law,
+                                              double surface_level);
 
 } // namespace damslip::fe2d

@@ -1,5 +1,5 @@
 #include "fe2d/contact/bond_law.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 #include <cmath>

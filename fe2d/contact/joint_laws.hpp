@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/contact/contact_solver.hpp"
+#include "fe2d/contact/exponential_normal.hpp"
 #include "fe2d/contact/joint_law.hpp"
 
 #include <memory>
@@ -84,5 +85,58 @@ private:
     ContactSolution contact_; ///< x and λ_c of the last solution
     Eigen::VectorXd force_;
 };
+
+/// Contact by the scene's law: sticking is rigid (ContactSolver), gives way by a constant stiffness (ElasticStick) or by
+/// elastic slip that follows the pressure (SlipTolerance), as Contact::enforcement says. Across the plane contact is hard
+/// or, with the first two, soft (ExponentialNormal), as Contact::normal says.
+class JointSolver {
+public:
+    /// @param stiffness  V of rigid sticking; solvers of one V may share it
+    /// @param area       length of the base that belongs to each pair [m]
+    /// @param law        enforcement and normal contact; its strength is the ContactLaw of each solution
+    JointSolver(std::shared_ptr<const Eigen::MatrixXd> stiffness, const Eigen::VectorXd& area, const Contact& law,
+                const ContactOptions& options = {});
+    JointSolver(Eigen::MatrixXd stiffness, const Eigen::VectorXd& area, const Contact& law,
+                const ContactOptions& options = {});
+    JointSolver(const JointSolver&) = delete;
+    JointSolver& operator=(const JointSolver&) = delete;
+
+    const Eigen::MatrixXd& stiffness() const { return *stiffness_; } ///< V of rigid sticking
+    const std::shared_ptr<const Eigen::MatrixXd>& shared_stiffness() const { return stiffness_; }
+
+    /// @param stuck_force  λ⁰ of a gap that stays as it is, elastic part included [N/m]
+    /// @param elastic      elastic part of the tangential gaps, at the start and at the end, m values [m]; zero where
+    ///                     sticking is rigid
+    /// @param solution     on entry states and forces of the start; its slips are net of the elastic part
+    ContactReport solve(const Eigen::VectorXd& stuck_force, const ContactLaw& law, Eigen::VectorXd& elastic,
+                        ContactSolution& solution);
+
+    /// Do gaps come to be held between two sets of states, so that land() has to bring them to rest? Never where
+    /// sticking or shutting is elastic, or with Landing::ringing.
+    bool lands(const ContactStates& before, const ContactStates& now) const;
+    /// Does a body that flew, every pair open, shut some pair between two sets of states? False where lands() is.
+    bool shuts(const ContactStates& before, const ContactStates& now) const;
+    /// Impulses that make the rates of all held gaps zero (ContactSolver::land()). Friction stops a slipping pair, it does
+    /// not turn it round: such pairs come to stick. @returns false for a mechanism.
+    /// @param rate  of all gaps, 2m @param jumps  states on entry and after; changes of the rates, and impulses
+    bool land(const ContactLaw& law, const Eigen::VectorXd& rate, ContactSolution& jumps);
+    /// Forces that make `values` of all held gaps zero, with the states as they are. @returns false for a mechanism.
+    bool hold(const ContactLaw& law, const Eigen::VectorXd& values, ContactSolution& jumps);
+
+private:
+    std::shared_ptr<const Eigen::MatrixXd> stiffness_;
+    ElasticStick elastic_stick_;
+    std::unique_ptr<SlipTolerance> slip_tolerance_;
+    std::unique_ptr<ExponentialNormal> soft_normal_; ///< of V, or of V' behind the elastic stick
+    std::unique_ptr<ContactSolver> rigid_;           ///< the same
+    bool lands_ = false;
+    Eigen::VectorXd softened_, held_; ///< work space: λ⁰ behind the elastic stick; jumps of held gaps
+};
+
+/// Which of the 2m gaps a set of states holds as they are.
+bool holds(const ContactStates& states, Eigen::Index gap);
+
+/// Energy that soft normal contact stores at these openings, Σ A w(g) [J/m]; zero where contact is hard.
+double stored_energy(const Contact& law, const Eigen::VectorXd& area, const Eigen::VectorXd& opening);
 
 } // namespace damslip::fe2d

@@ -3,7 +3,7 @@
 #include "fe2d/contact/joint_flow.hpp"
 #include "fe2d/contact/joint_law.hpp"
 #include "scene/joint_laws.hpp"
-#include "scene/pressure_profile.hpp"
+#include "scene/uplift_models.hpp"
 
 #include <functional>
 #include <memory>
@@ -34,8 +34,8 @@ struct WetJoint {
     /// the pressure beyond.
     CrackedUplift cracked;
     std::optional<DrainLoss> drain_loss; ///< none: the drains hold
-    std::optional<Eigen::Index> drain; ///< pair at the drains
-    JointFluid fluid;                  ///< of JointWaterLaw
+    std::optional<Eigen::Index> drain;   ///< pair at the drains
+    JointFluid fluid;                    ///< of JointWaterLaw
 
     Eigen::Index pairs() const { return area.size(); }
     double length() const { return area.sum(); }
@@ -56,16 +56,16 @@ CrackLengths crack_lengths(const WetJoint& joint, const Eigen::VectorXd& opening
 
 /// What the water in a joint has come to, for people.
 struct JointWaterReport {
-    CrackLengths crack;            ///< now [m]
-    CrackLengths largest;          ///< so far [m]
-    double wet_length = 0.0;       ///< how far the water has come from the upstream end (opening mouth) [m]
-    Eigen::VectorXd pressure;      ///< by pair now [Pa]
-    Eigen::VectorXd force;         ///< on both faces of each pair, beyond that of the pressure before [N/m]
-    double least_pressure = 0.0;   ///< so far [Pa]
-    double largest_pressure = 0.0; ///< so far [Pa]
-    double reynolds_number = 0.0;  ///< largest so far, opening reynolds [-]
-    double cracked_through = 0.0;  ///< time during which a crack went from end to end [s]
-    JointFlowWork flow;            ///< opening reynolds, since the start [J/m]
+    CrackLengths crack;                ///< now [m]
+    CrackLengths largest;              ///< so far [m]
+    double wet_length = 0.0;           ///< how far the water has come from the upstream end (opening mouth) [m]
+    Eigen::VectorXd pressure;          ///< by pair now [Pa]
+    Eigen::VectorXd force;             ///< on both faces of each pair, beyond that of the pressure before [N/m]
+    double least_pressure = 0.0;       ///< so far [Pa]
+    double largest_pressure = 0.0;     ///< so far [Pa]
+    double reynolds_number = 0.0;      ///< largest so far, opening reynolds [-]
+    double cracked_through = 0.0;      ///< time during which a crack went from end to end [s]
+    JointFlowWork flow;                ///< opening reynolds, since the start [J/m]
     std::optional<double> drains_lost; ///< time since the start at which they sheared off [s]; none: they hold
 };
 

@@ -1,9 +1,9 @@
 #include "fe2d/element/elastic.hpp"
 
+#include "core/input_error.hpp"
 #include "fe2d/element/quadratic.hpp"
 
 #include <Eigen/LU>
-
 #include <numbers>
 #include <span>
 
@@ -187,6 +187,151 @@ Eigen::Vector3d centre_stress(const Corners& corners, int size, const Eigen::Mat
     if (extra.any()) return quadratic_centre_stress(corners, size, extra, d, u);
     if (size == 3) return t3_stress(corners, d, u);
     return gauss_stress(corners, d, kind, u).rowwise().mean();
+}
+
+ExtraNodes extra_nodes(const Element& element)
+{
+    ExtraNodes extra;
+    for (int i = 0; i < 4; ++i) extra.mid[i] = element.mid[i] >= 0;
+    extra.centre = element.centre >= 0;
+    return extra;
+}
+
+QuadraturePoint q4_point(const Corners& corners, double xi, double eta)
+{
+    static constexpr double sx[4] = {-1, 1, 1, -1}, sy[4] = {-1, -1, 1, 1};
+    QuadraturePoint point{.xi = xi,
+                          .eta = eta,
+                          .weight = 0.0,
+                          .shape = Eigen::Vector4d::Zero(),
+                          .gradient = Eigen::Matrix<double, 2, 4>::Zero()};
+    Eigen::Matrix<double, 2, 4> natural;
+    Eigen::Matrix<double, 4, 2> x;
+    for (int i = 0; i < 4; ++i) {
+        point.shape[i] = 0.25 * (1.0 + sx[i] * xi) * (1.0 + sy[i] * eta);
+        natural(0, i) = 0.25 * sx[i] * (1.0 + sy[i] * eta);
+        natural(1, i) = 0.25 * sy[i] * (1.0 + sx[i] * xi);
+        x.row(i) << corners[i].x, corners[i].y;
+    }
+    const Eigen::Matrix2d jacobian = natural * x;
+    point.weight = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
+    Eigen::Matrix2d inverse;
+    inverse << jacobian(1, 1), -jacobian(0, 1), -jacobian(1, 0), jacobian(0, 0);
+    point.gradient = inverse * natural / point.weight;
+    return point;
+}
+
+std::array<QuadraturePoint, 4> q4_points(const Corners& corners)
+{
+    const double g = 1.0 / std::numbers::sqrt3;
+    return {q4_point(corners, -g, -g), q4_point(corners, g, -g), q4_point(corners, g, g), q4_point(corners, -g, g)};
+}
+
+std::array<QuadraturePoint, 3> t3_points(const Corners& c)
+{
+    const double twice_area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+    QuadraturePoint point{.xi = 0.0,
+                          .eta = 0.0,
+                          .weight = twice_area / 6.0,
+                          .shape = Eigen::Vector4d::Zero(),
+                          .gradient = Eigen::Matrix<double, 2, 4>::Zero()};
+    point.gradient << c[1].y - c[2].y, c[2].y - c[0].y, c[0].y - c[1].y, 0.0, //
+        c[2].x - c[1].x, c[0].x - c[2].x, c[1].x - c[0].x, 0.0;
+    point.gradient /= twice_area;
+    std::array<QuadraturePoint, 3> points{point, point, point};
+    points[0].shape << 0.5, 0.5, 0.0, 0.0;
+    points[1].shape << 0.0, 0.5, 0.5, 0.0;
+    points[2].shape << 0.5, 0.0, 0.5, 0.0;
+    return points;
+}
+
+namespace {
+
+ElementMatrix quadratic_gradient_matrix(const Corners& corners, int size, double conductivity, const ExtraNodes& extra)
+{
+    const int nodes = size + extra.count();
+    ElementMatrix k = ElementMatrix::Zero(nodes, nodes);
+    for (const QuadraticPoint& point : quadratic_points(corners, size, extra))
+        k += conductivity * point.weight * point.gradient.transpose() * point.gradient;
+    return k;
+}
+
+ElementMatrix quadratic_scalar_mass(const Corners& corners, int size, double capacity, const ExtraNodes& extra)
+{
+    const int nodes = size + extra.count();
+    ElementMatrix m = ElementMatrix::Zero(nodes, nodes);
+    for (const QuadraticPoint& point : quadratic_points(corners, size, extra))
+        m += capacity * point.weight * point.shape * point.shape.transpose();
+    return m;
+}
+
+} // namespace
+
+ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double conductivity, const ExtraNodes& extra)
+{
+    if (extra.any()) return quadratic_gradient_matrix(corners, size, conductivity, extra);
+    ElementMatrix k = ElementMatrix::Zero(size, size);
+    const auto add = [&](const QuadraturePoint& point) {
+        const auto gradient = point.gradient.leftCols(size);
+        k += conductivity * point.weight * gradient.transpose() * gradient;
+    };
+    if (size == 3)
+        for (const auto& point : t3_points(corners)) add(point);
+    else
+        for (const auto& point : q4_points(corners)) add(point);
+    return k;
+}
+
+ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capacity, const ExtraNodes& extra)
+{
+    if (extra.any()) return quadratic_scalar_mass(corners, size, capacity, extra);
+    ElementMatrix m = ElementMatrix::Zero(size, size);
+    const auto add = [&](const QuadraturePoint& point) {
+        m += capacity * point.weight * point.shape.head(size) * point.shape.head(size).transpose();
+    };
+    if (size == 3)
+        for (const auto& point : t3_points(corners)) add(point);
+    else
+        for (const auto& point : q4_points(corners)) add(point);
+    return m;
+}
+
+Eigen::Vector2d scalar_gradient(const Corners& corners, int size, const ElementVector& values)
+{
+    const QuadraturePoint point = size == 3 ? t3_points(corners)[0] : q4_point(corners, 0.0, 0.0);
+    return point.gradient.leftCols(size) * values.head(size);
+}
+
+Eigen::Matrix3d plane_strain_matrix(const ElasticMaterial& material)
+{
+    const double nu = material.poisson_ratio;
+    const double factor = material.young_modulus / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    Eigen::Matrix3d d;
+    d << 1.0 - nu, nu, 0.0, //
+        nu, 1.0 - nu, 0.0,  //
+        0.0, 0.0, 0.5 - nu;
+    return factor * d;
+}
+
+ElasticMaterial plane_stress_equivalent(const ElasticMaterial& material)
+{
+    const double nu = material.poisson_ratio;
+    return {material.density, material.young_modulus * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu)};
+}
+
+double out_of_plane_stress(const ElasticMaterial& material, const Eigen::Vector3d& stress)
+{
+    return material.poisson_ratio * (stress[0] + stress[1]);
+}
+
+ElasticMaterial elastic_material(const Material& material, const Scene& scene, const char* key)
+{
+    if (!material.young_modulus)
+        throw InputError(Diagnostic{.file = scene.file.string(),
+                                    .problem = std::string(key) + ".young_modulus is missing.",
+                                    .expected = "a number > 0; finite elements need it (concrete: 20 to 35 GPa)",
+                                    .fix = std::string("add  young_modulus_GPa = ...  to [") + key + "]"});
+    return {material.density, *material.young_modulus, material.poisson_ratio};
 }
 
 } // namespace damslip::fe2d

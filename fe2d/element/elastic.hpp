@@ -1,14 +1,48 @@
 #pragma once
 
-#include "fe2d/element/shape.hpp"
+#include "core/geometry.hpp"
+#include "fe2d/mesh/mesh.hpp"
 #include "scene/scene.hpp"
 
 #include <Eigen/Core>
+#include <array>
+
+/// Shape functions and quadrature of quadrilaterals and triangles with straight edges: linear ones here, those with
+/// nodes in the middle of edges or at the centre in quadratic.hpp.
+namespace damslip::fe2d {
+
+using Corners = std::array<Point, 4>; ///< counter-clockwise; the fourth is not used by triangles
+
+/// Which nodes an element has besides its corners.
+struct ExtraNodes {
+    std::array<bool, 4> mid{}; ///< in the middle of the edge from corner i to the next
+    bool centre = false;       ///< quadrilaterals only
+
+    bool any() const { return mid[0] || mid[1] || mid[2] || mid[3] || centre; }
+    int count() const { return mid[0] + mid[1] + mid[2] + mid[3] + centre; }
+};
+ExtraNodes extra_nodes(const Element& element);
+
+/// One quadrature point of an element in the global axes.
+struct QuadraturePoint {
+    double xi = 0.0, eta = 0.0;           ///< natural coordinates (quadrilaterals)
+    double weight = 0.0;                  ///< includes the Jacobian: the weights of an element sum to its area [m^2]
+    Eigen::Vector4d shape;                ///< N_i [-]; triangles: the fourth is zero
+    Eigen::Matrix<double, 2, 4> gradient; ///< dN_i/dx, dN_i/dy [1/m]
+};
+
+/// 2 x 2 Gauss points of a quadrilateral, in the order (-,-), (+,-), (+,+), (-,+).
+std::array<QuadraturePoint, 4> q4_points(const Corners& corners);
+
+/// One point anywhere in a quadrilateral; its weight is the Jacobian's determinant [m^2].
+QuadraturePoint q4_point(const Corners& corners, double xi, double eta);
+
+/// Mid-edge points of a triangle: exact for quadratic integrands.
+std::array<QuadraturePoint, 3> t3_points(const Corners& corners);
 
 /// Plane strain elements. Element unknowns in the order (u_x0, u_y0, u_x1, u_y1, ...): corners, middle nodes, centre
 /// (Element::all); 6 for linear triangles and 8 for linear quadrilaterals, up to 18 with `extra` nodes; matrices are per
 /// metre of dam length. `size` is the number of corners, 3 or 4.
-namespace damslip::fe2d {
 
 using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18>; ///< no heap
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1>;
@@ -51,5 +85,40 @@ NodalStress nodal_stress(const Corners& corners, int size, const Eigen::Matrix3d
 /// quadrilaterals the mean of the 2 x 2 Gauss points.
 Eigen::Vector3d centre_stress(const Corners& corners, int size, const Eigen::Matrix3d& d, Q4Kind kind,
                               const ElementVector& u, const ExtraNodes& extra = {});
+
+/// Elements with one unknown per node: acoustic pressure, hydraulic head. 3 x 3 for linear triangles, 4 x 4 for linear
+/// quadrilaterals, up to 9 x 9 with `extra` nodes.
+
+/// Integral of k grad N^T grad N, per metre of dam length; `conductivity` k is 1/rho for acoustics [m^3/kg], the
+/// permeability for Darcy flow [m/s].
+ElementMatrix scalar_gradient_matrix(const Corners& corners, int size, double conductivity,
+                                     const ExtraNodes& extra = {});
+
+/// Integral of s N^T N; `capacity` s is 1/K_w for acoustics [1/Pa].
+ElementMatrix scalar_mass_matrix(const Corners& corners, int size, double capacity, const ExtraNodes& extra = {});
+
+/// Gradient of the field at the element's centre.
+Eigen::Vector2d scalar_gradient(const Corners& corners, int size, const ElementVector& values);
+
+/// Linear elastic isotropic material.
+struct ElasticMaterial {
+    double density = 0.0;       ///< [kg/m^3]; 0: massless
+    double young_modulus = 0.0; ///< [Pa], > 0
+    double poisson_ratio = 0.0; ///< [-], 0 <= nu < 0.5
+};
+
+/// Stress (xx, yy, xy) of plane strain from strain (xx, yy, 2 xy): D of sigma = D epsilon [Pa]; tension positive.
+Eigen::Matrix3d plane_strain_matrix(const ElasticMaterial& material);
+
+/// The material whose plane strain matrix is the plane stress matrix of `material`, same density:
+///     E' = E (1 + 2 nu) / (1 + nu)^2,   nu' = nu / (1 + nu).
+/// For comparing with published plane stress results; the out-of-plane stress has no meaning then.
+ElasticMaterial plane_stress_equivalent(const ElasticMaterial& material);
+
+/// Stress normal to the plane in plane strain: nu (sigma_xx + sigma_yy) [Pa].
+double out_of_plane_stress(const ElasticMaterial& material, const Eigen::Vector3d& stress);
+
+/// Checked material of a scene. @throws InputError naming `key` when there is no Young's modulus: FE needs one.
+ElasticMaterial elastic_material(const Material& material, const Scene& scene, const char* key);
 
 } // namespace damslip::fe2d

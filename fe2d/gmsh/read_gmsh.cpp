@@ -2,15 +2,49 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/number.hpp"
-#include "fe2d/gmsh/gmsh_sections.hpp"
-
-#include <fmt/format.h>
+#include "core/text.hpp"
+#include "fe2d/gmsh/write_gmsh.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
 #include <set>
+#include <unordered_map>
 
 namespace damslip::fe2d {
+
+/// Largest tag or count in a file.
+inline constexpr std::int64_t largest_gmsh_number = 100'000'000;
+
+/// What the sections of a file, read one after the other, have given so far.
+class GmshReading {
+public:
+    GmshReading(std::string_view text, const std::filesystem::path& file);
+
+    GmshLines lines;
+    GmshFile result;
+    /// Physical tags of the entities (version 4.1) by dimension and tag.
+    std::map<std::pair<int, std::int64_t>, std::vector<int>> entity_groups;
+
+    /// Takes $End<section> from the next line.
+    void end(const std::string& section);
+    void add_node(std::int64_t tag, Point at, double z);
+    /// An element whose node tags are the next words of the line; points are left out.
+    /// @param type  Gmsh's number of the kind of element
+    void add_element(std::int64_t tag, std::int64_t type, std::vector<int> groups, GmshWords& words);
+
+private:
+    int node_with(std::int64_t tag) const;
+    std::unordered_map<std::int64_t, int> index_; ///< in result.nodes, of node tags
+};
+
+// $Nodes and $Elements of both versions, from the line after the section's name to before $End; $Entities of 4.1.
+void read_nodes_2_2(GmshReading& in);
+void read_elements_2_2(GmshReading& in);
+void read_entities_4_1(GmshReading& in);
+void read_nodes_4_1(GmshReading& in);
+void read_elements_4_1(GmshReading& in);
 
 namespace {
 
@@ -131,6 +165,274 @@ GmshFile parse_gmsh(std::string_view text, const std::filesystem::path& file)
 GmshFile read_gmsh(const std::filesystem::path& file)
 {
     return parse_gmsh(read_file(file), file);
+}
+
+namespace {
+
+constexpr double farthest = 1e6; ///< coordinate in the file
+
+/// Words for the kinds of element that meshes of other programs or settings have.
+std::string name_of_type(std::int64_t type)
+{
+    switch (type) {
+    case 4:
+        return "4-node tetrahedron";
+    case 5:
+        return "8-node hexahedron";
+    case 6:
+        return "6-node prism";
+    case 7:
+        return "5-node pyramid";
+    case 8:
+        return "3-node line of second order";
+    case 9:
+        return "6-node triangle of second order";
+    case 10:
+        return "9-node quadrilateral of second order";
+    case 16:
+        return "8-node quadrilateral of second order";
+    default:
+        return "no line, triangle or quadrilateral of first order";
+    }
+}
+
+std::string fix_of_type(std::int64_t type)
+{
+    return type >= 4 && type <= 7 ? "mesh the section, a surface: gmsh -2 -order 1"
+                                  : "mesh with first order: gmsh -2 -order 1, or Mesh.ElementOrder = 1";
+}
+
+} // namespace
+
+GmshReading::GmshReading(std::string_view text, const std::filesystem::path& file) : lines(text, file.string())
+{
+    result.file = file;
+}
+
+void GmshReading::end(const std::string& section)
+{
+    lines.need(section);
+    if (lines.line() != "$End" + section)
+        lines.refuse(fmt::format("${} goes on after as many entries as it announces.", section), "$End" + section,
+                     "write the mesh again, or correct the number at the section's start");
+}
+
+void GmshReading::add_node(std::int64_t tag, Point at, double z)
+{
+    for (const double c : {at.x, at.y, z})
+        if (std::abs(c) > farthest)
+            lines.refuse(fmt::format("node {} has the coordinate {:g}.", tag, c),
+                         fmt::format("at most {:g} in size, heel of the dam at the origin", farthest),
+                         "shift the mesh; where its unit is not the metre give mesh.file_unit_m in the scene");
+    if (!index_.emplace(tag, static_cast<int>(result.nodes.size())).second)
+        lines.refuse(fmt::format("node tag {} is given twice.", tag), "a tag of its own for every node",
+                     "write the mesh again");
+    result.nodes.push_back({tag, at, z, lines.number()});
+}
+
+int GmshReading::node_with(std::int64_t tag) const
+{
+    const auto found = index_.find(tag);
+    if (found == index_.end())
+        lines.refuse(fmt::format("node {} of the element is not in $Nodes.", tag), "tags of $Nodes",
+                     "write the mesh again");
+    return found->second;
+}
+
+void GmshReading::add_element(std::int64_t tag, std::int64_t type, std::vector<int> groups, GmshWords& words)
+{
+    if (type == 15) {
+        node_with(words.whole("node tag", 1, largest_gmsh_number));
+        return words.end();
+    }
+    if (type < 1 || type > 3)
+        lines.refuse(fmt::format("element {} has type {}: {}.", tag, type, name_of_type(type)),
+                     "types 1 (2-node line), 2 (3-node triangle), 3 (4-node quadrilateral), 15 (point, left out)",
+                     fix_of_type(type));
+    GmshElement element{tag, static_cast<GmshShape>(type - 1), {-1, -1, -1, -1}, std::move(groups), lines.number()};
+    for (int i = 0; i < node_count(element.shape); ++i) {
+        element.nodes[i] = node_with(words.whole("node tag", 1, largest_gmsh_number));
+        for (int j = 0; j < i; ++j)
+            if (element.nodes[j] == element.nodes[i])
+                lines.refuse(fmt::format("element {} has node {} twice.", tag, result.nodes[element.nodes[i]].tag),
+                             "different nodes", "mesh again; a quadrilateral with three corners is a triangle, type 2");
+    }
+    words.end();
+    result.elements.push_back(std::move(element));
+}
+
+namespace {
+
+/// The count that a section of version 2.2 starts with.
+std::int64_t count_of(GmshReading& in, const std::string& section, const char* what)
+{
+    in.lines.need(section);
+    GmshWords words(in.lines);
+    const std::int64_t count = words.whole(what, 0, largest_gmsh_number);
+    words.end();
+    return count;
+}
+
+} // namespace
+
+void read_nodes_2_2(GmshReading& in)
+{
+    const std::int64_t count = count_of(in, "Nodes", "number of nodes");
+    for (std::int64_t i = 0; i < count; ++i) {
+        in.lines.need("Nodes");
+        GmshWords words(in.lines);
+        const std::int64_t tag = words.whole("node tag", 1, largest_gmsh_number);
+        const double x = words.number("x"), y = words.number("y"), z = words.number("z");
+        words.end();
+        in.add_node(tag, {x, y}, z);
+    }
+}
+
+void read_elements_2_2(GmshReading& in)
+{
+    const std::int64_t count = count_of(in, "Elements", "number of elements");
+    for (std::int64_t i = 0; i < count; ++i) {
+        in.lines.need("Elements");
+        GmshWords words(in.lines);
+        const std::int64_t tag = words.whole("element tag", 1, largest_gmsh_number);
+        const std::int64_t type = words.whole("element type", 1, 140);
+        const std::int64_t tags = words.whole("number of tags", 0, 100);
+        std::vector<int> groups;
+        for (std::int64_t k = 0; k < tags; ++k) { // the physical group, the entity, partitions
+            const auto value =
+                static_cast<int>(words.whole("tag of the element", -largest_gmsh_number, largest_gmsh_number));
+            if (k == 0 && value != 0) groups.push_back(value < 0 ? -value : value);
+        }
+        in.add_element(tag, type, std::move(groups), words);
+    }
+}
+
+namespace {
+
+/// First line of $Nodes and $Elements: blocks, entries, smallest and largest tag.
+struct Announced {
+    std::int64_t blocks = 0, entries = 0;
+};
+
+Announced announced(GmshReading& in, const std::string& section)
+{
+    in.lines.need(section);
+    GmshWords words(in.lines);
+    Announced a;
+    a.blocks = words.whole("number of blocks", 0, largest_gmsh_number);
+    a.entries = words.whole("number of entries", 0, largest_gmsh_number);
+    words.whole("smallest tag", 0, largest_gmsh_number);
+    words.whole("largest tag", 0, largest_gmsh_number);
+    words.end();
+    return a;
+}
+
+void check_sum(GmshReading& in, const std::string& section, std::int64_t found, std::int64_t announced)
+{
+    if (found == announced) return;
+    in.lines.refuse(
+        fmt::format("the blocks of ${} hold {} entries, its first line says {}.", section, found, announced),
+        "the same number", "write the mesh again");
+}
+
+std::vector<int> groups_of(GmshWords& words)
+{
+    const std::int64_t count = words.whole("number of physical tags", 0, 1000);
+    std::vector<int> groups;
+    for (std::int64_t k = 0; k < count; ++k) {
+        const auto tag = static_cast<int>(words.whole("physical tag", -largest_gmsh_number, largest_gmsh_number));
+        groups.push_back(tag < 0 ? -tag : tag); // negative: the curve runs the other way in the group
+    }
+    return groups;
+}
+
+} // namespace
+
+void read_entities_4_1(GmshReading& in)
+{
+    in.lines.need("Entities");
+    GmshWords counts(in.lines);
+    std::int64_t count[4];
+    for (std::int64_t& n : count) n = counts.whole("number of entities", 0, largest_gmsh_number);
+    counts.end();
+    for (int dimension = 0; dimension < 4; ++dimension)
+        for (std::int64_t i = 0; i < count[dimension]; ++i) {
+            in.lines.need("Entities");
+            GmshWords words(in.lines);
+            const std::int64_t tag = words.whole("entity tag", -largest_gmsh_number, largest_gmsh_number);
+            for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) words.number("coordinate of the entity");
+            std::vector<int> groups = groups_of(words);
+            if (dimension > 0) {
+                const std::int64_t sides = words.whole("number of bounding entities", 0, largest_gmsh_number);
+                for (std::int64_t k = 0; k < sides; ++k)
+                    words.whole("bounding entity", -largest_gmsh_number, largest_gmsh_number);
+            }
+            words.end();
+            if (!in.entity_groups.emplace(std::pair{dimension, tag}, std::move(groups)).second)
+                in.lines.refuse(fmt::format("entity {} of dimension {} is given twice.", tag, dimension),
+                                "a tag of its own for every entity of a dimension", "write the mesh again");
+        }
+}
+
+void read_nodes_4_1(GmshReading& in)
+{
+    const Announced all = announced(in, "Nodes");
+    std::int64_t found = 0;
+    for (std::int64_t block = 0; block < all.blocks; ++block) {
+        in.lines.need("Nodes");
+        GmshWords words(in.lines);
+        const std::int64_t dimension = words.whole("dimension of the entity", 0, 3);
+        words.whole("entity tag", -largest_gmsh_number, largest_gmsh_number);
+        const bool parametric = words.whole("parametric", 0, 1) == 1;
+        const std::int64_t count = words.whole("number of nodes in the block", 0, all.entries - found);
+        words.end();
+        std::vector<std::int64_t> tags;
+        for (std::int64_t i = 0; i < count; ++i) {
+            in.lines.need("Nodes");
+            GmshWords tag(in.lines);
+            tags.push_back(tag.whole("node tag", 1, largest_gmsh_number));
+            tag.end();
+        }
+        for (const std::int64_t tag : tags) {
+            in.lines.need("Nodes");
+            GmshWords place(in.lines);
+            const double x = place.number("x"), y = place.number("y"), z = place.number("z");
+            for (std::int64_t k = 0; parametric && k < dimension; ++k) place.number("parameter");
+            place.end();
+            in.add_node(tag, {x, y}, z);
+        }
+        found += count;
+    }
+    check_sum(in, "Nodes", found, all.entries);
+}
+
+void read_elements_4_1(GmshReading& in)
+{
+    const Announced all = announced(in, "Elements");
+    std::int64_t found = 0;
+    for (std::int64_t block = 0; block < all.blocks; ++block) {
+        in.lines.need("Elements");
+        GmshWords words(in.lines);
+        const auto dimension = static_cast<int>(words.whole("dimension of the entity", 0, 3));
+        const std::int64_t entity = words.whole("entity tag", -largest_gmsh_number, largest_gmsh_number);
+        const std::int64_t type = words.whole("element type", 1, 140);
+        const std::int64_t count = words.whole("number of elements in the block", 0, all.entries - found);
+        words.end();
+        const auto groups = in.entity_groups.find({dimension, entity});
+        if (groups == in.entity_groups.end())
+            in.lines.refuse(
+                fmt::format("entity {} of dimension {} is not in $Entities.", entity, dimension),
+                "$Entities before $Elements, with every entity that has elements: its physical groups stand there",
+                "write the mesh again");
+        for (std::int64_t i = 0; i < count; ++i) {
+            in.lines.need("Elements");
+            GmshWords element(in.lines);
+            const std::int64_t tag = element.whole("element tag", 1, largest_gmsh_number);
+            in.add_element(tag, type, groups->second, element);
+        }
+        found += count;
+    }
+    check_sum(in, "Elements", found, all.entries);
 }
 
 } // namespace damslip::fe2d

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "fe2d/gmsh/write_gmsh.hpp"
 
 #include <array>
 #include <vector>
@@ -102,5 +103,27 @@ std::vector<int> with_mid_nodes(const Mesh& mesh, const NodeChain& chain);
 
 /// Corner coordinates of one element in node order; unused entries of a triangle are (0, 0).
 std::array<Point, 4> corners(const Mesh& mesh, const Element& element);
+
+enum class QuadraticKind {
+    serendipity, ///< nodes in the middle of edges: Q8, T6
+    lagrange     ///< and at the centres of quadrilaterals: Q9, T6
+};
+
+/// Makes a mesh of linear elements quadratic: every edge gets a node in its middle, except the edges on contact planes
+/// (base and lift joints, both sides, and the rock's surface along which the dam may slide), so that contact, uplift and
+/// their integrals are those of the linear mesh; the elements at them are transition elements. Water loads, added mass
+/// and acoustic coupling integrate over quadratic edges. New nodes of the dam follow the dam's, those of the rock come
+/// last: the rock's nodes are renumbered. Same mesh, same bits.
+void make_quadratic(Mesh& mesh, QuadraticKind kind);
+
+enum class BaseNodes {
+    twice, ///< as the mesh has them: the dam's and the rock's
+    shared ///< the dam's alone; a base whose sides match only
+};
+
+/// A mesh with the physical groups that import_mesh asks for, in metres: surfaces "dam", "rock", "curtain"; lines "base" (the
+/// dam's edges), "upstream", "crest", "downstream", "floor", "ground", "rock-left", "rock-bottom", "rock-right". Node tags are
+/// those of the mesh plus one. Lift joints keep their nodes twice.
+GmshFile export_mesh(const Mesh& mesh, BaseNodes base = BaseNodes::twice);
 
 } // namespace damslip::fe2d

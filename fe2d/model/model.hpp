@@ -77,4 +77,50 @@ Model build_model(const Scene& scene, const ModelOptions& options = {});
 /// The same on a mesh that is there already.
 Model build_model_on(Mesh mesh, const Scene& scene, const ModelOptions& options = {});
 
+/// Dashpots along the sides and the bottom of the rock box, rho c_p across the edge and rho c_s along it, shared by the
+/// nodes of every element edge: a diagonal matrix on the unknowns that are there [N s/m^2].
+///
+///     sigma_n = - rho c_p v_n,   tau = - rho c_s v_t        Lysmer & Kuhlemeyer (1969), eqs. 1, 2 with a = b = 1
+///
+/// Exact for plane waves that meet the edge at a right angle; a body wave at another angle comes back in part.
+/// @param rock  density > 0
+SparseMatrix edge_dashpots(const Mesh& mesh, const DofMap& dofs, const ElasticMaterial& rock);
+
+/// Speeds of plane waves [m/s]: c_p of compression, c_s of shear.
+struct ElasticWaves {
+    double p = 0.0, s = 0.0;
+};
+ElasticWaves elastic_waves(const ElasticMaterial& material);
+
+/// Rest of a model on free edges of its rock box.
+struct HeldStart {
+    Eigen::VectorXd displacement; ///< on the unknowns of the model with free edges [m]
+    Eigen::VectorXd load;         ///< on these [N/m], with the reactions of the edges
+};
+
+/// From fixed to free edges: dashpots hold nothing that stands still, so the static stages stand on fixed edges, and what
+/// holds the edges there, K u on them, goes on as a constant load. The two models then rest at the same displacements,
+/// and nothing moves before the ground does.
+///
+/// In the run displacements of the rock are u_total = u_ff + u, those of the dam u_total = r u_g + u: u_ff is the free
+/// field, waves that go straight up and down in a homogeneous half space with the free surface y = 0,
+///
+///     u_ff(y, t) = ½ [u_g(t + y/c) + u_g(t - y/c)],   y <= 0,   u_ff(0, t) = u_g(t),
+///
+/// c_s for horizontal, c_p for vertical motion. It solves the rock's own equations and leaves its surface free of traction,
+/// so it drops out of them; the dashpots resist u̇ alone, the waves that dam and rock send out; dam and rock meet where
+/// u_ff = r u_g. The motion of the ground therefore loads the dam and its water only, as on massless rock, and the record
+/// is the motion of the free surface. The same motion comes out of the direct method (Zienkiewicz, Bicanic & Shen 1989;
+/// Løkke & Chopra 2017), which puts the stresses ρ c (2 u̇_up - u̇) of the incoming wave on the bottom and those of the free
+/// field on the sides (verification/cases/fe_rock_cases.cpp compares). Left out: what the curtain's other modulus
+/// scatters of the free field.
+///
+/// @param fixed, free  of one scene and base, apart from ModelOptions::edges
+/// @param displacement, load  on the unknowns of `fixed`
+HeldStart held_edges(const Model& fixed, const Model& free, const Eigen::VectorXd& displacement,
+                     const Eigen::VectorXd& load);
+
+/// Displacements on the unknowns of `fixed`: what its edges hold is left out.
+Eigen::VectorXd without_edges(const Model& fixed, const Model& free, const Eigen::VectorXd& displacement);
+
 } // namespace damslip::fe2d

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/contact/joint_solver.hpp"
+#include "fe2d/contact/joint_laws.hpp"
 #include "fe2d/reduction/reduced_operator.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 

@@ -2,7 +2,8 @@
 
 #include "fe2d/reduction/dam_modes.hpp"
 #include "fe2d/run/dynamic_operator.hpp"
-#include "fe2d/solver/transposed_product.hpp"
+#include "fe2d/run/static_contact.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/scheme.hpp"
 
 #include <map>
@@ -96,6 +97,27 @@ private:
     Scheme scheme_;
     mutable std::mutex mutex_;
     mutable std::map<double, std::unique_ptr<const ReducedOperator>> operators_;
+};
+
+/// The contact plane with neighbouring pairs joined to groups: gaps are area means of the group's, a force on the group is
+/// spread over its pairs by area (uniform pressure). Too coarse for a slip, good enough for how much a slip changes
+/// with the number of modes, and cheap: contact costs the square of the pairs.
+class CoarsePlane {
+public:
+    /// @param groups  wanted, >= 1; each pair stands alone when there are no more
+    CoarsePlane(const Plane& plane, int groups);
+
+    const Plane& plane() const { return coarse_; } ///< a group stands as one pair
+    ReducedSystem coarsened(const ReducedSystem& system) const;
+
+    /// All groups shut and sticking, forces summed: for differences of two runs on this plane.
+    ContactMemory shut(const ContactMemory& memory) const;
+
+private:
+    std::size_t group_of(Eigen::Index pair) const; ///< the groups are of consecutive pairs
+    Eigen::MatrixXd mean_;                         ///< area means of the groups, groups x m
+    Eigen::MatrixXd both_;                         ///< of normal and tangential components, 2 groups x 2m
+    Plane coarse_;
 };
 
 } // namespace damslip::fe2d

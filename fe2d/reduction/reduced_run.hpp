@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fe2d/reduction/coarse_plane.hpp"
 #include "fe2d/reduction/reduced_contact.hpp"
+#include "fe2d/reduction/reduced_operator.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
 

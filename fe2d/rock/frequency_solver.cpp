@@ -1,12 +1,11 @@
 #include "fe2d/rock/frequency_solver.hpp"
 
-#include "fe2d/assembly/shared_pattern.hpp"
+#include "fe2d/assembly/assemble.hpp"
 #include "fe2d/solver/linear_solver.hpp"
-
-#include <cholmod.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cholmod.h>
 #include <cmath>
 #include <limits>
 #include <new>

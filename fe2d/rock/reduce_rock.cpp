@@ -1,9 +1,9 @@
 #include "fe2d/rock/reduce_rock.hpp"
 
-#include "core/stopwatch.hpp"
-#include "fe2d/model/edge_dashpots.hpp"
+#include "core/watch.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/rock/frequency_solver.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "fe2d/rock/wave_box.hpp"
 
-#include "fe2d/mesh/grading.hpp"
-#include "fe2d/model/edge_dashpots.hpp"
+#include "fe2d/mesh/build_mesh.hpp"
+#include "fe2d/model/model.hpp"
 
 #include <algorithm>
 #include <cassert>

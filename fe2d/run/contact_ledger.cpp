@@ -1,8 +1,10 @@
 #include "fe2d/run/contact_ledger.hpp"
 
-#include "fe2d/contact/joint_solver.hpp"
-#include "fe2d/run/step_passes.hpp"
+#include "fe2d/contact/joint_laws.hpp"
+#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -213,6 +215,350 @@ void ContactLedger::add_landing(const LandingForces& forces, const StepState& st
     }
     energy_.impact += landed_.impact;
     energy_.numerical += before_landing - energy_.kinetic - energy_.strain - landed_.impact;
+}
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Rows that hold something, of matrices of equal height.
+std::vector<Index> filled_rows(std::initializer_list<const SparseMatrix*> matrices)
+{
+    std::vector<bool> filled(static_cast<std::size_t>((*matrices.begin())->rows()), false);
+    for (const SparseMatrix* matrix : matrices)
+        for (Index column = 0; column < matrix->outerSize(); ++column)
+            for (SparseMatrix::InnerIterator it(*matrix, column); it; ++it)
+                if (it.value() != 0.0) filled[static_cast<std::size_t>(it.row())] = true;
+    std::vector<Index> rows;
+    for (std::size_t i = 0; i < filled.size(); ++i)
+        if (filled[i]) rows.push_back(static_cast<Index>(i));
+    return rows;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const SparseMatrix& matrix, const std::vector<Index>& rows)
+{
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = matrix;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, rows[i]); it; ++it)
+            if (it.value() != 0.0) entries.emplace_back(static_cast<Index>(i), it.col(), it.value());
+    Eigen::SparseMatrix<double, Eigen::RowMajor> result(static_cast<Index>(rows.size()), matrix.cols());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+void add_to_rows(const std::vector<Index>& rows, const VectorXd& values, VectorXd& vector)
+{
+    for (std::size_t i = 0; i < rows.size(); ++i) vector[rows[i]] += values[static_cast<Index>(i)];
+}
+
+} // namespace
+
+WaterLedger::WaterLedger(const WaterBody& body, const NodeOrder& order)
+    : mesh_(body.water.mesh_unknowns), floor_(body.water.floor), scale_(body.scale)
+{
+    const FluidModel& water = body.water;
+    const double s = body.scale, s2 = s * s;
+    const auto moved = [&](Index old) { return 2 * order.new_node[static_cast<std::size_t>(old / 2)] + old % 2; };
+    for (const Index old : body.place) place_.push_back(moved(old));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index column = 0; column < mesh_; ++column)
+        for (SparseMatrix::InnerIterator it(body.coupling, column); it; ++it)
+            entries.emplace_back(column, moved(it.row()), s * it.value());
+    SparseMatrix coupling(mesh_, body.size);
+    coupling.setFromTriplets(entries.begin(), entries.end());
+    face_rows_ = filled_rows({&coupling});
+    for (const Index row : floor_)
+        if (std::find(face_rows_.begin(), face_rows_.end(), row) == face_rows_.end()) face_rows_.push_back(row);
+    coupling_ = rows_of(coupling, face_rows_);
+    const SparseMatrix end_mass = s2 * SparseMatrix((water.mass - water.body_mass).topRows(mesh_)),
+                       damping = s2 * SparseMatrix(water.damping.topRows(mesh_)),
+                       end_stiffness = s2 * SparseMatrix((water.stiffness - water.body_stiffness).topRows(mesh_));
+    boundary_rows_ = filled_rows({&end_mass, &damping, &end_stiffness});
+    end_mass_ = rows_of(end_mass, boundary_rows_);
+    damping_ = rows_of(damping, boundary_rows_);
+    end_stiffness_ = rows_of(end_stiffness, boundary_rows_);
+    const auto turned = [&](const VectorXd& load) {
+        VectorXd result(mesh_);
+        for (Index i = 0; i < mesh_; ++i) result[i] = -load[body.place[static_cast<std::size_t>(i)]];
+        return result;
+    };
+    velocity_x_ = turned(body.velocity_x);
+    velocity_y_ = turned(body.velocity_y);
+    displacement_y_ = turned(body.displacement_y);
+}
+
+VectorXd WaterLedger::water_of(const VectorXd& vector) const
+{
+    VectorXd result(static_cast<Index>(place_.size()));
+    for (std::size_t i = 0; i < place_.size(); ++i) result[static_cast<Index>(i)] = vector[place_[i]];
+    return result;
+}
+
+VectorXd WaterLedger::on(const std::vector<Index>& rows, const VectorXd& mesh) const
+{
+    VectorXd result(static_cast<Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) result[static_cast<Index>(i)] = mesh[rows[i]];
+    return result;
+}
+
+VectorXd WaterLedger::on_floor(const VectorXd& mesh) const
+{
+    return on(floor_, mesh);
+}
+
+WaterLedger::Instant WaterLedger::instant(const Motion& motion, const FloorMotion& floor, double velocity_h,
+                                          double velocity_v, double displacement_v) const
+{
+    const auto turned = [&](const VectorXd& product) {
+        VectorXd result(mesh_);
+        for (Index i = 0; i < mesh_; ++i) result[i] = -product[place_[static_cast<std::size_t>(i)]];
+        return result;
+    };
+    const auto off = [&](const Rows& of_boundary, const VectorXd& water, VectorXd& product) {
+        const VectorXd part = of_boundary * water;
+        add_to_rows(boundary_rows_, -part, product);
+        return part;
+    };
+    const VectorXd phi = water_of(motion.z), rate = water_of(motion.v), accel = water_of(motion.a);
+    Instant now;
+    now.phi = phi.head(mesh_);
+    now.rate = rate.head(mesh_);
+    now.accel = accel.head(mesh_);
+    now.face = coupling_ * motion.z;
+    now.face_velocity = coupling_ * motion.v;
+    if (!floor_.empty()) {
+        now.floor = {scale_ * floor.volume, scale_ * floor.rate};
+        for (std::size_t k = 0; k < floor_.size(); ++k) {
+            const auto row = std::find(face_rows_.begin(), face_rows_.end(), floor_[k]) - face_rows_.begin();
+            now.face[row] += now.floor.volume[static_cast<Index>(k)];
+            now.face_velocity[row] += now.floor.rate[static_cast<Index>(k)];
+        }
+    }
+    now.load = -velocity_h * velocity_x_ + velocity_v * velocity_y_ + displacement_v * displacement_y_;
+
+    now.flow = turned(motion.stiffness_z);
+    const VectorXd lost = damping_ * rate;
+    now.force = now.flow - now.load;
+    add_to_rows(boundary_rows_, lost, now.force);
+    add_to_rows(face_rows_, now.face_velocity, now.force);
+    now.mass_rate = turned(motion.mass_v);
+    now.mass_accel = turned(motion.mass_a);
+    now.boundary = lost + off(end_stiffness_, phi, now.flow);
+    off(end_mass_, rate, now.mass_rate);
+    now.boundary += off(end_mass_, accel, now.mass_accel);
+    return now;
+}
+
+void WaterLedger::add(const StepConstants& c, const Instant& before2, const Instant& before, const Instant& now,
+                      Energy& energy) const
+{
+    const double gamma = c.scheme.gamma, half_beta = c.scheme.beta - 0.5 * gamma, dt2 = c.dt * c.dt;
+    const VectorXd step = now.phi - before.phi, mass_change = now.mass_accel - before.mass_accel;
+    energy.kinetic += flow(now);
+    energy.strain += compression(now);
+    energy.radiated += 0.5 * on(boundary_rows_, step).dot(before.boundary + now.boundary);
+    energy.external += 0.5 * step.dot(before.load + now.load);
+    energy.numerical += -(gamma - 0.5) * step.dot(mass_change) +
+                        (gamma - 0.5) * half_beta * dt2 * (now.accel - before.accel).dot(mass_change) +
+                        0.5 * half_beta * dt2 * (now.accel.dot(now.mass_accel) - before.accel.dot(before.mass_accel));
+    energy.numerical += 0.5 * c.scheme.alpha * step.dot(now.force - before2.force);
+    if (before.jolt.size() > 0) energy.numerical -= 0.5 * (1.0 + c.scheme.alpha) * step.dot(before.jolt);
+    energy.numerical += 0.5 * (on(face_rows_, step).dot(before.face_velocity + now.face_velocity) -
+                               (now.face - before.face).dot(on(face_rows_, before.rate) + on(face_rows_, now.rate)));
+    if (floor_.empty()) return;
+    const VectorXd volume = now.floor.volume - before.floor.volume; // times the scale
+    energy.floor += 0.5 * volume.dot(on_floor(before.rate) + on_floor(now.rate));
+    energy.numerical -= 0.5 * c.scheme.alpha * volume.dot(on_floor(now.rate) - on_floor(before2.rate));
+    if (before.jolt_rate.size() > 0)
+        energy.numerical += 0.5 * (1.0 + c.scheme.alpha) * volume.dot(on_floor(before.jolt_rate));
+}
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Rates of the tangential gaps, or accelerations: changed by the impulses, none where held.
+void change_tangential(const ContactSolution& jumps, const ContactStates& states, VectorXd& values)
+{
+    const Index m = values.size();
+    values += jumps.displacement.tail(m);
+    for (Index i = 0; i < m; ++i)
+        if (holds(states, m + i)) values[i] = 0.0;
+}
+
+} // namespace
+
+ContactLanding::ContactLanding(const StepOperators& operators, double restitution)
+    : structure_(operators.structure()), slip_damping_(operators.slip_damping()), restitution_(restitution)
+{
+}
+
+std::optional<ContactLanding::Approach> ContactLanding::approach(const StepState& state, const StepRock& rock,
+                                                                 double dt)
+{
+    const ContactStates& states = state.contact.states;
+    if (!(restitution_ > 0.0) ||
+        !std::all_of(states.begin(), states.end(), [](ContactState s) { return s == ContactState::open; }))
+        return std::nullopt;
+    const Index m = structure_.pairs();
+    Approach approach{dt, {}, {}};
+    gap_values(state.a, state.rock_a, state.accel_t, rock, values_);
+    approach.accel = values_.head(m);
+    gap_values(state.v, state.rock_v, state.rate_t, rock, approach.rate);
+    for (Index i = 0; i < m; ++i) {
+        const double rate = approach.rate[i];
+        const double square = rate * rate - 2.0 * approach.accel[i] * std::max(0.0, state.contact.opening[i]);
+        approach.rate[i] = square > 0.0 ? -std::sqrt(square) : std::min(rate, 0.0);
+    }
+    return approach;
+}
+
+/// What leaves the base again, and how fast; nothing where every pair that shut is slow.
+std::optional<ContactLanding::Rebound> ContactLanding::rebound(const StepConstants& constants, JointSolver& solver,
+                                                               const ContactLaw& law, const Approach& approach,
+                                                               const ContactStates& states) const
+{
+    const Index m = structure_.pairs();
+    std::vector<Index> fast;
+    for (Index i = 0; i < m; ++i)
+        if (states[static_cast<std::size_t>(i)] != ContactState::open &&
+            approach.rate[i] < -2.0 * std::abs(approach.accel[i]) * approach.dt)
+            fast.push_back(i);
+    if (fast.empty()) return std::nullopt;
+
+    // Impulses for one e; pairs that would be pulled stay open. What solves a step gives a0/(1 + α) of an impulse. @returns ΔE
+    const double to_impulse = (1.0 + constants.scheme.alpha) / constants.a0;
+    Rebound found;
+    const auto with = [&](double e) {
+        ContactSolution jumps{states, {}, {}};
+        VectorXd values = approach.rate;
+        for (const Index i : fast) values[i] *= 1.0 + e;
+        for (Index k = 0; k <= m; ++k) {
+            if (!solver.land(law, values, jumps)) return HUGE_VAL;
+            Index worst = 0;
+            if (jumps.force.head(m).minCoeff(&worst) >= -1e-9 * jumps.force.head(m).cwiseAbs().maxCoeff()) break;
+            jumps.states[static_cast<std::size_t>(worst)] = ContactState::open;
+        }
+        found.states = jumps.states;
+        found.target = VectorXd::Zero(m);
+        for (const Index i : fast) found.target[i] = -e * approach.rate[i];
+        return to_impulse * jumps.force.dot(approach.rate + 0.5 * jumps.displacement);
+    };
+    double gain = with(restitution_), low = 0.0, high = restitution_;
+    for (int k = 0; gain > 0.0 && k < 40; ++k) {
+        const double middle = 0.5 * (low + high);
+        gain = with(middle);
+        (gain > 0.0 ? high : low) = middle;
+    }
+    if (gain > 0.0) gain = with(low);
+    if (gain > 0.0) return std::nullopt;
+    found.loss = -gain;
+    return found;
+}
+
+/// Contact forces go to zero, accelerations to those of the flight that begins.
+void ContactLanding::release(const DynamicOperator& op, JointSolver& solver, StepRock& rock, StepDam& dam,
+                             StepState& state)
+{
+    const StepConstants& c = op.constants();
+    force_ = -state.contact.contact_force();
+    jumps_ = {state.contact.states, solver.stiffness().llt().solve(c.a0 * force_), c.a0 * force_};
+    change_accelerations(op, rock, dam, state);
+}
+
+/// Normal and tangential gaps of any motion of dam and rock; the tangential ones are kept by themselves.
+void ContactLanding::gap_values(const VectorXd& dam, const VectorXd& rock_values, const VectorXd& tangential,
+                                const StepRock& rock, VectorXd& gap)
+{
+    gap.noalias() = structure_.planes().gaps() * dam.tail(2 * structure_.interface());
+    if (structure_.has_rock()) {
+        on_gaps_.noalias() = rock.trace() * rock_values;
+        gap -= on_gaps_;
+    }
+    gap.tail(tangential.size()) = tangential;
+}
+
+/// What forces on the pairs change of dam and rock, through the operator of the step, as its own forces do.
+void ContactLanding::change_by(StepRock::Jump of, const DynamicOperator& op, StepRock& rock)
+{
+    free_.dam.setZero(structure_.dam_unknowns());
+    free_.interface.setZero(op.interface_unknowns());
+    free_.mean.setZero(structure_.planes().count());
+    none_.setZero(2 * structure_.pairs());
+    op.finish(free_, jumps_.force, none_, jumps_.displacement, tilde_);
+    op.factor().backward(free_.dam);
+    rock.jump(of, op, free_, jumps_.displacement, tilde_, rock_);
+}
+
+const LandingForces* ContactLanding::land(const DynamicOperator& op, JointSolver& solver, const ContactStates& before,
+                                          const ContactLaw& law, StepRock& rock, StepDam& dam, StepState& state,
+                                          const std::optional<Approach>& approach)
+{
+    ContactStates& states = state.contact.states;
+    if (!solver.lands(before, states)) return nullptr;
+    const bool shuts = solver.shuts(before, states);
+    const Index m = structure_.pairs();
+    jumps_.states = states;
+    gap_values(state.v, state.rock_v, state.rate_t, rock, values_);
+    std::optional<Rebound> rebounds;
+    if (shuts && approach) rebounds = rebound(op.constants(), solver, law, *approach, states);
+    if (rebounds) {
+        jumps_.states = rebounds->states;
+        values_.head(m) -= rebounds->target;
+    }
+    if (!(shuts ? solver.land(law, values_, jumps_) : solver.hold(law, values_, jumps_))) return nullptr;
+    states = jumps_.states;
+    change_by(StepRock::Jump::velocity, op, rock);
+    state.v += free_.dam;
+    state.rock_v += rock_;
+    change_tangential(jumps_, states, state.rate_t);
+
+    forces_.impact = 0.0;
+    dam.change_velocity(op.constants(), free_.dam, forces_.dam);
+    rock.damping_force(rock_, forces_.rock);
+    if (slip_damping_.active()) {
+        forces_.slip_rate.noalias() = slip_damping_.weights.transpose() * jumps_.displacement.tail(m);
+        forces_.mean_velocity.noalias() = slip_damping_.momentum.transpose() * free_.dam;
+    }
+    if (rebounds) {
+        forces_.impact = rebounds->loss;
+        states.assign(states.size(), ContactState::open);
+        release(op, solver, rock, dam, state);
+    } else if (shuts && !structure_.water()) {
+        settle(op, solver, law, rock, dam, state);
+    }
+    return &forces_;
+}
+
+void ContactLanding::settle(const DynamicOperator& op, JointSolver& solver, const ContactLaw& law, StepRock& rock,
+                            StepDam& dam, StepState& state)
+{
+    jumps_.states = state.contact.states;
+    gap_values(state.a, state.rock_a, state.accel_t, rock, values_);
+    if (!solver.hold(law, values_, jumps_)) return;
+    force_ = jumps_.force / op.constants().a0;
+    change_accelerations(op, rock, dam, state);
+}
+
+/// By force_ on the pairs, and jumps_: accelerations that it gives the gaps, and a0 times it.
+void ContactLanding::change_accelerations(const DynamicOperator& op, StepRock& rock, StepDam& dam, StepState& state)
+{
+    const StepConstants& c = op.constants();
+    change_by(StepRock::Jump::acceleration, op, rock);
+    state.a += free_.dam;
+    state.rock_a += rock_;
+    change_tangential(jumps_, state.contact.states, state.accel_t);
+    state.contact.force += force_;
+
+    forces_.dam += dam.change_acceleration(c, free_.dam) / (1.0 + c.scheme.alpha);
+    on_gaps_.noalias() = structure_.planes().gaps().transpose() * force_;
+    forces_.dam.tail(on_gaps_.size()) -= on_gaps_;
+    if (!structure_.has_rock()) return;
+    by_trace_.noalias() = rock.trace().transpose() * force_;
+    forces_.rock += by_trace_;
 }
 
 } // namespace damslip::fe2d

@@ -1,5 +1,7 @@
 #include "fe2d/run/contact_planes.hpp"
 
+#include "fe2d/fluid/fluid_model.hpp"
+
 #include <cassert>
 #include <utility>
 
@@ -105,6 +107,156 @@ MatrixXd sliding_motions(const ContactPlanes& planes)
             if (planes.above(k)[static_cast<std::size_t>(node)])
                 motions.col(k).segment<2>(2 * node) = planes[k].tangent;
     return motions;
+}
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+MatrixXd rows_to_plane(const Plane& plane, const MatrixXd& interface)
+{
+    const Index m = interface.rows() / 2;
+    MatrixXd result(2 * m, interface.cols());
+    for (Index i = 0; i < m; ++i) {
+        result.row(i) = plane.normal.transpose() * interface.middleRows<2>(2 * i);
+        result.row(m + i) = plane.tangent.transpose() * interface.middleRows<2>(2 * i);
+    }
+    return result;
+}
+
+} // namespace
+
+VectorXd Plane::to_plane(const VectorXd& interface) const
+{
+    const Index m = interface.size() / 2;
+    VectorXd result(2 * m);
+    for (Index i = 0; i < m; ++i) {
+        result[i] = normal[0] * interface[2 * i] + normal[1] * interface[2 * i + 1];
+        result[m + i] = tangent[0] * interface[2 * i] + tangent[1] * interface[2 * i + 1];
+    }
+    return result;
+}
+
+VectorXd Plane::to_interface(const VectorXd& plane) const
+{
+    const Index m = plane.size() / 2;
+    VectorXd result(2 * m);
+    for (Index i = 0; i < m; ++i) {
+        result[2 * i] = normal[0] * plane[i] + tangent[0] * plane[m + i];
+        result[2 * i + 1] = normal[1] * plane[i] + tangent[1] * plane[m + i];
+    }
+    return result;
+}
+
+MatrixXd Plane::to_plane(const MatrixXd& interface) const
+{
+    return rows_to_plane(*this, rows_to_plane(*this, interface).transpose());
+}
+
+namespace {
+
+/// Half of each element goes to either end of it.
+void share_areas(Plane& plane)
+{
+    const Index m = plane.distance.size();
+    plane.area.setZero(m);
+    for (Index i = 0; i + 1 < m; ++i) {
+        const double half = 0.5 * (plane.distance[i + 1] - plane.distance[i]);
+        plane.area[i] += half;
+        plane.area[i + 1] += half;
+    }
+}
+
+VectorXd as_vector(const std::vector<double>& values)
+{
+    return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+} // namespace
+
+Plane plane_of(const Mesh& mesh)
+{
+    const ContactPlane& contact = mesh.contact;
+    const Point heel = mesh.nodes[contact.dam_nodes.front()], toe = mesh.nodes[contact.dam_nodes.back()];
+    Plane plane;
+    plane.tangent = Eigen::Vector2d(toe.x - heel.x, toe.y - heel.y).normalized();
+    plane.normal = {-plane.tangent[1], plane.tangent[0]};
+    plane.distance = as_vector(contact.distance);
+    share_areas(plane);
+    return plane;
+}
+
+Plane plane_of(const LiftPlane& lift)
+{
+    Plane plane;
+    plane.distance = as_vector(lift.distance);
+    share_areas(plane);
+    return plane;
+}
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// Entries of a matrix of the coupled system at their new places.
+SparseMatrix moved(const SparseMatrix& matrix, const std::vector<Index>& to, Index size, Triplets entries = {})
+{
+    for (Index column = 0; column < matrix.outerSize(); ++column)
+        for (SparseMatrix::InnerIterator it(matrix, column); it; ++it)
+            entries.emplace_back(to[static_cast<std::size_t>(it.row())], to[static_cast<std::size_t>(column)],
+                                 it.value());
+    SparseMatrix result(size, size);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+VectorXd moved(const VectorXd& vector, const std::vector<Index>& to, Index size)
+{
+    VectorXd result = VectorXd::Zero(size);
+    for (Index i = 0; i < vector.size(); ++i) result[to[static_cast<std::size_t>(i)]] = vector[i];
+    return result;
+}
+
+} // namespace
+
+WaterBody::WaterBody(const Scene& scene, const Model& model, WaterBeside beside)
+    : water(build_fluid(scene)),
+      dam_unknowns(2 * (beside == WaterBeside::dam ? model.mesh.dam_node_count : model.mesh.node_count()))
+{
+    assert(model.added_mass.nonZeros() == 0);
+    const Index n = dam_unknowns;
+    const Index dam = 2 * model.mesh.dam_node_count;
+    coupling = face_coupling(model.mesh, model.dofs, water.reservoir, water.dofs, water.unknowns()).topRows(dam);
+    coupling.conservativeResize(n, coupling.cols());
+    const SparseMatrix none(n, n);
+    const CoupledSystem system = couple(none, none, none, coupling, water);
+    scale = system.scale;
+    size = n + 2 * static_cast<Index>(system.water_pairs.size());
+
+    std::vector<Index> to(static_cast<std::size_t>(system.size()));
+    for (Index i = 0; i < n; ++i) to[static_cast<std::size_t>(i)] = i;
+    Triplets alone; // stiffness of unknowns without a partner: any negative number
+    const double unit = system.stiffness.diagonal().minCoeff();
+    for (std::size_t pair = 0; pair < system.water_pairs.size(); ++pair)
+        for (const std::size_t c : {0, 1}) {
+            const Index here = n + static_cast<Index>(2 * pair + c), unknown = system.water_pairs[pair][c];
+            if (unknown < 0)
+                alone.emplace_back(here, here, unit);
+            else
+                to[static_cast<std::size_t>(unknown)] = here;
+        }
+    place.assign(to.begin() + n, to.end());
+    mass = moved(system.mass, to, size);
+    damping = moved(system.damping, to, size);
+    stiffness = moved(system.stiffness, to, size, alone);
+    velocity_x = moved(system.velocity_x, to, size);
+    velocity_y = moved(system.velocity_y, to, size);
+    displacement_y = moved(system.displacement_y, to, size);
 }
 
 } // namespace damslip::fe2d

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "fe2d/contact/joint_solver.hpp"
-#include "fe2d/run/step_dam.hpp"
-#include "fe2d/run/step_rock.hpp"
+#include "fe2d/contact/joint_laws.hpp"
+#include "fe2d/run/step_parts.hpp"
 
 #include <map>
 #include <memory>

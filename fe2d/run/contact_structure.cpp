@@ -1,8 +1,11 @@
 #include "fe2d/run/contact_structure.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <cstdint>
 
 namespace damslip::fe2d {
 
@@ -330,6 +333,208 @@ VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, c
         for (const int c : {0, 1})
             if (const int dof = model_.dofs(first + node, c); dof != no_dof) all[dof] = by_node[2 * node + c];
     return all;
+}
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double round_off = 1e-13; ///< weights below are zero [-]
+
+double shortest(const std::vector<double>& places)
+{
+    double result = places.back() - places.front();
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) result = std::min(result, places[k + 1] - places[k]);
+    return result;
+}
+
+} // namespace
+
+Pairing::Pairing(std::vector<double> dam, std::vector<double> rock) : dam_(std::move(dam)), rock_(std::move(rock))
+{
+    assert(dam_.size() > 1 && rock_.size() > 1);
+}
+
+bool Pairing::reaches(double slip) const
+{
+    const double slack = 1e-9 * (rock_.back() - rock_.front());
+    return slip >= reach_upstream() - slack && slip <= reach_downstream() + slack;
+}
+
+double Pairing::smallest_element() const
+{
+    return std::min(shortest(dam_), shortest(rock_));
+}
+
+Pairing::Matrix Pairing::weights(double slip) const
+{
+    assert(reaches(slip));
+    const auto m = dam_.size(), n = rock_.size();
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<double> area(m, 0.0);
+    for (std::size_t i = 0; i + 1 < m; ++i) {
+        area[i] += 0.5 * (dam_[i + 1] - dam_[i]);
+        area[i + 1] += 0.5 * (dam_[i + 1] - dam_[i]);
+    }
+    for (std::size_t i = 0; i + 1 < m; ++i) {
+        const double left = dam_[i] + slip, right = dam_[i + 1] + slip, length = right - left;
+        auto next = std::upper_bound(rock_.begin(), rock_.end(), left);
+        auto j = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, next - rock_.begin() - 1));
+        for (j = std::min(j, n - 2); j + 1 < n; ++j) {
+            const bool first = j == 0, last = j + 2 == n; // the outermost elements take what round-off leaves outside
+            const double begin = first ? left : std::max(left, rock_[j]),
+                         end = last ? right : std::min(right, rock_[j + 1]);
+            if (end > begin) {
+                // ψ N is quadratic: two points of Gauss are exact.
+                const double half = 0.5 * (end - begin), middle = 0.5 * (end + begin);
+                for (const double sign : {-1.0, 1.0}) {
+                    const double x = middle + sign * half / std::sqrt(3.0);
+                    const double xi = (x - left) / length, eta = (x - rock_[j]) / (rock_[j + 1] - rock_[j]);
+                    for (const auto& [node, dual] : {std::pair{i, 2.0 - 3.0 * xi}, std::pair{i + 1, 3.0 * xi - 1.0}}) {
+                        entries.emplace_back(node, j, half * dual * (1.0 - eta) / area[node]);
+                        entries.emplace_back(node, j + 1, half * dual * eta / area[node]);
+                    }
+                }
+            }
+            if (!(rock_[j + 1] < right)) break;
+        }
+    }
+    Matrix result(static_cast<Index>(m), static_cast<Index>(n));
+    result.setFromTriplets(entries.begin(), entries.end());
+    result.prune([](Index, Index, double value) { return std::abs(value) > round_off; });
+    return result;
+}
+
+FewRows::FewRows(const SparseMatrix& matrix) : begin_{0}
+{
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = matrix;
+    for (int row = 0; row < by_rows.outerSize(); ++row) {
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_rows, row); it; ++it) {
+            column_.push_back(static_cast<int>(it.col()));
+            value_.push_back(it.value());
+        }
+        if (static_cast<int>(column_.size()) == begin_.back()) continue;
+        row_.push_back(row);
+        begin_.push_back(static_cast<int>(column_.size()));
+    }
+}
+
+void FewRows::subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+    for (std::size_t k = 0; k < row_.size(); ++k) {
+        double sum = 0.0;
+        for (int e = begin_[k]; e < begin_[k + 1]; ++e) sum += value_[e] * x[column_[e]];
+        y[row_[k]] -= sum;
+    }
+}
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int largest_space = 60;         ///< vectors; a few frequencies take ten to twenty
+constexpr double largest_error = 1e-13;   ///< of 1/ω², relative
+constexpr double least_new_length = 1e-14; ///< of a new vector's length to the old one's; below, the space is complete
+
+bool fits(const ContactStructure& structure)
+{
+    return structure.regular() && structure.planes().count() == 1 && !structure.water() && !structure.rock_moves() &&
+           (!structure.has_rock() || structure.matching());
+}
+
+/// The dam on what holds its base.
+class TiedStiffness {
+public:
+    explicit TiedStiffness(const ContactStructure& structure) : factor_(structure.static_factor())
+    {
+        if (!structure.has_rock()) return;
+        const auto& gaps = structure.planes().gaps(); // square: turns the interface to the plane's axes
+        const MatrixXd rock = structure.rock_stiffness() * gaps;
+        base_.emplace(factor_.schur() + gaps.transpose() * rock);
+    }
+
+    bool regular() const { return !base_ || base_->info() == Eigen::Success; }
+
+    VectorXd solve(VectorXd load) const
+    {
+        const Index base = load.size() - factor_.inner_unknowns();
+        factor_.forward(load);
+        if (base_)
+            load.tail(base) = base_->solve(load.tail(base)).eval();
+        else
+            load.tail(base).setZero();
+        factor_.backward(load);
+        return load;
+    }
+
+private:
+    const InterfaceFactor& factor_;
+    std::optional<Eigen::LLT<MatrixXd>> base_; ///< nothing: rigid
+};
+
+/// A motion that no mode is orthogonal to but by accident: it changes from unknown to unknown by numbers of a linear
+/// congruential sequence, the same every time.
+VectorXd start_motion(Index n)
+{
+    VectorXd motion(n);
+    std::uint32_t state = 20150101u;
+    for (Index i = 0; i < n; ++i) {
+        state = 1664525u * state + 1013904223u;
+        motion[i] = (i % 2 == 0 ? 1.0 : 0.5) * (0.5 + static_cast<double>(state) / 4294967296.0);
+    }
+    return motion;
+}
+
+/// The largest `count` eigenvalues, descending, if their errors are small enough.
+/// @param last  length of the next vector
+std::optional<VectorXd> converged(const VectorXd& diagonal, const VectorXd& off, double last, Index count)
+{
+    const Index size = diagonal.size();
+    if (size <= count) return std::nullopt;
+    Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
+    solver.computeFromTridiagonal(diagonal, off.head(size - 1));
+    const VectorXd values = solver.eigenvalues().reverse();
+    for (Index i = 0; i < count; ++i) {
+        const double residual = std::abs(last * solver.eigenvectors()(size - 1, size - 1 - i));
+        double gap = values[i] - values[i + 1] - residual;
+        if (i > 0) gap = std::min(gap, values[i - 1] - values[i] - residual);
+        const double error = gap > 0.0 ? std::min(residual, residual * residual / gap) : residual;
+        if (!(error <= largest_error * values[i])) return std::nullopt;
+    }
+    return values.head(count);
+}
+
+} // namespace
+
+std::optional<VectorXd> tied_frequencies(const ContactStructure& structure, int count)
+{
+    if (!fits(structure) || count < 1) return std::nullopt;
+    const TiedStiffness stiffness(structure);
+    if (!stiffness.regular()) return std::nullopt;
+    const SparseMatrix& mass = structure.mass();
+    MatrixXd vectors(mass.rows(), largest_space), momenta = vectors; // q and M q
+    VectorXd diagonal(largest_space), off(largest_space);
+
+    VectorXd next = stiffness.solve(mass * start_motion(mass.rows()));
+    VectorXd momentum = mass * next;
+    double length = std::sqrt(next.dot(momentum));
+    for (Index k = 0; k < largest_space; ++k) {
+        if (!(length > 0.0)) return std::nullopt;
+        vectors.col(k) = next / length;
+        momenta.col(k) = momentum / length;
+        next = stiffness.solve(momenta.col(k));
+        diagonal[k] = next.dot(momenta.col(k));
+        for (int twice = 0; twice < 2; ++twice)
+            next -= vectors.leftCols(k + 1) * (momenta.leftCols(k + 1).transpose() * next).eval();
+        momentum = mass * next;
+        length = off[k] = std::sqrt(std::max(0.0, next.dot(momentum)));
+        if (!(length > least_new_length * diagonal[0])) return std::nullopt;
+        if (const auto found = converged(diagonal.head(k + 1), off, length, count))
+            return found->cwiseSqrt().cwiseInverse();
+    }
+    return std::nullopt;
 }
 
 } // namespace damslip::fe2d

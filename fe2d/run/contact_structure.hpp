@@ -2,14 +2,59 @@
 
 #include "fe2d/model/model.hpp"
 #include "fe2d/run/contact_planes.hpp"
-#include "fe2d/run/few_rows.hpp"
 #include "fe2d/run/interface_factor.hpp"
-#include "fe2d/run/pairing.hpp"
-#include "fe2d/run/water_body.hpp"
+#include "fe2d/run/node_products.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <optional>
+#include <vector>
 
 namespace damslip::fe2d {
+
+/// A large matrix of which few rows are not empty: a product visits these alone.
+class FewRows {
+public:
+    FewRows() = default; ///< empty
+    explicit FewRows(const SparseMatrix& matrix);
+
+    /// y -= A x; each row's sum runs by ascending columns.
+    void subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+
+private:
+    std::vector<int> row_, begin_, column_; ///< entries of row_[k]: begin_[k] ... begin_[k+1]-1
+    std::vector<double> value_;
+};
+
+/// Trace of the rock's displacements on the dam's contact nodes when the dam has slid along the plane: the segment-to-
+/// segment (mortar) projection of the two sides with dual shape functions on the dam (Wohlmuth 2000), so that the
+/// contact force of a dam node stays its own unknown:
+///
+///     P_ij = (1/A_i) ∫ ψ_i N_j dx,   ∫ ψ_i N_k^dam dx = δ_ik A_i
+///
+/// gap g = u_dam - P u_rock, forces on the rock -P^T λ. Rows sum to one and P x_rock = x_dam + s, so force and moment
+/// resultants pass exactly whatever the meshes and the slip; P depends smoothly on s, also where a node passes another.
+/// With equal meshes and s = 0 it is the identity.
+class Pairing {
+public:
+    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+    /// @param dam   places of the dam's nodes along the plane, increasing [m]
+    /// @param rock  places of the rock's nodes, increasing [m]
+    Pairing(std::vector<double> dam, std::vector<double> rock);
+
+    /// How far the dam may slide so that all of it still faces rock [m].
+    double reach_upstream() const { return rock_.front() - dam_.front(); } ///< <= 0
+    double reach_downstream() const { return rock_.back() - dam_.back(); } ///< >= 0
+    bool reaches(double slip) const;
+    double smallest_element() const; ///< of both sides [m]
+
+    /// @param slip  of the dam, positive downstream, within reach [m]
+    Matrix weights(double slip) const; ///< P, m x n [-]
+
+private:
+    std::vector<double> dam_, rock_;
+};
 
 /// Loads of the two sides of the base [N/m]; those on the rock are condensed onto its contact nodes (constant in time).
 struct SplitLoad {
@@ -135,5 +180,15 @@ private:
     bool regular_ = false;
     FewRows of_added_mass_; ///< of the wet face's nodes alone
 };
+
+/// Lowest natural frequencies of the dam bonded to its massless rock, or to a rigid base, ascending [rad/s]: those of
+/// natural_modes() of the same structure built tied, from the factor of the dam and the condensed rock that are there already.
+///
+/// Lanczos on K⁻¹M in the product of M with every vector made orthogonal again; with [r, r²/gap] of Kato and Temple the
+/// relative error of 1/ω² is 1e-13 at most.
+///
+/// @param structure  of one plane, without acoustic water, each dam node opposite one of the rock's, the mass consistent
+/// @returns nothing where the structure is another or `count` have not converged: natural_modes() then tells more
+std::optional<Eigen::VectorXd> tied_frequencies(const ContactStructure& structure, int count);
 
 } // namespace damslip::fe2d

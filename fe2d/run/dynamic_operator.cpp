@@ -1,6 +1,5 @@
 #include "fe2d/run/dynamic_operator.hpp"
 
-#include "fe2d/solver/dense_algebra.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <cassert>

@@ -1,11 +1,10 @@
 #include "fe2d/contact/anchor_law.hpp"
 #include "fe2d/contact/bond_law.hpp"
-#include "fe2d/run/earthquake_lane.hpp"
 #include "fe2d/run/earthquake_pass.hpp"
-#include "fe2d/run/joints_of_scene.hpp"
+#include "fe2d/run/strength.hpp"
 
-#include "core/stopwatch.hpp"
-#include "fe2d/model/held_edges.hpp"
+#include "core/watch.hpp"
+#include "fe2d/model/model.hpp"
 
 #include <fmt/format.h>
 

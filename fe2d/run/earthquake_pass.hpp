@@ -1,10 +1,40 @@
 #pragma once
 
+#include "fe2d/run/contact_motion.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe2d/run/ground_input.hpp"
-#include "fe2d/run/slide_probe.hpp"
+#include "fe2d/run/slide_watch.hpp"
+#include "fe2d/run/stages.hpp"
+#include "fe2d/run/step_error.hpp"
+
+#include <vector>
 
 namespace damslip::fe2d {
+
+/// Reads what a SlideWatch asks for from the contact of a run: thrust and normal force of each plane are those of the static
+/// state that the motion starts from, the strength is that of the instant.
+class SlideProbe {
+public:
+    /// @param rest  the last static stage, in equilibrium   @param start  slips of all pairs before the motion [m]
+    SlideProbe(const ContactPlanes& planes, const StageResult& rest, const Eigen::VectorXd& start);
+
+    double static_normal_force() const { return balances_.front().normal_force; } ///< of the base [N/m]
+
+    /// The instant of a run that keeps an energy ledger: the work of friction is taken from it.
+    SlideInstant instant(const ContactMotion& dynamics, const ContactLaw& law) const;
+    /// The instant of a run without a ledger. @param friction  dissipated since the start [J/m]
+    SlideInstant instant(double time, const ContactMemory& contact, const ContactLaw& law, double friction) const;
+
+private:
+    double sliding_factor(const ContactLaw& law) const;
+
+    const ContactPlanes& planes_;
+    std::vector<BaseResultant> balances_; ///< by plane
+    std::vector<double> start_;           ///< mean slips by plane [m]
+};
+
+/// What friction takes in one step [J/m], by the mean of the forces at its two ends.
+double friction_work(const ContactMemory& before, const ContactMemory& after);
 
 /// The steps of a pass: rows of the history, and equal parts of each.
 struct PassSteps {
@@ -60,6 +90,30 @@ private:
     long shown_rows_;
     long at_rest_since_ = -1; ///< row, of a sequence with more to come; -1: it moves
     bool going_ = true;
+};
+
+/// One motion and strength of several that are run together: its static state, and the result so far.
+struct EarthquakeRun::Lane {
+    Strength strength;
+    ContactMemory memory;
+    Contact contact = {}; ///< strength of the base
+    const GroundMotion* motion = nullptr;
+    StaticState start = {};
+    Eigen::VectorXd load = {};   ///< static, on all unknowns, while it shakes [N/m]
+    PressureProfile uplift = {}; ///< under the base, part of `load`
+    RunResult result = {};
+    std::optional<HistoryBefore> before = {};        ///< of a record of a sequence that begins from a static state
+    int next = 0;                                    ///< halvings of the next pass; 0: none
+    std::vector<std::vector<SlipAtStep>> slips = {}; ///< of the passes, by plane
+    double local_error = 0.0;                        ///< of the worst steps of the first pass, for adaptive steps [m]
+    std::vector<double> later_errors = {};           ///< the same of the later records of a sequence
+    long steps_before = 0, steps_of_all = 0;         ///< of the records before, and of all; 0: of its motion
+    std::optional<ChosenSteps> steps = {};           ///< in place of the options'
+
+    /// Do the static stages end in equilibrium?
+    bool stands() const { return !result.stages.empty() && result.stages.back().status == StageStatus::ok; }
+    double order_in_step() const;           ///< that an estimate of the slip's error relies on at most
+    void note_slips(const RunResult& pass); ///< before `pass` becomes `result`
 };
 
 } // namespace damslip::fe2d

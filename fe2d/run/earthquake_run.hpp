@@ -1,16 +1,16 @@
 #pragma once
 
-#include "core/event_slip.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
-#include "core/stop.hpp"
+#include "core/watch.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
-#include "fe2d/run/base_water.hpp"
+#include "fe2d/run/contact_motion.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "fe2d/run/stages.hpp"
-#include "fe2d/time/run_progress.hpp"
+#include "fe2d/time/energy.hpp"
 #include "records/record.hpp"
 #include "scene/anchor_bar.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/run/dynamic_contact.hpp"
-#include "fe2d/time/ground_load.hpp"
+#include "fe2d/time/energy.hpp"
 #include "records/record.hpp"
 #include "scene/scene.hpp"
 

@@ -1,6 +1,6 @@
 #include "fe2d/run/interface_factor.hpp"
 
-#include "fe2d/run/node_ldlt.hpp"
+#include "fe2d/run/node_products.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/vector_level.hpp"
-#include "fe2d/run/node_order.hpp"
+#include "core/version.hpp"
+#include "fe2d/run/node_products.hpp"
 
 #include <Eigen/Core>
 

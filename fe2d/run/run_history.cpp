@@ -1,11 +1,16 @@
 #include "fe2d/run/run_history.hpp"
 
+#include "core/input_error.hpp"
 #include "fe2d/contact/anchor_law.hpp"
-#include "fe2d/run/base_water.hpp"
+#include "fe2d/run/contact_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <stdlib.h>
+#include <string>
+#include <unistd.h>
 
 namespace damslip::fe2d {
 
@@ -285,6 +290,136 @@ void HistoryRecorder::add_pairs(const VectorXd& force)
         pairs.opening.push_back(static_cast<float>(c.opening[i]));
     }
     pairs.state.insert(pairs.state.end(), c.states.begin(), c.states.begin() + m);
+}
+
+namespace {
+
+[[noreturn]] void refuse_spool()
+{
+    throw InputError(Diagnostic{"", 0, 0, "The frames of the run could not be kept in a temporary file.",
+                                "room on the disk of temporary files (TMPDIR, else /tmp)",
+                                "free some, or ask for fewer frames"});
+}
+
+/// In the folder of temporary files; gone with its last reader. Null where none can be had.
+std::FILE* nameless_file()
+{
+    std::error_code none;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(none);
+    if (none) return nullptr;
+    std::string name = (folder / "damslip_frames_XXXXXX").string();
+    const int descriptor = mkstemp(name.data());
+    if (descriptor < 0) return nullptr;
+    unlink(name.c_str());
+    std::FILE* file = fdopen(descriptor, "w+b");
+    if (!file) close(descriptor);
+    return file;
+}
+
+void write_values(std::FILE* file, const double* values, std::size_t count)
+{
+    if (std::fwrite(&count, sizeof count, 1, file) != 1 || std::fwrite(values, sizeof(double), count, file) != count)
+        refuse_spool();
+}
+
+template <class Values>
+void read_values(std::FILE* file, Values& values)
+{
+    std::size_t count = 0;
+    if (std::fread(&count, sizeof count, 1, file) != 1) refuse_spool();
+    values.resize(count);
+    if (std::fread(values.data(), sizeof(double), count, file) != count) refuse_spool();
+}
+
+/// The parts of a frame, in the order of the file.
+template <class Frame, class Take>
+void for_each_part(Frame& frame, const Take& take)
+{
+    take(frame.dam);
+    take(frame.rock);
+    take(frame.pressure);
+    take(frame.shear);
+    take(frame.slip);
+    take(frame.opening);
+    take(frame.joint_water);
+    take(frame.water);
+    take(frame.states);
+}
+
+} // namespace
+
+FrameSpool::FrameSpool(double interval) : file_(nameless_file()), interval_(interval)
+{
+    if (!file_) refuse_spool();
+}
+
+void FrameSpool::add(const RunFrame& frame)
+{
+    std::fseek(file_.get(), 0, SEEK_END);
+    const long place = std::ftell(file_.get());
+    const double instant[] = {frame.time, frame.mean_slip};
+    write_values(file_.get(), instant, 2);
+    for_each_part(frame, [&](const auto& part) {
+        write_values(file_.get(), part.data(), static_cast<std::size_t>(part.size()));
+    });
+    places_.push_back(place);
+    last_ = frame.time;
+    next_ = interval_ * (std::floor(frame.time / interval_ + 1e-9) + 1.0);
+}
+
+RunFrame FrameSpool::read(std::size_t index) const
+{
+    std::fseek(file_.get(), places_[index], SEEK_SET);
+    RunFrame frame;
+    std::vector<double> instant;
+    read_values(file_.get(), instant);
+    frame.time = instant[0];
+    frame.mean_slip = instant[1];
+    for_each_part(frame, [&](auto& part) { read_values(file_.get(), part); });
+    return frame;
+}
+
+void StateKeeper::look(const DynamicState& state, double time, double slip, double crest_x)
+{
+    const auto keep = [&](Instant instant) {
+        StoredState& kept = kept_[static_cast<std::size_t>(instant)]; // its vectors keep their memory
+        kept.instant = instant;
+        kept.time = time;
+        kept.slip = slip;
+        kept.dam = state.u;
+        kept.rock = state.rock;
+    };
+    if (kept_.empty()) {
+        kept_.resize(static_cast<std::size_t>(Instant::end) + 1);
+        keep(Instant::start);
+        keep(Instant::end);
+        return;
+    }
+    const StoredState& before = kept_.back();
+    const double lean = crest_x - slip, rate = std::abs(slip - before.slip) / (time - before.time);
+    if (lean > lean_down_) {
+        lean_down_ = lean;
+        keep(Instant::leans_downstream);
+    }
+    if (lean < lean_up_) {
+        lean_up_ = lean;
+        keep(Instant::leans_upstream);
+    }
+    if (rate > rate_) {
+        rate_ = rate;
+        keep(Instant::slides_fastest);
+    }
+    keep(Instant::end);
+}
+
+std::vector<StoredState> StateKeeper::states() const
+{
+    std::vector<StoredState> list;
+    std::copy_if(kept_.begin(), kept_.end(), std::back_inserter(list),
+                 [](const StoredState& s) { return s.dam.size() > 0; });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const StoredState& a, const StoredState& b) { return a.time < b.time; });
+    return list;
 }
 
 } // namespace damslip::fe2d

@@ -1,14 +1,83 @@
 #pragma once
 
-#include "fe2d/run/frame_spool.hpp"
+#include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/slide_watch.hpp"
-#include "fe2d/run/stored_states.hpp"
 
+#include <Eigen/Core>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace damslip::fe2d {
+
+/// Everything of one instant of a run that a picture shows: dam, rock, water, and the joints.
+struct RunFrame {
+    double time = 0.0;                              ///< [s]
+    double mean_slip = 0.0;                         ///< of the base, area mean since the static state [m]
+    Eigen::VectorXd dam;                            ///< as StoredState::dam [m]
+    Eigen::VectorXd rock;                           ///< as StoredState::rock [m]
+    Eigen::VectorXd pressure, shear, slip, opening; ///< of the pairs of all planes; signs as PairHistory [Pa, Pa, m, m]
+    Eigen::VectorXd
+        joint_water;            ///< of the base's pairs, in a joint whose water follows its opening [Pa]; empty: others
+    Eigen::VectorXd water;      ///< beyond the static one, at the nodes of acoustic water [Pa]; empty: other water
+    std::vector<double> states; ///< of all pairs, ContactState as a number
+};
+
+/// Frames of one pass of a run at equal intervals, in a file without a name: the memory does not grow with their number,
+/// and the file goes with the last who holds it.
+class FrameSpool {
+public:
+    /// @param interval  between frames, > 0 [s] @throws InputError where no file can be had
+    explicit FrameSpool(double interval);
+
+    /// Has the interval passed since the frame before? The first row of a history always gives one.
+    bool due(double time) const { return count() == 0 || time >= next_ - 1e-9; }
+    void add(const RunFrame& frame); ///< @throws InputError when the disk is full
+    std::size_t count() const { return places_.size(); }
+    double last_time() const { return last_; } ///< of the last frame [s] @pre count() > 0
+    RunFrame read(std::size_t index) const;    ///< @pre index < count()
+
+private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::unique_ptr<std::FILE, Close> file_;
+    std::vector<long> places_; ///< of the frames, bytes from the start
+    double interval_, next_ = 0.0, last_ = 0.0;
+};
+
+/// Instants of a run whose displacements are kept.
+enum class Instant {
+    start,
+    leans_downstream, ///< crest farthest downstream of the base
+    leans_upstream,   ///< crest farthest upstream of it
+    slides_fastest,   ///< largest |slip rate| between two rows of the history; not there when nothing slides
+    end
+};
+
+/// Displacements of one instant as the run has them; EarthquakeRun::displacement_of() makes them those of the model.
+struct StoredState {
+    Instant instant = Instant::start;
+    double time = 0.0;    ///< [s]
+    double slip = 0.0;    ///< area mean since the static state [m]
+    Eigen::VectorXd dam;  ///< of what moves, in its node order [m]
+    Eigen::VectorXd rock; ///< of the rock's contact nodes, plane [m]
+};
+
+/// Keeps the states of a run's instants, each when it has come: two vectors are copied where a value exceeds all before.
+class StateKeeper {
+public:
+    /// @param time  in the run's history [s] @param slip  area mean since the static state [m] @param crest_x  since the static state [m]
+    void look(const DynamicState& state, double time, double slip, double crest_x);
+
+    /// In order of time. The end is the last state looked at.
+    std::vector<StoredState> states() const;
+
+private:
+    std::vector<StoredState> kept_; ///< one by Instant; an empty `dam`: none
+    double lean_down_ = 0.0, lean_up_ = 0.0, rate_ = 0.0;
+};
 
 /// Are the values of every pair kept at every row of the history?
 enum class PairSeries {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "scene/scene.hpp"
+
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 /// Does a dam go on sliding by itself when the ground is at rest?
@@ -109,5 +112,13 @@ private:
     double first_hop_ = 0.0, last_hop_ = 0.0; ///< of the run-out [s]
     bool self_excited_ = false;
 };
+
+/// What is said of a dam that goes on sliding by itself.
+
+/// How far it walked, why, and the command that runs the scene on rock that radiates. @param slip  so far [m]
+std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& figures);
+
+/// The warning for RunOutFigures::walked(). @param slip  at the end [m]
+std::string walked_sentence(double slip, const RunOutFigures& figures);
 
 } // namespace damslip::fe2d

@@ -1,8 +1,8 @@
 #include "fe2d/run/stages.hpp"
 
 #include "fe2d/contact/anchor_law.hpp"
-#include "fe2d/model/lift_water.hpp"
-#include "fe2d/run/static_path.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "fe2d/run/static_contact.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/status.hpp"
-#include "fe2d/model/static_loads.hpp"
+#include "fe2d/model/static_solution.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/strength.hpp"
 

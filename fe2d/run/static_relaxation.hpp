@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe2d/run/stages.hpp"
-#include "fe2d/run/step_operators.hpp"
+#include "fe2d/run/step_parts.hpp"
 
 namespace damslip::fe2d {
 

@@ -1,15 +1,51 @@
 #pragma once
 
-#include "fe2d/seepage/darcy.hpp"
+#include "fe2d/element/elastic.hpp"
+#include "fe2d/mesh/mesh.hpp"
 #include "fe2d/seepage/seepage_mesh.hpp"
-#include "scene/pressure_profile.hpp"
+#include "fe2d/solver/linear_solver.hpp"
+#include "scene/uplift_models.hpp"
 #include "scene/water.hpp"
 
+#include <Eigen/Core>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+/// Steady flow of water through saturated rock, ∇·(k ∇H) = 0 (Darcy 1856), on the rock and curtain elements of a mesh.
 namespace damslip::fe2d {
+
+/// Hydraulic conductivity of the zones [m/s], isotropic, > 0.
+struct Permeability {
+    double rock = 1e-4;    ///< thesis table 4-1
+    double curtain = 1e-8; ///< grout, thesis table 4-1
+};
+
+/// Prescribed hydraulic head H = p/γ_w + y [m] at a node, y measured from the heel.
+struct NodeHead {
+    int node = 0;
+    double head = 0.0;
+};
+
+/// One value per node of the mesh; NaN on nodes that belong to no rock element.
+struct DarcySolution {
+    Eigen::VectorXd head; ///< H [m]
+    Eigen::VectorXd
+        inflow; ///< water that enters at a node, Σ K H over its elements [m^3/s per m]; round-off on free nodes
+    SolverReport solver; ///< when not ok(), head and inflow are NaN
+};
+
+/// Everywhere else on the boundary no water passes. Inflows are consistent nodal fluxes: their sum is zero to
+/// round-off, and they converge with twice the order of the gradients.
+/// @param heads  at least one; a node given twice takes the last value
+DarcySolution solve_darcy(const Mesh& mesh, const Permeability& permeability, std::span<const NodeHead> heads);
+
+/// Water that the chosen elements take from the given nodes [m^3/s per m], as consistent nodal fluxes: the flow across
+/// a line is what the elements on its far side take from the nodes on it.
+double flow_into(const Mesh& mesh, const Permeability& permeability, const DarcySolution& solution,
+                 std::span<const int> nodes, const std::function<bool(const Element&, const Corners&)>& chosen);
 
 /// The scene's drain line: held at the head that USACE EM 1110-2-2200 gives at the drains,
 /// H3 = H2 + (1 - E)(H1 - H2)(L - X)/L, H2 the tailwater or a higher gallery. None without [drains], or where

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-
 #include <cstdint>
 #include <memory>
 #include <string>

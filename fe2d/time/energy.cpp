@@ -1,6 +1,7 @@
 #include "fe2d/time/energy.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace damslip::fe2d {
@@ -63,6 +64,108 @@ void EnergyLedger::add_step(const State& before, const State& after, const StepC
     energy_.floor += work.floor;
     base_ = base;
     scale_ = std::max(scale_, energy_.scale());
+}
+
+GroundHistory::GroundHistory(const GroundMotion& motion) : dt_(motion.dt)
+{
+    assert(dt_ > 0.0 && (motion.accel_v.empty() || motion.accel_v.size() == motion.accel_h.size()));
+    GroundState now;
+    const auto advance = [this](double& displacement, double velocity, double a, double b) {
+        displacement += dt_ * (velocity + dt_ * (a / 3.0 + b / 6.0)); // acceleration linear from a to b
+    };
+    for (std::size_t k = 0; k < motion.accel_h.size(); ++k) {
+        const double h = motion.accel_h[k], v = motion.accel_v.empty() ? 0.0 : motion.accel_v[k];
+        if (k > 0) {
+            advance(now.displacement_h, now.velocity_h, now.accel_h, h);
+            advance(now.displacement_v, now.velocity_v, now.accel_v, v);
+            now.velocity_h += 0.5 * dt_ * (now.accel_h + h);
+            now.velocity_v += 0.5 * dt_ * (now.accel_v + v);
+        }
+        now.accel_h = h;
+        now.accel_v = v;
+        samples_.push_back(now);
+    }
+    duration_ = samples_.empty() ? 0.0 : dt_ * static_cast<double>(samples_.size() - 1);
+}
+
+GroundState GroundHistory::at(double time) const
+{
+    if (samples_.empty() || time < 0.0) return {};
+    double position = time / dt_;
+    const double whole = std::round(position); // a step that divides dt falls on samples up to round-off
+    if (std::abs(position - whole) < 1e-9 * std::max(1.0, whole)) position = whole;
+    const auto last = static_cast<double>(samples_.size() - 1);
+    if (position > last) {
+        const GroundState& end = samples_.back();
+        const double since = (position - last) * dt_;
+        return {0.0,
+                0.0,
+                end.velocity_h,
+                end.velocity_v,
+                end.displacement_h + since * end.velocity_h,
+                end.displacement_v + since * end.velocity_v};
+    }
+    const auto k = static_cast<std::size_t>(position);
+    const GroundState& a = samples_[k];
+    const double share = position - static_cast<double>(k);
+    if (share == 0.0) return a;
+    const GroundState& b = samples_[k + 1];
+    GroundState state;
+    state.accel_h = a.accel_h + share * (b.accel_h - a.accel_h);
+    state.accel_v = a.accel_v + share * (b.accel_v - a.accel_v);
+    state.velocity_h = a.velocity_h + 0.5 * share * dt_ * (a.accel_h + state.accel_h);
+    state.velocity_v = a.velocity_v + 0.5 * share * dt_ * (a.accel_v + state.accel_v);
+    const double step = share * dt_;
+    state.displacement_h = a.displacement_h + step * (a.velocity_h + step * (a.accel_h / 3.0 + state.accel_h / 6.0));
+    state.displacement_v = a.displacement_v + step * (a.velocity_v + step * (a.accel_v / 3.0 + state.accel_v / 6.0));
+    return state;
+}
+
+void GroundLoad::evaluate(const GroundState& ground, Eigen::VectorXd& load) const
+{
+    load = still + ground.accel_h * mass_x - ground.accel_v * mass_y;
+    if (damped_x.size() > 0) load += ground.velocity_h * damped_x - ground.velocity_v * damped_y;
+    if (velocity_x.size() > 0)
+        load +=
+            -ground.velocity_h * velocity_x + ground.velocity_v * velocity_y + ground.displacement_v * displacement_y;
+}
+
+namespace {
+
+std::vector<ColumnOf<HistoryRow>> columns(bool water)
+{
+    using Row = HistoryRow;
+    std::vector<ColumnOf<Row>> all = {
+        {{"time_s", "time", "s", 6}, &Row::time},
+        {{"ground_accel_h_m_s2", "ground acceleration a_h", "m/s²", 4}, &Row::ground_accel_h},
+        {{"ground_accel_v_m_s2", "ground acceleration a_v", "m/s²", 4}, &Row::ground_accel_v},
+        {{"crest_x_m", "crest displacement x", "m", 4}, &Row::crest_x},
+        {{"crest_y_m", "crest displacement y", "m", 4}, &Row::crest_y},
+        {{"crest_accel_x_m_s2", "crest acceleration x", "m/s²", 4}, &Row::crest_accel_x},
+        {{"crest_accel_y_m_s2", "crest acceleration y", "m/s²", 4}, &Row::crest_accel_y},
+        {{"base_shear_N_m", "base shear", "N/m", 4}, &Row::base_shear},
+        {{"base_normal_N_m", "base normal force", "N/m", 4}, &Row::base_normal},
+        {{"energy_kinetic_J_m", "kinetic energy", "J/m", 4}, [](const Row& r) { return r.energy.kinetic; }},
+        {{"energy_strain_J_m", "strain energy", "J/m", 4}, [](const Row& r) { return r.energy.strain; }},
+        {{"energy_damping_J_m", "damping", "J/m", 4}, [](const Row& r) { return r.energy.damping; }},
+        {{"energy_numerical_J_m", "numerical dissipation", "J/m", 4}, [](const Row& r) { return r.energy.numerical; }},
+        {{"energy_friction_J_m", "friction", "J/m", 4}, [](const Row& r) { return r.energy.friction; }},
+        {{"energy_radiated_J_m", "radiated", "J/m", 4}, [](const Row& r) { return r.energy.radiated; }},
+        {{"energy_external_J_m", "external work", "J/m", 4}, [](const Row& r) { return r.energy.external; }},
+        {{"energy_contact_normal_J_m", "contact normal work", "J/m", 4},
+         [](const Row& r) { return r.energy.contact_normal; }},
+        {{"energy_imbalance_J_m", "energy imbalance", "J/m", 2}, &Row::imbalance}};
+    if (water) all.push_back({{"water_force_x_N_m", "hydrodynamic force x", "N/m", 4}, &Row::water_force_x});
+    return all;
+}
+
+} // namespace
+
+Table tabulate(const History& history)
+{
+    Table table = table_of("history", columns(history.peak_water_force > 0.0), history.rows, history.notes);
+    if (history.status != TiedRunStatus::complete) table.notes.insert(table.notes.begin(), history.status_text);
+    return table;
 }
 
 } // namespace damslip::fe2d

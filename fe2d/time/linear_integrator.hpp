@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/time/step_operator.hpp"
+#include "fe2d/time/condensation.hpp"
 
 #include <map>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "fe2d/time/scheme.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -1,12 +1,29 @@
 #pragma once
 
-#include "records/generate/envelope.hpp"
 #include "records/generate/target_spectrum.hpp"
 #include "records/record.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace damslip::records {
+
+enum class EnvelopeShape {
+    compound, ///< quadratic rise, level, exponential decay to 5 % at the end: Jennings, Housner & Tsai (1968)
+    trapezoid ///< linear rise, level, linear fall to zero at the end
+};
+
+/// How the strength of shaking varies over the record, between 0 and 1.
+struct Envelope {
+    EnvelopeShape shape = EnvelopeShape::compound;
+    double rise = 0.1;  ///< end of the rise, fraction of the duration, > 0
+    double level = 0.5; ///< end of the strong part, fraction of the duration, rise <= level < 1
+};
+
+/// Values at n samples. The last 2.5 % are brought to zero (half a cosine), so that both ends are exactly zero.
+std::vector<double> envelope_samples(const Envelope& envelope, std::size_t n);
 
 /// One artificial accelerogram.
 struct GenerateOptions {
@@ -51,5 +68,48 @@ struct SpectrumMatch {
     double period = 0.0;    ///< [s]
 };
 SpectrumMatch spectrum_match(const std::vector<double>& accel, double dt, const TargetSpectrum& target, double pga);
+
+/// Adds sin^2(pi x)(c0 + c1 x), x = t/duration, such that the piecewise-linear record ends with zero velocity and
+/// displacement.
+void end_at_rest(std::vector<double>& accel);
+
+/// Makes max |a| equal to `pga`, not by scaling but locally: the largest sample is raised if it is below, samples above are cut, and
+/// each change d of a sample is paid by -d/2 at both neighbours, which leaves final velocity and displacement as they are. A factor
+/// near 1 does the rest. @param accel  not zero throughout, ends at rest
+void set_peak(std::vector<double>& accel, double pga);
+
+/// Rounds to multiples of 1e-6 m/s^2, towards zero where `pga` would be passed; the sample of largest |a| keeps its value. Files stay
+/// small, and differences in the last digits of mathematical libraries do not show.
+void round_samples(std::vector<double>& accel, double pga);
+
+/// The two stages of generate().
+
+/// What the first stage makes its record from.
+struct RandomPhaseOptions {
+    double dt = 0.01; ///< [s]
+    double pga = 1.0; ///< [m/s^2]
+    std::uint64_t seed = 1;
+    std::uint64_t stream = 0; ///< component: independent phases of one seed
+    int iterations = 12;
+};
+
+/// Sum of sines with random phases under an envelope, in the manner of SIMQKE (Gasparini & Vanmarcke 1976): amplitudes
+/// start from the power spectrum that belongs to the target spectrum, and are multiplied by target over computed
+/// spectrum at their period. Lines from 0.15 Hz to 0.8 of the Nyquist frequency (at most 40 Hz). The result follows the
+/// target within some 10 to 20 %.
+/// @param envelope  one value per sample   @returns acceleration [m/s^2], as long as the envelope
+std::vector<double> random_phase_record(const TargetSpectrum& target, std::span<const double> envelope,
+                                        const RandomPhaseOptions& options);
+
+/// One pass of spectral matching in the time domain: Lilhanand & Tseng (1988) with the tapered cosine wavelets of Al
+/// Atik & Abrahamson (2010). For each period wavelets are placed so that their oscillator answers them at the times of
+/// its own positive and negative peak; the amplitudes that bring the larger peaks 70 % of their way to the target
+/// together, while those of the other sign stay, solve a linear system (regularised least squares). PGA is one more
+/// equation. Peaks that were lower before may surface, so the caller repeats passes and drops those that did harm.
+/// @param accel  [m/s^2], changed in place; both ends keep their values
+/// @param pga    [m/s^2]   @param periods  T [s] to match, rising
+/// @param regularisation  [-], > 0; small: bold steps (1e-5), large: small ones (1)
+void match_by_wavelets(std::vector<double>& accel, double dt, const TargetSpectrum& target, double pga,
+                       std::span<const double> periods, double regularisation);
 
 } // namespace damslip::records

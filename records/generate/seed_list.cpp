@@ -1,12 +1,11 @@
 #include "records/generate/seed_list.hpp"
 
-#include "core/cache_folder.hpp"
-#include "core/csv.hpp"
 #include "core/file.hpp"
-#include "core/number.hpp"
+#include "core/csv.hpp"
+#include "core/text.hpp"
 #include "core/parallel.hpp"
 #include "records/generate/generate.hpp"
-#include "records/generate/spectrum_file.hpp"
+#include "records/generate/target_spectrum.hpp"
 #include "records/write/write_record.hpp"
 
 #include <algorithm>

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace damslip::records {
 
@@ -39,5 +42,18 @@ struct SpectrumRow {
 /// @throws InputError (file `name`) for fewer than 2 rows, periods that do not rise, values that are not positive, a
 /// late first row or a last row before 2 s.
 TargetSpectrum table_spectrum(std::span<const SpectrumRow> rows, std::string name);
+
+/// A user's target spectrum: two columns, period [s] and spectral acceleration at 5 % damping in any unit (only its shape counts), the
+/// first row being the PGA. A heading line may say so in other words and units, and in another order: "T [ms];Sa [%g]", "frequency_hz,psa_m_s2"; of
+/// frequencies the highest is the PGA. Named after the file.
+/// @throws InputError for anything else than two columns of numbers, headings that are neither, velocities and displacements, and as
+///         table_spectrum does
+TargetSpectrum read_target_spectrum(const std::filesystem::path& path);
+TargetSpectrum parse_target_spectrum(std::string_view content, std::string_view file_name);
+
+/// The spectrum that a word names: rock, ec8-1, ec8-2, or the user's of `file`. @param ground, component  of ec8
+/// @returns nothing where the word is none of these and the file is not there @throws InputError as read_target_spectrum()
+std::optional<TargetSpectrum> find_target_spectrum(std::string_view word, const std::filesystem::path& file,
+                                                   GroundType ground, MotionComponent component);
 
 } // namespace damslip::records

@@ -1,11 +1,9 @@
 #include "records/read/format.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
-#include "records/read/component.hpp"
-#include "records/read/samples.hpp"
-#include "records/read/time_column.hpp"
-#include "records/read/unit.hpp"
+#include "records/read/header.hpp"
+#include "records/read/number_table.hpp"
 
 #include <algorithm>
 #include <array>

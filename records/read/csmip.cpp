@@ -1,8 +1,8 @@
 #include "records/read/format.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
-#include "records/read/time_column.hpp"
+#include "records/read/number_table.hpp"
 
 #include <algorithm>
 #include <array>

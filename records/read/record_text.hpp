@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +32,15 @@ std::string lower(std::string_view s);        ///< ASCII letters only
 std::string printable(std::string_view s);    ///< control characters and bytes that are not UTF-8 become '?'
 std::string in_quotes(std::string_view s);    ///< "'...'", at most 40 printable characters, for messages
 bool contains(std::string_view s, std::string_view part);
+
+/// A file that was cut within its last number still holds a number, and a count that fits: "4.8E-17" becomes "4.8E-1",
+/// "-0.01234" becomes "-0.01". Signs of it, from the 50 lines before the end: the exponent has fewer digits than all
+/// others have; and, where the file does not end with a line end, fewer decimals than all others have, or an end before
+/// the column in which this number of all lines before ends. Files whose numbers differ in length and that have no last
+/// line end leave it open: that is a remark.
+/// @param first_line  of the numbers
+/// @returns the remark; empty where the number is whole
+/// @throws InputError at the last number
+std::string refuse_cut_end(const RecordText& text, std::size_t first_line);
 
 } // namespace damslip::records

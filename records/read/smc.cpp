@@ -1,6 +1,6 @@
 #include "records/read/format.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "records/read/agency_samples.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "records/write/write_record.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "sliding/block/base_equations.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector_level.hpp"
+#include "core/version.hpp"
 
 #if DAMSLIP_HAS_AVX2
 

@@ -1,7 +1,7 @@
 #include "sliding/block/given_yield.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <cmath>
 

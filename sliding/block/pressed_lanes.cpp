@@ -1,6 +1,6 @@
 #include "sliding/block/pressed_lanes.hpp"
 
-#include "core/vector_level.hpp"
+#include "core/version.hpp"
 #include "sliding/block/four.hpp"
 
 namespace damslip::sliding {

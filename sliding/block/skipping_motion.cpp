@@ -1,7 +1,7 @@
 #include "sliding/block/skipping_motion.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>

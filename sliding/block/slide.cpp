@@ -1,7 +1,7 @@
 #include "sliding/block/slide.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "sliding/block/slammer.hpp"
 #include "sliding/block/slide_rests.hpp"
 #include "sliding/block/slip_motion.hpp"

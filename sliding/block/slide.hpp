@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/event_slip.hpp"
+#include "core/statistics.hpp"
 #include "core/status.hpp"
 #include "records/record.hpp"
 #include "scene/anchor_bar.hpp"

@@ -1,8 +1,8 @@
 #include "sliding/block/slip_stage.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
-#include "scene/friction_over_slip.hpp"
+#include "core/text.hpp"
+#include "scene/joint_bond.hpp"
 #include "sliding/block/base_equations.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "sliding/block/yield_lanes.hpp"
 
-#include "core/vector_level.hpp"
+#include "core/version.hpp"
 #include "sliding/block/coasting.hpp"
 #include "sliding/block/four.hpp"
 

@@ -1,6 +1,6 @@
 #include "sliding/equilibrium/base_state.hpp"
 
-#include "scene/friction_over_slip.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
 
 namespace damslip::sliding {

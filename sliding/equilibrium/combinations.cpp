@@ -2,7 +2,7 @@
 
 #include "core/units.hpp"
 #include "scene/section.hpp"
-#include "scene/uplift_row.hpp"
+#include "scene/uplift_models.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/criteria.hpp"
 

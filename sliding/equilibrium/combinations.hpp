@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/words.hpp"
+#include "scene/findings.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <vector>

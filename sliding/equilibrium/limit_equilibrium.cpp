@@ -1,7 +1,7 @@
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include "core/units.hpp"
-#include "scene/friction_over_slip.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_limits.hpp"

@@ -1,5 +1,5 @@
 #include "core/input_error.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "sliding/flexible/coupled_motion.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/flexible/decoupled_motion.hpp"
 #include "sliding/flexible/flexible_slide.hpp"

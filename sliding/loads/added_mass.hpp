@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/added_mass_row.hpp"
+#include "scene/added_mass_formulas.hpp"
 
 namespace damslip::sliding {
 

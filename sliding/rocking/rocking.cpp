@@ -1,6 +1,6 @@
 #include "sliding/rocking/rocking.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/rocking/rocking_motion.hpp"
 

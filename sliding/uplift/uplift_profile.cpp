@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "scene/section.hpp"
-#include "scene/uplift_row.hpp"
+#include "scene/uplift_models.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/pressure_profile.hpp"
+#include "scene/uplift_models.hpp"
 #include "scene/water.hpp"
 
 #include <functional>

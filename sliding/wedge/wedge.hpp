@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector3.hpp"
+#include "core/geometry.hpp"
 #include "records/record.hpp"
 #include "sliding/block/fixed_yield.hpp"
 

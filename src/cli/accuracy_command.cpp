@@ -1,31 +1,61 @@
-#include "cli/accuracy_command.hpp"
-
-#include "analysis/accuracy/climb.hpp"
+#include "analysis/accuracy/accuracy.hpp"
+#include "analysis/accuracy/ladder.hpp"
 #include "analysis/accuracy/rung_runner.hpp"
-#include "analysis/accuracy/variant.hpp"
-#include "analysis/assess/budget_watch.hpp"
-#include "analysis/prepare/contact_law.hpp"
-#include "cli/print_pdf.hpp"
-#include "cli/terminal/terminal_watch.hpp"
+#include "analysis/assess/assess.hpp"
+#include "analysis/fragility/fragility_study.hpp"
+#include "analysis/prepare/ready.hpp"
+#include "cli/command.hpp"
+#include "cli/input/run_inputs.hpp"
+#include "cli/terminal/terminal.hpp"
+#include "cli/verifier.hpp"
 #include "core/file.hpp"
-#include "core/number.hpp"
-#include "core/processor_clock.hpp"
-#include "core/stopwatch.hpp"
+#include "core/input_error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
-#include "core/usage_error.hpp"
-#include "pages/accuracy/accuracy_report.hpp"
-#include "pages/accuracy/accuracy_tables.hpp"
-#include "pages/accuracy/cost_figure.hpp"
-#include "pages/report/page_html.hpp"
+#include "core/watch.hpp"
+#include "pages/accuracy/accuracy_pages.hpp"
+#include "pages/fragility/fragility_pages.hpp"
+#include "pages/report/page.hpp"
+#include "pages/report/table_text.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace damslip::cli {
+
+struct AccuracyArguments {
+    RunInputs inputs;
+    double tolerance = 0.02;      ///< of the deviation from the finest rung [-]
+    int repeats = 3;              ///< of short rungs
+    double budget = 300.0;        ///< processor time of all rungs together [s]
+    bool quick = false;           ///< fewer rungs
+    bool all_records = false;     ///< else the first
+    std::string rung;             ///< run this one alone; empty: the ladder
+    std::filesystem::path out;    ///< folder for report, tables, figure and the rungs' scenes; empty: none
+    std::filesystem::path report; ///< the report alone; empty: none
+    std::filesystem::path pdf;    ///< the report on paper; empty: none
+    std::filesystem::path svg;    ///< the figure alone; empty: none
+    bool probability = false;     ///< what the interval of a probability costs, in place of the ladder
+    std::string method;           ///< of --probability: as of fragility; empty: rigid-v or rigid
+    std::optional<double> level;  ///< of --probability, in the unit of the levels; none: P nearest to 0.1
+    std::optional<int> samples; ///< of --probability: runs of the largest estimate; none: 16384, of finite elements 128
+    int jobs = 0;               ///< of --probability: threads; 0: all cores
+};
+
+/// Climbs the ladder of methods on a scene: slip, its error, its cost; names the cheapest rung within the tolerance.
+/// @returns exit_no_answer where no rung is within it, or after an interrupt; what was computed is written all the
+/// same.
+int accuracy(const AccuracyArguments& arguments, const Streams& streams);
+
+/// The half-width of the 95 % interval of P at one level over processor time, by several estimators (interval_cost()).
+/// @returns exit_no_answer where the budget allows no estimate, or after an interrupt
+int accuracy_of_probability(const AccuracyArguments& arguments, const Streams& streams);
 
 using namespace pages;
 
@@ -187,8 +217,8 @@ std::vector<RungResult> climb_aloud(const AccuracyArguments& a, const Loaded& lo
     const Stopwatch start;
     std::vector<RungResult> results = climb(facts, options, calls);
     if (!streams.quiet && !streams.terminal)
-        streams.talk << fmt::format("accuracy: {} model level{}, {:.3g} s\n", results.size(), results.size() == 1 ? "" : "s",
-                                    start.seconds());
+        streams.talk << fmt::format("accuracy: {} model level{}, {:.3g} s\n", results.size(),
+                                    results.size() == 1 ? "" : "s", start.seconds());
     return results;
 }
 
@@ -236,6 +266,120 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     }
     const bool answered = judgement.choice || all_fail_statically(results);
     return answered && !watch.stop_asked() ? exit_ok : exit_no_answer;
+}
+
+namespace {
+
+void accuracy_flags(CLI::App& sub, AccuracyArguments& a)
+{
+    add_run_inputs(sub, a.inputs);
+    add_scale(sub, a.inputs);
+    sub.add_flag("--all-records", a.all_records, "all records of the scene, the worst counts; else its first")
+        ->group("Ground motion");
+    add_friction(sub, a.inputs);
+    sub.add_option("--tolerance", a.tolerance, "names the cheapest model level within this share of the finest's slip")
+        ->capture_default_str();
+    sub.add_option("--repeats", a.repeats, "runs of a model level for its median time; fewer of those above a second")
+        ->capture_default_str();
+    sub.add_option("--budget", a.budget,
+                   "processor seconds for all model levels together; what would exceed them is listed as skipped")
+        ->capture_default_str();
+    sub.add_flag("--quick", a.quick, "fewer steps, no finer mesh, one reduced run, no other contact law or scheme");
+    sub.add_option("--rung", a.rung, "run this model level alone, named as in the table: fe-acoustic:dt/4,2h");
+    add_out(sub, a.out, OutputPath::folder,
+            "folder for report.html, accuracy.csv, accuracy.svg, summary.json and the scenes of all model levels");
+    sub.add_option("--report", a.report, "the report alone (.html)")->check(output_to(OutputPath::file, "--report"));
+    add_pdf(sub, a.pdf);
+    const char* const group = "Probability";
+    sub.add_flag(
+           "--probability", a.probability,
+           "half-width of the 95 % interval of P over processor seconds, by plain Monte Carlo, Latin hypercubes and "
+           "Sobol' points; of a scene for fragility, its first limit")
+        ->group(group);
+    sub.add_option("--method", a.method, "as of fragility; default: rigid-v or rigid")->group(group);
+    sub.add_option("--level", a.level, "intensity in the unit of the levels; default: where P is nearest to 0.1")
+        ->check(in_range(1e-9, 1e9))
+        ->group(group);
+    sub.add_option("--samples", a.samples, "runs of the largest estimate; default: 16384, of finite elements 128")
+        ->check(CLI::Range(16, 10'000'000))
+        ->group(group);
+    add_jobs(sub, a.jobs)->group(group);
+    sub.add_option("--svg", a.svg, "the chart alone (.svg)")->check(output_to(OutputPath::file, "--svg"));
+}
+
+} // namespace
+
+Command accuracy_command()
+{
+    return {"accuracy", "what accuracy costs: every method on this scene, its error and its seconds",
+            "damslip accuracy examples/reference_dam.toml --tolerance 0.02 --out results/accuracy",
+            with_flags<AccuracyArguments>(accuracy_flags, accuracy)};
+}
+
+using namespace pages;
+
+namespace {
+
+void check_probability_flags(const AccuracyArguments& a)
+{
+    const RunInputs& in = a.inputs;
+    for (const auto& [flag, given] : {std::pair{"--rung", !a.rung.empty()},
+                                      {"--quick", a.quick},
+                                      {"--all-records", a.all_records},
+                                      {"--record", !in.records.empty()},
+                                      {"--friction", in.friction.has_value()},
+                                      {"--scale", in.scale.has_value()},
+                                      {"--svg", !a.svg.empty()}})
+        if (given)
+            refuse_usage(fmt::format("--probability together with {}.", flag),
+                         "the scene's own tables [probability], [suite], [intensity], [[limit]]", "leave one out");
+    need_scene_file(in, "--probability");
+}
+
+} // namespace
+
+int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
+{
+    check_probability_flags(a);
+    const SceneText text = SceneText::read(a.inputs.scene);
+    Scene scene = text.scene();
+    say(scene.notes, a.inputs.strict, streams);
+    FragilityInput input = read_fragility_input(a.inputs.scene);
+    const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
+    const bool finite_elements = study.finite_elements();
+    IntervalCostOptions options;
+    options.method = study.method.id;
+    options.rigid = study.rigid().id;
+    if (a.level) options.level = *a.level * study.input.intensity.level_unit;
+    options.runs = static_cast<std::size_t>(a.samples.value_or(finite_elements ? 128 : 16384));
+    options.sizes = finite_elements ? 3 : 5;
+    options.step = finite_elements ? 2 : 4;
+    options.replicates = finite_elements ? 8 : 16;
+    options.budget = a.budget;
+    options.jobs = a.jobs;
+    TerminalWatch watch(streams);
+    const IntervalCost cost = interval_cost(study.input, study.suite, text, study.written, options, watch);
+    const IntervalCostView view{study.scene,
+                                cost,
+                                *study.suite.pairs,
+                                study.input.intensity.text,
+                                study.input.intensity.level_unit,
+                                study.input.intensity.level_unit_text};
+    const std::string json = interval_cost_json(view).dump(2) + "\n";
+    streams.out << (streams.form == Form::json ? json : interval_cost_text(view));
+    const auto page = [&] { return page_html(interval_cost_page(view)); };
+    if (!a.out.empty()) {
+        write_file(a.out / "accuracy.csv",
+                   csv(interval_cost_table(view), {fmt::format("scene {}", study.scene.file.string())}));
+        write_file(a.out / "summary.json", json);
+        write_file(a.out / "report.html", page());
+        name_report(a.out / "report.html", streams);
+    }
+    if (!a.report.empty()) write_file(a.report, page());
+    if (!a.pdf.empty()) print_pdf(page(), a.pdf);
+    const bool any =
+        std::any_of(cost.points.begin(), cost.points.end(), [](const IntervalPoint& p) { return p.done(); });
+    return any && !watch.stop_asked() ? exit_ok : exit_no_answer;
 }
 
 } // namespace damslip::cli

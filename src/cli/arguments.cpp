@@ -1,8 +1,8 @@
 #include "cli/arguments.hpp"
 
 #include "cli/command.hpp"
-#include "core/number.hpp"
-#include "core/usage_error.hpp"
+#include "core/text.hpp"
+#include "core/input_error.hpp"
 #include "core/version.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "cli/command.hpp"
-#include "cli/command_summary.hpp"
-#include "cli/terminal/streams.hpp"
+#include "cli/terminal/terminal.hpp"
 
 #include <functional>
 #include <memory>

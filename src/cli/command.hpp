@@ -1,11 +1,17 @@
 #pragma once
 
-#include "cli/terminal/streams.hpp"
+#include "cli/input/run_inputs.hpp"
+#include "cli/model_commands.hpp"
+#include "cli/terminal/terminal.hpp"
+#include "core/file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -42,5 +48,76 @@ std::function<Run(CLI::App&)> with_flags(Flags flags, Function run)
 
 /// All rows, in the order of the help.
 std::span<const Command> commands();
+
+/// The --json object of a command whose answer is a text or a file, such as a drawing or a script: printed where --json was asked for.
+/// @param what  of the schema: "draw" @param members  names and texts @returns whether it was printed
+bool put_json_document(const Streams& streams, const std::string& what,
+                       std::initializer_list<std::pair<const char*, std::string>> members);
+
+/// Flags that several commands have. Only the files that declare flags include it: CLI11 is slow to compile.
+
+/// SCENE and --strict.
+void add_scene(CLI::App& sub, RunInputs& in);
+/// The same, and records in place of the scene's.
+void add_run_inputs(CLI::App& sub, RunInputs& in);
+/// --scale and --friction, of commands that run the scene as one point.
+void add_scale(CLI::App& sub, RunInputs& in);
+void add_friction(CLI::App& sub, RunInputs& in);
+/// --rock, of commands that run finite elements.
+void add_rock(CLI::App& sub, RunInputs& in);
+
+/// --response-spectrum and what belongs to it.
+void add_response_spectrum(CLI::App& sub, SpectrumArguments& a);
+
+/// Check of an option with a decimal number: low <= value <= high. Text that is no number, NaN and infinity are refused,
+/// which CLI::Range lets through. For whole numbers CLI::Range does.
+CLI::Validator in_range(double low, double high);
+
+/// -j, --jobs.
+CLI::Option* add_jobs(CLI::App& sub, int& jobs, const std::string& text = "threads; 0: all cores");
+
+/// --out, checked before anything begins. @param names  with the short one where the command has it
+CLI::Option* add_out(CLI::App& sub, std::filesystem::path& target, OutputPath kind, const std::string& text,
+                     const std::string& names = "--out");
+
+/// --pdf, of commands that have a report; checked before anything begins.
+void add_pdf(CLI::App& sub, std::filesystem::path& target);
+
+/// Check of an option that names output: what would fail after minutes is said before anything begins.
+/// @throws UsageError, from the check
+std::function<std::string(const std::string&)> output_to(OutputPath kind, const std::string& flag);
+
+} // namespace damslip::cli
+
+namespace CLI {
+class App;
+}
+
+namespace damslip::cli {
+
+/// An option or a positional argument of a command, as its help says it.
+struct OptionSummary {
+    std::string name;                 ///< "--record"; of a positional argument "SCENE"
+    std::string short_name;           ///< "-o"; empty: none
+    std::string value;                ///< kind of value: "TEXT", "FLOAT"; empty: a flag
+    std::vector<std::string> choices; ///< the only values; empty: any
+    std::string range;                ///< "1 - 1000"; empty: any
+    std::string default_value;        ///< empty: none is said
+    std::string text;                 ///< what it means
+    std::string group;                ///< "Options", "Ground motion"
+    bool positional = false, required = false, repeated = false;
+};
+
+/// A command as its help says it, for completion, manual pages and the tests.
+struct CommandSummary {
+    std::string name; ///< "record info"; of the program itself empty
+    std::string description;
+    std::vector<OptionSummary> options; ///< positional ones first
+    std::string footer;                 ///< "Example:\n  damslip ..."
+    bool has_subcommands = false;
+};
+
+/// Of the app and of everything below it, the app first.
+std::vector<CommandSummary> summaries_of(const CLI::App& app);
 
 } // namespace damslip::cli

@@ -1,4 +1,4 @@
-#include "cli/process.hpp"
+#include "cli/program.hpp"
 
 int main(int argc, char** argv)
 {

@@ -14,4 +14,7 @@ namespace damslip::cli {
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& talk, bool talk_is_terminal,
                 std::span<const Command> rows = commands());
 
+/// A program of this project from main() on: settings of the process (BLAS threads, memory, signals), then run_program().
+int run_process(int argc, char** argv, std::span<const Command> rows);
+
 } // namespace damslip::cli

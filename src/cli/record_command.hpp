@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cli/terminal/streams.hpp"
-#include "core/table.hpp"
+#include "cli/terminal/terminal.hpp"
+#include "core/csv.hpp"
 #include "records/generate/generate.hpp"
 #include "records/read/read_record.hpp"
-#include "records/transform/baseline.hpp"
+#include "records/transform/transform.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,9 +2,9 @@
 
 #include "analysis/suite/record_suite.hpp"
 #include "core/file.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "pages/record/record_tables.hpp"
-#include "pages/report/json_object.hpp"
+#include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 #include "records/write/write_record.hpp"
 

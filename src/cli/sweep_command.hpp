@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/input/sweep_arguments.hpp"
-#include "cli/terminal/streams.hpp"
+#include "cli/input/make_axes.hpp"
+#include "cli/terminal/terminal.hpp"
 
 namespace damslip::cli {
 

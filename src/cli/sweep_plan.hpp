@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/sweep_tasks.hpp"
-#include "cli/input/sweep_arguments.hpp"
+#include "cli/input/make_axes.hpp"
 
 namespace damslip::cli {
 

@@ -1,10 +1,26 @@
 #include "cli/verifier.hpp"
 
-#include "cli/flags.hpp"
-#include "core/usage_error.hpp"
+#include "cli/command.hpp"
+#include "cli/terminal/terminal.hpp"
+#include "core/file.hpp"
+#include "core/input_error.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
 #include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace damslip::cli {
 
@@ -20,7 +36,6 @@ void verify_flags(CLI::App& sub, VerifyArguments& a)
     sub.add_flag("--markdown", a.markdown, "print the results as a page; with --external docs/evidence.md");
     sub.add_flag("--list", a.list, "print the ids of the cases alone");
 }
-
 
 void study_flags(CLI::App& sub, StudyArguments& a)
 {
@@ -66,9 +81,156 @@ int start_verifier(const std::vector<std::string>& arguments)
     words.push_back(nullptr);
     ::execv((own_folder() / name).c_str(), words.data()); // comes back only where it failed
     ::execvp(name, words.data());
-    throw InputError(Diagnostic{name, 0, 0, "this program is not installed; it carries out verify, study and mesh --to calculix.",
+    throw InputError(Diagnostic{name, 0, 0,
+                                "this program is not installed; it carries out verify, study and mesh --to calculix.",
                                 "damslip-verify beside damslip or on the PATH",
                                 "install the whole package, or build it:  cmake --build --preset release"});
+}
+
+namespace {
+
+constexpr std::array browser_names{"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"};
+constexpr std::chrono::seconds longest_print{120};
+
+/// The first of the names that the PATH has; none: no browser.
+std::optional<std::filesystem::path> find_browser()
+{
+    const char* path = std::getenv("PATH");
+    std::string_view folders = path ? path : "";
+    while (!folders.empty()) {
+        const std::string_view folder = folders.substr(0, folders.find(':'));
+        for (const char* name : browser_names) {
+            const std::filesystem::path file = std::filesystem::path(folder) / name;
+            if (!folder.empty() && access(file.c_str(), X_OK) == 0) return file;
+        }
+        folders.remove_prefix(std::min(folders.size(), folder.size() + 1));
+    }
+    return std::nullopt;
+}
+
+/// A folder of its own for the page, the profile of the browser and what it prints; gone afterwards.
+class PrintFolder {
+public:
+    PrintFolder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "damslip-print-XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw InputError(Diagnostic{name, 0, 0, "no folder can be made there to print from.",
+                                        "a folder for temporary files that can be written", "set TMPDIR to one"});
+        path_ = name;
+    }
+    ~PrintFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    PrintFolder(const PrintFolder&) = delete;
+    PrintFolder& operator=(const PrintFolder&) = delete;
+    std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+private:
+    Temporary kept_;
+    std::filesystem::path path_;
+};
+
+/// Of a file, for a browser: bytes that mean something in a URL, or are not ASCII, by their numbers.
+std::string url_of(const std::filesystem::path& file)
+{
+    std::string url = "file://";
+    for (const char c : file.string()) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                           std::string_view("/-._~").find(c) != std::string_view::npos;
+        url += plain && static_cast<unsigned char>(c) < 0x80 ? std::string(1, c)
+                                                             : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return url;
+}
+
+/// Runs it in a process group of its own, so that its helpers end with it. @returns false: not ended in time, or not well
+bool run_to_end(const std::filesystem::path& program, std::vector<std::string> arguments,
+                const std::filesystem::path& said)
+{
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, 1, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_adddup2(&files, 1, 2);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    pid_t child = 0;
+    const int failed = posix_spawn(&child, program.c_str(), &files, &attributes, words.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (failed) return false;
+    const auto end = std::chrono::steady_clock::now() + longest_print;
+    int status = 0;
+    const InterruptGuard guard;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        const bool stopped = guard.interrupted();
+        if (stopped || std::chrono::steady_clock::now() > end) {
+            kill(-child, SIGKILL);
+            waitpid(child, &status, 0);
+            if (stopped) throw Interrupted("printing");
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// The last lines of what the browser said.
+std::string last_words(const std::filesystem::path& said)
+{
+    constexpr std::size_t most = 400;
+    std::error_code unreadable;
+    if (std::filesystem::file_size(said, unreadable) > (1u << 20) || unreadable) return "";
+    const std::string all = read_file(said);
+    return all.size() > most ? "... " + all.substr(all.size() - most) : all;
+}
+
+} // namespace
+
+void name_report(const std::filesystem::path& file, const Streams& streams)
+{
+    if (!streams.quiet) streams.talk << "report: " << file.string() << "\n";
+}
+
+void check_pdf(const std::filesystem::path& target)
+{
+    if (!find_browser())
+        refuse_usage("--pdf " + target.string() + ": there is no Chromium to print with.",
+                     fmt::format("one of {} on the PATH", fmt::join(browser_names, ", ")),
+                     "apt install chromium, or write the report (--out) and print it from a browser");
+    if (auto problem = output_path_problem(target, OutputPath::file, "--pdf")) throw UsageError(std::move(*problem));
+}
+
+void print_pdf(const std::string& html, const std::filesystem::path& target)
+{
+    const std::optional<std::filesystem::path> browser = find_browser();
+    const PrintFolder folder;
+    const std::filesystem::path page = folder / "report.html", printed = folder / "report.pdf", said = folder / "said";
+    write_file(page, html);
+    std::vector<std::string> arguments{browser ? browser->string() : browser_names.front(),
+                                       "--headless",
+                                       "--disable-gpu",
+                                       "--no-first-run",
+                                       "--no-pdf-header-footer",
+                                       "--user-data-dir=" + (folder / "profile").string(),
+                                       "--virtual-time-budget=20000", // the page draws its charts first
+                                       "--print-to-pdf=" + printed.string()};
+    if (geteuid() == 0) arguments.emplace_back("--no-sandbox"); // Chromium starts as root no other way
+    arguments.push_back(url_of(page));
+    const bool ended = browser && run_to_end(*browser, arguments, said);
+    std::error_code missing;
+    if (!ended || std::filesystem::file_size(printed, missing) == 0 || missing)
+        throw InputError(Diagnostic{target.string(), 0, 0, "Chromium did not print the report. " + last_words(said),
+                                    fmt::format("a page within {} s", longest_print.count()),
+                                    "write the report (--out) and print it from a browser"});
+    write_file(target, read_file(printed));
 }
 
 } // namespace damslip::cli

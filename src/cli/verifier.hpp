@@ -2,6 +2,7 @@
 
 #include "cli/command.hpp"
 #include "cli/input/run_inputs.hpp"
+#include "cli/terminal/terminal.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -51,5 +52,17 @@ Command mesh_command(Carry<MeshArguments> calculix); ///< only --to calculix is 
 /// Starts `arguments` in damslip-verify, which stands beside this program or on the PATH.
 /// @throws InputError where there is none
 int start_verifier(const std::vector<std::string>& arguments);
+
+/// Reports: where they are, and as PDF, printed by a Chromium of this machine, without a window and without a network.
+
+/// "report: FILE" in the talk, unless it is to be quiet.
+void name_report(const std::filesystem::path& file, const Streams& streams);
+
+/// For use before anything is computed. @throws UsageError  no Chromium on the PATH, or nothing can be written there
+void check_pdf(const std::filesystem::path& target);
+
+/// Prints the page as A4 with everything open. The file appears whole or not at all.
+/// @param html  of page_html() @throws InputError with what the browser said when it prints nothing within two minutes
+void print_pdf(const std::string& html, const std::filesystem::path& target);
 
 } // namespace damslip::cli

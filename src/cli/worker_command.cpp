@@ -1,12 +1,12 @@
 #include "cli/worker_command.hpp"
 
-#include "analysis/sweep/point_runs.hpp"
-#include "cli/flags.hpp"
-#include "cli/input/parameter_file.hpp"
-#include "cli/terminal/terminal_watch.hpp"
+#include "analysis/sweep/sweep_run.hpp"
+#include "cli/command.hpp"
+#include "cli/input/run_inputs.hpp"
+#include "cli/terminal/terminal.hpp"
 #include "core/file.hpp"
-#include "core/number.hpp"
-#include "core/usage_error.hpp"
+#include "core/text.hpp"
+#include "core/input_error.hpp"
 #include "core/version.hpp"
 #include "scene/scene_text.hpp"
 

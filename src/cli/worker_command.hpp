@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/terminal/streams.hpp"
+#include "cli/terminal/terminal.hpp"
 
 #include <filesystem>
 #include <iosfwd>

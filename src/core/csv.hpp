@@ -1,7 +1,13 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace damslip {
@@ -25,5 +31,69 @@ CsvTable parse_csv(std::string_view text);
 /// A text as a cell that parse_csv() reads back: in quotes where it needs them, one line, control characters as their pictures. What begins
 /// with = + - @ has an apostrophe in front: a spreadsheet would take it for a formula and run it.
 std::string csv_cell(std::string_view text);
+
+/// A named result column: the key carries the unit in files ("slip_m"), heading and unit are what people read.
+struct Column {
+    std::string key;       ///< CSV header and JSON key, unit as suffix: "yield_acceleration_m_s2"
+    std::string heading;   ///< terminal and report: "yield acceleration"
+    std::string unit = {}; ///< "m/s²", "mm", "–"; empty for text columns
+    int digits = 4;        ///< significant digits for people; files always carry the full double
+};
+
+/// Nothing (not defined here; printed as "–", null in JSON, empty in CSV), a number, a count, a word, yes/no.
+using Cell = std::variant<std::monostate, double, std::int64_t, std::string, bool>;
+
+/// The number in a unit; nothing where it is not finite.
+inline Cell finite_cell(double x, double unit = 1.0)
+{
+    return std::isfinite(x) ? Cell(x / unit) : Cell();
+}
+
+/// The value; nothing for none.
+template <class Value>
+Cell optional_cell(const std::optional<Value>& value)
+{
+    return value ? Cell(*value) : Cell();
+}
+
+/// The number in a unit; nothing for none.
+inline Cell optional_cell(const std::optional<double>& value, double unit)
+{
+    return value ? Cell(*value / unit) : Cell();
+}
+
+inline Cell count_cell(std::size_t n)
+{
+    return static_cast<std::int64_t>(n);
+}
+
+/// Results by name and unit; made by the modules' callers, rendered by pages/.
+struct Table {
+    std::string title;
+    std::vector<Column> columns;
+    std::vector<std::vector<Cell>> rows; ///< each of columns.size() cells
+    std::vector<std::string> notes;      ///< sentences printed under the table
+};
+
+/// A column, and how an item's value in it is read: a getter, or a member of the item.
+template <class Item>
+struct ColumnOf {
+    Column column;
+    std::function<Cell(const Item&)> value;
+};
+
+/// One row per item: the columns are written once, for terminal, report, CSV and JSON.
+template <class Item, class Items>
+Table table_of(std::string title, const std::vector<ColumnOf<Item>>& columns, Items&& items,
+               std::vector<std::string> notes = {})
+{
+    Table table{std::move(title), {}, {}, std::move(notes)};
+    for (const ColumnOf<Item>& c : columns) table.columns.push_back(c.column);
+    for (const Item& item : items) {
+        std::vector<Cell>& row = table.rows.emplace_back();
+        for (const ColumnOf<Item>& c : columns) row.push_back(c.value(item));
+    }
+    return table;
+}
 
 } // namespace damslip

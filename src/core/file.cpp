@@ -1,7 +1,6 @@
 #include "core/file.hpp"
 
 #include "core/input_error.hpp"
-#include "core/sha256.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +8,13 @@
 #include <cctype>
 #include <cerrno>
 #include <climits>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <istream>
+#include <openssl/evp.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -113,21 +114,14 @@ int write_all(int descriptor, std::string_view content)
     return 0;
 }
 
-} // namespace
-
-namespace {
-
 [[noreturn]] void refuse_write(const fs::path& path, const std::string& why,
                                const char* expected = "a folder with write permission and space left")
 {
     throw InputError(Diagnostic{path.string(), 0, 0, "cannot be written: " + why, expected, "choose another output"});
 }
 
-} // namespace
-
-namespace {
 std::atomic<int> temporaries{0};
-}
+} // namespace
 
 Temporary::Temporary()
 {
@@ -300,6 +294,62 @@ std::string sha256(std::string_view bytes)
     Sha256 hash;
     hash.add(bytes);
     return hash.finish();
+}
+
+namespace {
+
+std::filesystem::path& folder_in_use()
+{
+    static std::filesystem::path folder;
+    return folder;
+}
+
+} // namespace
+
+std::filesystem::path cache_folder()
+{
+    return folder_in_use();
+}
+
+void use_cache_folder(std::filesystem::path folder)
+{
+    folder_in_use() = std::move(folder);
+}
+
+std::filesystem::path user_cache_folder()
+{
+    namespace fs = std::filesystem;
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && fs::path(cache).is_absolute())
+        return fs::path(cache) / "damslip";
+    if (const char* home = std::getenv("HOME"); home && fs::path(home).is_absolute())
+        return fs::path(home) / ".cache" / "damslip";
+    return {};
+}
+
+struct Sha256::State {
+    std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
+};
+
+Sha256::Sha256() : state_(std::make_unique<State>())
+{
+    EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr);
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes)
+{
+    EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size());
+}
+
+std::string Sha256::finish()
+{
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int length = 0;
+    EVP_DigestFinal_ex(state_->context.get(), digest.data(), &length);
+    std::string hex;
+    for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
+    return hex;
 }
 
 } // namespace damslip

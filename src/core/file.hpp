@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,5 +87,31 @@ std::string file_word(std::string_view name, const std::vector<std::string>& amo
 
 /// SHA-256 of the bytes, 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
+
+/// Folder of what is dear to make and the same in all runs, reduced rock say; empty: nothing is kept. It changes times, no
+/// results. Empty until use_cache_folder() has been called: the program calls it, other programs may.
+std::filesystem::path cache_folder();
+
+/// Of this process, before its runs begin.
+void use_cache_folder(std::filesystem::path folder);
+
+/// $XDG_CACHE_HOME/damslip, else ~/.cache/damslip; empty when neither is an absolute path.
+std::filesystem::path user_cache_folder();
+
+/// SHA-256 of bytes that come in parts; of all at once sha256() of core/file.hpp.
+class Sha256 {
+public:
+    Sha256();
+    ~Sha256();
+    Sha256(const Sha256&) = delete;
+    Sha256& operator=(const Sha256&) = delete;
+
+    void add(std::string_view bytes);
+    std::string finish(); ///< 64 lower-case hexadecimal digits; once
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace damslip

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/status.hpp"
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -56,5 +58,17 @@ public:
 /// The candidate nearest to `word` within an edit distance of 2 (3 for words of more than 8 letters); empty if none is
 /// near.
 std::string_view nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// What was asked for is wrong (exit code 2), as opposed to a file (exit code 3).
+class UsageError : public InputError {
+public:
+    using InputError::InputError;
+};
+
+/// @throws UsageError  @param problem, expected, fix  as Diagnostic has them
+[[noreturn]] inline void refuse_usage(std::string problem, std::string expected, std::string fix)
+{
+    throw UsageError(Diagnostic{"", 0, 0, std::move(problem), std::move(expected), std::move(fix)});
+}
 
 } // namespace damslip

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,5 +93,21 @@ std::string word(Verdict verdict);
 /// @param slip, error  [m]; error >= 0 is all that is numerical (step and mesh); NaN: not estimated
 /// @param allowable  [m]; none: no criterion
 Verdict judge(Status status, double slip, double error, const std::optional<double>& allowable);
+
+/// How often each status came up among runs that are counted rather than averaged.
+class StatusCount {
+public:
+    void add(Status status) { ++count_[static_cast<std::size_t>(status)]; }
+
+    std::size_t all() const;
+    bool empty() const { return all() == 0; }
+    /// In the order of the list: "2 static failure, 1 not resolved"; empty for none.
+    std::string words() const;
+    /// Of the gravest status that came up; exit_ok for none.
+    int exit_code() const;
+
+private:
+    std::array<std::size_t, static_cast<std::size_t>(Status::refused) + 1> count_{};
+};
 
 } // namespace damslip

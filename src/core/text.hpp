@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,5 +28,28 @@ std::string xml_text(std::string_view text);
 
 /// Bytes at the end of `text` that begin a character visible() would replace, but do not complete it: 0, 1 or 2.
 std::size_t unfinished_bytes(std::string_view text);
+
+/// A finite decimal number at the start of `text`, locale-free: leading blanks and `+` skipped, Fortran `D` exponents
+/// read as `E`.
+/// @param used  characters consumed, blanks included; untouched when nothing is found.
+/// @returns nothing for no number, NaN, infinity, overflow or `****`.
+std::optional<double> parse_number(std::string_view text, std::size_t* used = nullptr);
+
+/// The whole of `text`, blanks around it allowed, as one finite number.
+std::optional<double> parse_whole_number_text(std::string_view text);
+
+/// Shortest text that reads back as the same double ("0.1", "1e-05"); "nan" and "inf" as such.
+std::string shortest(double value);
+
+/// A factor of safety in a sentence: three digits; "∞ (no thrust)" where nothing drives.
+std::string factor_text(double factor);
+
+/// shortest(value) at the end of a text that is made of many numbers.
+inline void append_shortest(std::string& text, double value)
+{
+    std::array<char, 32> buffer;
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    text.append(buffer.data(), end);
+}
 
 } // namespace damslip

@@ -1,11 +1,25 @@
 #pragma once
 
-#include "core/stop.hpp"
+#include "core/input_error.hpp"
 
+#include <chrono>
 #include <cstddef>
+#include <ctime>
+#include <functional>
 #include <string>
 
 namespace damslip {
+
+/// Asked between the parts of a long computation: does the user want it to end? Empty: never. Called from any thread.
+using StopAsked = std::function<bool()>;
+
+/// The way out of a computation that has nothing to return yet.
+/// @param where  what was going on: "the set-up of the finite elements"
+/// @throws Interrupted
+inline void stop_if_asked(const StopAsked& asked, const char* where)
+{
+    if (asked && asked()) throw Interrupted(where);
+}
 
 /// Whoever waits for a long computation: is told how far it is, and asked whether it shall end. All members may be
 /// called from any thread. This one is silent and never ends anything; a program derives its own.
@@ -30,6 +44,38 @@ public:
     {
         return [this] { return stop_asked(); };
     }
+};
+
+/// Wall-clock time since it was made.
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); } ///< [s]
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+enum class ProcessorTimeOf { thread, process }; ///< the calling thread, or all threads of the program
+
+/// Processor time since it was made: what a run costs, whatever else the machine does.
+class ProcessorClock {
+public:
+    explicit ProcessorClock(ProcessorTimeOf whose = ProcessorTimeOf::thread)
+        : clock_(whose == ProcessorTimeOf::thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID), start_(now())
+    {
+    }
+    double seconds() const { return now() - start_; } ///< [s]
+
+private:
+    double now() const
+    {
+        std::timespec t{};
+        clock_gettime(clock_, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    }
+    clockid_t clock_;
+    double start_;
 };
 
 } // namespace damslip

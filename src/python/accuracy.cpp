@@ -4,9 +4,8 @@
 #include "watched.hpp"
 
 #include "analysis/accuracy/accuracy.hpp"
-#include "core/usage_error.hpp"
-#include "pages/accuracy/accuracy_report.hpp"
-#include "pages/accuracy/accuracy_tables.hpp"
+#include "core/input_error.hpp"
+#include "pages/accuracy/accuracy_pages.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // Errors of the library as exceptions of Python; their classes are in python/damslip/errors.py.
 #include "result.hpp"
 
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 
 namespace damslip::python {
 

@@ -4,10 +4,9 @@
 #include "watched.hpp"
 
 #include "analysis/fe/contact_runs.hpp"
-#include "analysis/fe/model_spread.hpp"
-#include "core/usage_error.hpp"
-#include "pages/fe/fe_report.hpp"
-#include "pages/fe/rock_lines.hpp"
+#include "analysis/fe/tied_runs.hpp"
+#include "core/input_error.hpp"
+#include "pages/fe/fe_pages.hpp"
 
 #include <nlohmann/json.hpp>
 

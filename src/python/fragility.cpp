@@ -4,9 +4,8 @@
 #include "watched.hpp"
 
 #include "analysis/fragility/fragility_study.hpp"
-#include "core/usage_error.hpp"
-#include "pages/fragility/fragility_report.hpp"
-#include "pages/fragility/fragility_tables.hpp"
+#include "core/input_error.hpp"
+#include "pages/fragility/fragility_pages.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "watched.hpp"
 
 #include "analysis/modes/modes.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "pages/modes/modes_page.hpp"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // package python/damslip is around it.
 #include "result.hpp"
 
-#include "core/cache_folder.hpp"
+#include "core/file.hpp"
 #include "core/version.hpp"
 
 PYBIND11_MODULE(_core, module)

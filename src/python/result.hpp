@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "pages/report/page.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,7 +1,7 @@
 // Tables and what all results have in common.
 #include "result.hpp"
 
-#include "pages/report/page_html.hpp"
+#include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 
 namespace damslip::python {

@@ -3,9 +3,8 @@
 #include "result.hpp"
 
 #include "analysis/screen/screening.hpp"
-#include "pages/scene/report_provenance.hpp"
-#include "pages/screen/screen_report.hpp"
-#include "pages/screen/screen_tables.hpp"
+#include "pages/scene/scene_pages.hpp"
+#include "pages/screen/screen_pages.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"

@@ -3,12 +3,10 @@
 #include "result.hpp"
 #include "watched.hpp"
 
-#include "analysis/sweep/sweep_comparison.hpp"
 #include "analysis/sweep/sweep_run.hpp"
 #include "cli/input/make_axes.hpp"
-#include "core/usage_error.hpp"
-#include "pages/sweep/sweep_report.hpp"
-#include "pages/sweep/sweep_tables.hpp"
+#include "core/input_error.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "scene/added_mass_row.hpp"
+#include "scene/added_mass_formulas.hpp"
 
 #include <cassert>
 

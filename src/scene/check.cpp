@@ -1,7 +1,6 @@
 #include "scene/check.hpp"
 
-#include "core/number.hpp"
-#include "scene/checks.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,8 @@
 #include "scene/key_table.hpp"
 #include "scene/read.hpp"
 
+#include <string>
+
 namespace damslip {
 
 /// Turns what [section] says into the polygon. Problems go to `findings`.
@@ -19,3 +21,52 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files);
 void note_unusual(const Scene& scene, Findings& findings);
 
 } // namespace damslip
+
+/// Checks of the scene that involve more than one key, by topic; each names all keys and values concerned.
+namespace damslip::checks {
+
+/// "curtain.depth_m = 12"
+std::string value(const char* key, double x);
+
+/// Curtain, drains, rock box and uplift along the base.
+void check_base(const Scene& s, Findings& f);
+
+/// Rock with mass and the edges of its box.
+void check_rock(const Scene& s, Findings& f);
+
+/// @param table  "contact" or "lift_joint[1]"
+void check_strength(const Contact& c, const std::string& table, Findings& f);
+void check_lift_joints(const Scene& s, Findings& f);
+
+/// Bond of one plane, as check_strength().
+void check_bond(const Contact& c, const std::string& table, Findings& f);
+/// Laws of the joints beyond Coulomb's, and what cannot go with them.
+void check_joint_laws(const Scene& s, Findings& f);
+/// Water that follows the opening of the base.
+void check_opening_water(const Scene& s, Findings& f);
+/// Friction over the rate of slip. @param table  as of check_strength()
+void check_rate(const Contact& c, const std::string& table, Findings& f);
+/// What follows friction over the rate, rebounds and sequences, and what does not.
+void check_rate_methods(const Scene& s, Findings& f);
+
+/// Law and enforcement of the contact.
+void check_joint(const Scene& s, Findings& f);
+void check_water(const Scene& s, Findings& f);
+void check_motion(const Scene& s, Findings& f, FileCheck files);
+void check_sequence(const Scene& s, Findings& f);
+
+/// Planes, shape and water of the wedge. @pre scene.wedge
+void check_wedge(const Scene& s, Findings& f);
+void check_flexible_block(const Scene& s, Findings& f);
+void check_combinations(const Scene& s, Findings& f);
+
+/// Keys of an imported mesh against those of the program's own; the file itself is read where it is meshed.
+void check_mesh_file(const Scene& s, Findings& f, FileCheck files);
+
+/// Anchors in their joints, and what they cannot go with.
+void check_anchors(const Scene& s, Findings& f);
+
+/// Mesh, damping and time integration.
+void check_fe(const Scene& s, Findings& f);
+
+} // namespace damslip::checks

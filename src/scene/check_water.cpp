@@ -1,9 +1,9 @@
-#include "scene/checks.hpp"
-
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
+#include "scene/added_mass_formulas.hpp"
+#include "scene/check.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/plausible.hpp"
-#include "scene/added_mass_row.hpp"
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 
@@ -11,6 +11,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace damslip::checks {
 
@@ -108,18 +110,20 @@ void check_level(const Scene& s, double level, bool gates_open, const std::strin
     if (!(level > crest * (1 + 1e-12)) || s.section.rock_slope || s.reservoir->overtopped || (s.gate && gates_open))
         return;
     if (s.gate && level <= s.gate->top * (1 + 1e-12)) return;
-    const std::string problem = fmt::format("{}_m = {} is {} m above the {} at {} m", key, shortest(level),
-                                            six_digits(level - (s.gate ? s.gate->top : crest)),
-                                            s.gate ? "top of the gates" : "crest", shortest(s.gate ? s.gate->top : crest));
+    const std::string problem =
+        fmt::format("{}_m = {} is {} m above the {} at {} m", key, shortest(level),
+                    six_digits(level - (s.gate ? s.gate->top : crest)), s.gate ? "top of the gates" : "crest",
+                    shortest(s.gate ? s.gate->top : crest));
     if (s.gate)
         f.wrong(key, problem + ".", "a level up to gate.top_m, or  gates_open = true  in a [[combination]]",
                 fmt::format("write  top_m = {}  in [gate]", shortest(level)));
     else
-        f.wrong(key, problem + ", and the scene does not say what holds it.",
-                "[gate]: gates in the plane of the upstream face and a dry crest; or  overtopped = true  in [reservoir]: "
-                "the water flows over and stands on the crest",
-                fmt::format("add  [gate]  with  top_m = {} , or write  overtopped = true  in [reservoir]",
-                            shortest(level)));
+        f.wrong(
+            key, problem + ", and the scene does not say what holds it.",
+            "[gate]: gates in the plane of the upstream face and a dry crest; or  overtopped = true  in [reservoir]: "
+            "the water flows over and stands on the crest",
+            fmt::format("add  [gate]  with  top_m = {} , or write  overtopped = true  in [reservoir]",
+                        shortest(level)));
 }
 
 void check_gate(const Scene& s, Findings& f)
@@ -205,6 +209,61 @@ void check_water(const Scene& s, Findings& f)
                     "angles from the vertical, increasing", "put the pairs in order");
             break;
         }
+}
+
+namespace {
+
+/// Keys that only one rule reads.
+void check_keys_of_rule(const JointWaterLaw& law, Findings& f)
+{
+    if (law.opening == OpeningWater::mouth && !law.mouth_speed)
+        f.wrong("uplift.opening", "uplift.opening = \"mouth\" without uplift.mouth_speed_m_s.",
+                "the speed at which water enters the crack, above 0 [m_s]: no value of it is agreed on",
+                "add  mouth_speed_m_s = 5  (and try others), or write  opening = \"full\"");
+    std::vector<std::pair<std::string, const char*>> idle; // keys, and the rule that reads them
+    if (law.opening == OpeningWater::unchanged && law.mouth_speed) idle.emplace_back("mouth_speed", "mouth");
+    if (law.opening != OpeningWater::reynolds)
+        for (const char* key : {"joint_clearance", "water_viscosity", "cavitation_pressure", "wet_end"})
+            if (f.given(std::string("uplift.") + key)) idle.emplace_back(key, "reynolds");
+    for (const auto& [key, rule] : idle) {
+        Diagnostic note;
+        note.problem = fmt::format("uplift.{} is not read with uplift.opening = \"{}\".", key, word(law.opening));
+        note.expected = fmt::format("opening = \"{}\", the only rule that reads it", rule);
+        note.fix = fmt::format("keep it for  sweep --opening-water {} , or delete it", rule);
+        f.note("uplift." + key, note);
+    }
+}
+
+} // namespace
+
+void check_opening_water(const Scene& s, Findings& f)
+{
+    if (!s.uplift) return;
+    const JointWaterLaw& law = s.uplift->water;
+    check_keys_of_rule(law, f);
+    if (!law.follows()) return;
+    if (law.opening == OpeningWater::reynolds && drains_shear_off(s))
+        f.wrong("drains.lost_at_slip", "drains.lost_at_slip_m with uplift.opening = \"reynolds\".",
+                "drains that hold, whose pressure the flow along the joint knows; or another rule of the water",
+                "delete lost_at_slip_m in [drains], or write  opening = \"full\"  in [uplift]");
+    const bool opens = law.opening != OpeningWater::unchanged;
+    const std::string key = opens ? "uplift.opening" : "uplift.after";
+    const std::string said =
+        opens ? fmt::format("uplift.opening = \"{}\"", word(law.opening)) : "uplift.after = \"full\"";
+    if (s.uplift->model == UpliftModel::none)
+        f.wrong(key, fmt::format("{} with uplift.model = \"none\".", said),
+                "an uplift model: a dry base has no water to follow its opening",
+                fmt::format("write  model = \"linear\" , or delete {}", opens ? "opening" : "after"));
+    if (!s.reservoir && !s.tailwater)
+        f.wrong(key, fmt::format("{} with neither [reservoir] nor [tailwater].", said),
+                "water before one end of the base at least", "add [reservoir] with its level_m, or delete the key");
+    if (opens && s.sliding.scheme == SlidingScheme::slammer)
+        f.wrong("sliding.scheme", fmt::format("sliding.scheme = \"slammer\" with {}.", said),
+                "scheme = \"exact\": that of SLAMMER has one yield acceleration",
+                "delete scheme in [sliding], or opening in [uplift]");
+    if (law.wet_end == WetEndPressure::with_waves && !s.reservoir)
+        f.wrong("uplift.wet_end", "uplift.wet_end = \"with-waves\" without [reservoir].",
+                "a reservoir whose waves reach the heel", "add [reservoir], or write  wet_end = \"still\"");
 }
 
 } // namespace damslip::checks

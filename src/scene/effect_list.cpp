@@ -1,4 +1,4 @@
-#include "scene/effect_row.hpp"
+#include "scene/effect_plan.hpp"
 
 #include <cassert>
 

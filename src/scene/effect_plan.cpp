@@ -1,7 +1,5 @@
 #include "scene/effect_plan.hpp"
 
-#include "scene/effect_row.hpp"
-
 #include <algorithm>
 
 namespace damslip {

@@ -1,7 +1,9 @@
-#include "scene/added_mass_row.hpp"
-#include "scene/effect_row.hpp"
+#include "scene/added_mass_formulas.hpp"
+#include "scene/effect_plan.hpp"
+#include "scene/findings.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/rock_mass.hpp"
-#include "scene/vertical_motion.hpp"
+#include "scene/water.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -214,6 +216,258 @@ std::vector<EffectRow> water_effects()
          },
          .part_of = [](const EffectPlan&) { return Effect::rock_flexibility; },
          .named = Effect::floor_pressure},
+    };
+}
+
+namespace {
+
+Effect part_of_uplift(const EffectPlan&)
+{
+    return Effect::uplift;
+}
+
+bool uplift_acts(const Scene& s)
+{
+    return s.uplift && s.uplift->model != UpliftModel::none;
+}
+
+Decision decide_uplift(const Scene& s, Method)
+{
+    if (!s.uplift) return {false, "no [uplift]", ""};
+    if (!uplift_acts(s))
+        return {false,
+                std::string("uplift.model = \"none\"") + (base_taken_as_dry(s) ? ": the base is taken as dry" : ""),
+                ""};
+    return {true, std::string("uplift.model = \"") + word(s.uplift->model) + "\"", "one pressure profile"};
+}
+
+Decision decide_base_crack(const Scene& s, Method method)
+{
+    if (method == Method::finite_elements)
+        return {false,
+                s.uplift && s.uplift->water.opening != OpeningWater::unchanged
+                    ? "finite elements: the joint opens by itself, its water by uplift.opening"
+                    : "finite elements: the joint opens by itself, the uplift stays",
+                ""};
+    const bool on = uplift_acts(s) && s.uplift->crack != CrackRule::none;
+    return {on, on ? "uplift.crack" : "uplift.crack = \"none\" (limit equilibrium shows both)",
+            "crack and uplift iterated per state"};
+}
+
+RemovalAnswer without_seepage(Scene s, const SeepagePoints&)
+{
+    if (s.curtain && s.curtain->intact) {
+        s.uplift->model = UpliftModel::curtain;
+        return Removal{s,
+                       fmt::format("uplift.model = \"curtain\": the printed profile, ratio {:.4g} behind the curtain",
+                                   s.uplift->curtain_ratio)};
+    }
+    if (s.drains) {
+        s.uplift->model = UpliftModel::drains;
+        return Removal{s, "uplift.model = \"drains\": straight lines through the drains' head"};
+    }
+    s.uplift->model = UpliftModel::linear;
+    return Removal{s, "uplift.model = \"linear\": a straight line from heel to toe"};
+}
+
+RemovalAnswer without_drains(Scene s, const SeepagePoints&)
+{
+    s.drains.reset();
+    if (!s.uplift || s.uplift->model != UpliftModel::drains) return Removal{s, "no drains"};
+    s.uplift->model = UpliftModel::linear;
+    return Removal{s, "no drains: uplift.model = \"linear\""};
+}
+
+} // namespace
+
+std::vector<EffectRow> uplift_effects()
+{
+    return {
+        {.name = "uplift",
+         .decide = decide_uplift,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
+             return Removal{s, "uplift.model = \"none\": dry base"};
+         },
+         .leave_out =
+             [](Scene& s, const EffectPlan&) { // said by name, so that the scene that was run can be read again
+                 if (s.uplift) s.uplift = Uplift{.model = UpliftModel::none, .points = {}, .water = {}};
+             },
+         .named = Effect::uplift},
+        {.name = "seepage",
+         .decide = [](const Scene& s, Method) -> Decision {
+             const bool on = s.uplift && s.uplift->model == UpliftModel::seepage;
+             return {on, on ? "uplift.model = \"seepage\"" : "uplift is not by seepage",
+                     "one Darcy solution of the rock box"};
+         },
+         .remove = without_seepage,
+         .part_of = part_of_uplift,
+         .named = Effect::seepage},
+        {.name = "base crack",
+         .decide = decide_base_crack,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.uplift->crack = CrackRule::none;
+             return Removal{s, "uplift.crack = \"none\""};
+         },
+         .leave_out =
+             [](Scene& s, const EffectPlan& plan) { // finite elements: limit equilibrium beside them needs it
+                 if (plan.method == Method::rigid_block && s.uplift) s.uplift->crack = CrackRule::none;
+             },
+         .part_of = part_of_uplift,
+         .named = Effect::base_crack},
+        {.name = "drains",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {s.drains.has_value(), s.drains ? "[drains] is given" : "no [drains]",
+                     "part of the pressure profile"};
+         },
+         .remove = without_drains,
+         .leave_out = [](Scene& s, const EffectPlan&) { s.drains.reset(); },
+         .part_of = part_of_uplift,
+         .named = Effect::drains},
+    };
+}
+
+namespace {
+
+Decision decide_opening_water(const Scene& s, Method method)
+{
+    if (!s.uplift || s.uplift->model == UpliftModel::none) return {false, "no uplift", ""};
+    const JointWaterLaw& law = s.uplift->water;
+    if (law.opening == OpeningWater::unchanged) return {false, "uplift.opening = \"unchanged\"", ""};
+    const std::string reason = fmt::format("uplift.opening = \"{}\"", word(law.opening));
+    if (method == Method::finite_elements)
+        return {true, reason,
+                law.opening == OpeningWater::reynolds
+                    ? "flow along the joint in every contact problem: 1.4 times the time of a step, and shorter steps"
+                    : "one pressure profile per step"};
+    if (law.opening == OpeningWater::reynolds)
+        return {false,
+                reason +
+                    ": a rigid block has no width of the joint, its uplift stays; take \"mouth\", or finite elements",
+                ""};
+    return {true, reason,
+            law.opening == OpeningWater::mouth ? "water brought forward in 4 to 64 parts of each sample"
+                                               : "crack and uplift iterated once per direction of sliding"};
+}
+
+Decision decide_water_after(const Scene& s, Method method)
+{
+    const bool full = s.uplift && s.uplift->water.after == WaterAfter::full;
+    if (method == Method::rigid_block && (!full || s.motion.sequence.empty()))
+        return {false, "rigid block: nothing is looked at after the earthquake but between two of a sequence", ""};
+    return {full, full ? "uplift.after = \"full\"" : "uplift.after = \"unchanged\"", "none"};
+}
+
+} // namespace
+
+std::vector<EffectRow> opening_water_effects()
+{
+    const auto of_uplift = [](const EffectPlan&) { return Effect::uplift; };
+    return {
+        {.name = "water that follows the opening",
+         .decide = decide_opening_water,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             const WaterAfter after = s.uplift->water.after;
+             s.uplift->water = {};
+             s.uplift->water.after = after;
+             return Removal{s, "uplift.opening = \"unchanged\": the pressure before the earthquake"};
+         },
+         .leave_out =
+             [](Scene& s, const EffectPlan&) {
+                 if (!s.uplift) return;
+                 const WaterAfter after = s.uplift->water.after;
+                 s.uplift->water = {};
+                 s.uplift->water.after = after;
+             },
+         .part_of = of_uplift},
+        {.name = "water in the crack afterwards",
+         .decide = decide_water_after,
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.uplift->water.after = WaterAfter::unchanged;
+             return Removal{s, "uplift.after = \"unchanged\""};
+         },
+         .leave_out =
+             [](Scene& s, const EffectPlan&) {
+                 if (s.uplift) s.uplift->water.after = WaterAfter::unchanged;
+             },
+         .part_of = of_uplift},
+    };
+}
+
+namespace {
+
+std::string table_there(bool there, const std::string& table)
+{
+    return there ? "[" + table + "] is given" : "no [" + table + "]";
+}
+
+RemovalAnswer without_tailwater(Scene s, const SeepagePoints&)
+{
+    s.tailwater.reset();
+    for (Combination& c : s.combinations) c.tailwater_level.reset();
+    return Removal{s, "no [tailwater]"};
+}
+
+RemovalAnswer without_ice(Scene s, const SeepagePoints&)
+{
+    s.ice.reset();
+    for (Combination& c : s.combinations) c.ice = false;
+    return Removal{s, "no [ice]"};
+}
+
+} // namespace
+
+std::vector<EffectRow> load_effects()
+{
+    return {
+        {.name = "hydrostatic thrust",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {s.reservoir.has_value(), table_there(s.reservoir.has_value(), "reservoir"),
+                     "exact face integrals"};
+         },
+         .remove = [](Scene, const SeepagePoints&) -> RemovalAnswer {
+             return Stays{"without water it is another load, not another model: give the scene no [reservoir]"};
+         },
+         .leave_out = [](Scene& s, const EffectPlan&) { s.reservoir.reset(); },
+         .named = Effect::hydrostatic_thrust},
+        {.name = "tailwater",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {s.tailwater.has_value(), table_there(s.tailwater.has_value(), "tailwater"),
+                     "exact face integrals"};
+         },
+         .remove = without_tailwater,
+         .leave_out = [](Scene& s, const EffectPlan&) { s.tailwater.reset(); },
+         .named = Effect::tailwater},
+        {.name = "silt",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {s.silt.has_value(), table_there(s.silt.has_value(), "silt"), "one force"};
+         },
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.silt.reset();
+             return Removal{s, "no [silt]"};
+         },
+         .leave_out = [](Scene& s, const EffectPlan&) { s.silt.reset(); },
+         .named = Effect::silt},
+        {.name = "ice",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {s.ice.has_value(), s.ice ? "[ice] is given; acts in the combinations that name it" : "no [ice]",
+                     "one force"};
+         },
+         .remove = without_ice,
+         .leave_out = [](Scene& s, const EffectPlan&) { s.ice.reset(); },
+         .named = Effect::ice},
+        {.name = "user forces",
+         .decide = [](const Scene& s, Method) -> Decision {
+             return {!s.forces.empty(),
+                     s.forces.empty() ? "no [[force]]" : fmt::format("{} [[force]]", s.forces.size()),
+                     "one force each"};
+         },
+         .remove = [](Scene s, const SeepagePoints&) -> RemovalAnswer {
+             s.forces.clear();
+             return Removal{s, "no [[force]]"};
+         },
+         .leave_out = [](Scene& s, const EffectPlan&) { s.forces.clear(); },
+         .named = Effect::user_forces},
     };
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "core/input_error.hpp"
+#include "scene/read.hpp"
+#include "scene/scene.hpp"
 
 #include <map>
 #include <string>
+#include <toml++/toml.h>
 #include <vector>
 
 namespace damslip {
@@ -36,5 +39,14 @@ private:
     std::map<std::string, Place> places_;
     std::vector<Diagnostic> diagnostics_, notes_;
 };
+
+/// The second half of parse_scene(): of a text that is TOML. @throws InputError
+Scene scene_of_table(toml::table root, const std::filesystem::path& file, FileCheck check);
+
+/// The first half. @throws InputError with the line that is no TOML
+toml::table toml_of(std::string_view text, const std::filesystem::path& file);
+
+/// As written in a scene file: "curtain".
+const char* word(UpliftModel model);
 
 } // namespace damslip

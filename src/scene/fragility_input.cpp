@@ -4,7 +4,7 @@
 #include "core/input_error.hpp"
 #include "core/units.hpp"
 #include "scene/fragility_keys.hpp"
-#include "scene/read_table.hpp"
+#include "scene/findings.hpp"
 
 #include <algorithm>
 #include <cmath>

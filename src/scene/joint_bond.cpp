@@ -1,7 +1,10 @@
 #include "scene/joint_bond.hpp"
 
+#include "scene/uplift_models.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -66,6 +69,95 @@ std::optional<double> joint_modulus(const Scene& scene, bool base)
     if (!dam || !base || !scene.foundation) return dam;
     const auto rock = plane_strain_modulus(scene.foundation->material);
     return rock ? std::optional(2.0 / (1.0 / *dam + 1.0 / *rock)) : dam;
+}
+
+const std::vector<std::pair<std::string, OpeningWater>>& opening_waters()
+{
+    static const std::vector<std::pair<std::string, OpeningWater>> words{{"unchanged", OpeningWater::unchanged},
+                                                                         {"zero", OpeningWater::zero},
+                                                                         {"full", OpeningWater::full},
+                                                                         {"mouth", OpeningWater::mouth},
+                                                                         {"reynolds", OpeningWater::reynolds}};
+    return words;
+}
+
+const std::string& word(OpeningWater rule)
+{
+    return std::find_if(opening_waters().begin(), opening_waters().end(),
+                        [rule](const auto& entry) { return entry.second == rule; })
+        ->first;
+}
+
+bool drains_shear_off(const Scene& scene)
+{
+    if (!scene.uplift || !scene.drains || !scene.drains->lost_at_slip) return false;
+    const UpliftModel model = scene.uplift->model;
+    return model == UpliftModel::drains || model == UpliftModel::seepage || uplift_row(model).by_drains;
+}
+
+bool base_water_changes(const Scene& scene)
+{
+    return (scene.uplift && scene.uplift->water.follows()) || drains_shear_off(scene);
+}
+
+std::string first_joint_law(const Scene& s)
+{
+    if (breaks_by_energy(s.contact)) return "contact.bond = \"fracture\"";
+    for (std::size_t i = 0; i < s.lift_joints.size(); ++i)
+        if (breaks_by_energy(s.lift_joints[i].strength))
+            return fmt::format("lift_joint[{}].bond = \"fracture\"", i + 1);
+    if (s.contact.rate.active()) return "contact.kinetic_friction_ratio";
+    for (std::size_t i = 0; i < s.lift_joints.size(); ++i)
+        if (s.lift_joints[i].strength.rate.active()) return fmt::format("lift_joint[{}].kinetic_friction_ratio", i + 1);
+    if (!s.anchors.empty()) return "[[anchor]]";
+    if (s.uplift && s.uplift->water.follows())
+        return s.uplift->water.opening != OpeningWater::unchanged ? "uplift.opening" : "uplift.after";
+    if (drains_shear_off(s)) return "drains.lost_at_slip_m";
+    return {};
+}
+
+std::optional<Scene> with_exact_contact(const Scene& scene)
+{
+    if (scene.contact.enforcement == ContactEnforcement::exact && scene.contact.normal == NormalContact::hard)
+        return std::nullopt;
+    Scene exact = scene;
+    exact.contact.normal = NormalContact::hard;
+    exact.contact.enforcement = ContactEnforcement::exact;
+    exact.contact.tangential_stiffness.reset();
+    return exact;
+}
+
+FrictionOverSlip::FrictionOverSlip(const Contact& contact)
+    : points_(contact.friction_table), path_(contact.residual_path),
+      constant_(contact.friction_table.empty() && !contact.residual_friction)
+{
+    if (!points_.empty()) return;
+    points_.push_back({0.0, contact.friction});
+    if (contact.residual_friction) points_.push_back({contact.residual_slip, *contact.residual_friction});
+}
+
+double FrictionOverSlip::at(double slip) const
+{
+    if (slip <= points_.front().x) return points_.front().y;
+    for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
+        const Point &a = points_[k], &b = points_[k + 1];
+        if (slip >= b.x) continue;
+        return path_ == Interpolation::steps ? a.y : a.y + (slip - a.x) / (b.x - a.x) * (b.y - a.y);
+    }
+    return points_.back().y;
+}
+
+std::vector<FrictionOverSlip::Piece> FrictionOverSlip::pieces() const
+{
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        Piece piece{i == 0 ? 0.0 : points_[i].x, points_[i].y, 0.0};
+        const bool last = i + 1 == points_.size();
+        if (path_ == Interpolation::linear && !last && points_[i + 1].x > points_[i].x)
+            piece.slope = (points_[i + 1].y - points_[i].y) / (points_[i + 1].x - points_[i].x);
+        pieces.push_back(piece);
+    }
+    return pieces;
 }
 
 } // namespace damslip

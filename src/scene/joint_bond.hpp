@@ -2,6 +2,11 @@
 
 #include "scene/scene.hpp"
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace damslip {
 
 /// How a joint loses its cohesion: as the scene says, else by fracture energy where it has one, else all together.
@@ -27,5 +32,47 @@ CarriedBond carried_bond(const Contact& strength, double modulus, double element
 
 /// E' of the joint: harmonic mean of both sides' E/(1 - nu²); a rigid side counts as the other [Pa]. None: no modulus known.
 std::optional<double> joint_modulus(const Scene& scene, bool base);
+
+/// Words of uplift.opening, in the order of the guidelines that are for them.
+const std::vector<std::pair<std::string, OpeningWater>>& opening_waters();
+
+/// As written in a scene file: "full".
+const std::string& word(OpeningWater rule);
+
+/// The uplift hangs on drains that shear off while the base slips.
+bool drains_shear_off(const Scene& scene);
+/// The water under the base does not stay as it is: it follows the opening, or its drains shear off.
+bool base_water_changes(const Scene& scene);
+
+/// Key of the first joint law in the scene that goes beyond Coulomb friction; empty where there is none.
+std::string first_joint_law(const Scene& scene);
+
+/// The scene with rigid sticking and hard contact, everything else the same; none where that is its law already.
+std::optional<Scene> with_exact_contact(const Scene& scene);
+
+/// Coulomb's friction of a joint over the slip it has accumulated in both directions, as the scene's Contact gives it: one value,
+/// peak and residual value, or a table; constant between two of its points, or linear.
+class FrictionOverSlip {
+public:
+    explicit FrictionOverSlip(const Contact& contact);
+
+    bool constant() const { return constant_; }          ///< neither residual value nor table is given
+    double peak() const { return points_.front().y; }    ///< of a joint that has not slipped [-]
+    double residual() const { return points_.back().y; } ///< in the end [-]
+    double at(double slip) const;                        ///< [-]; at a step its value before it @param slip  >= 0 [m]
+
+    /// The same piece by piece.
+    struct Piece {
+        double from_slip = 0.0; ///< [m]; two pieces from 0 on: the second holds as soon as the joint moves at all
+        double friction = 0.0;  ///< there [-]
+        double slope = 0.0;     ///< d mu / d slip up to the next piece [1/m]
+    };
+    std::vector<Piece> pieces() const;
+
+private:
+    std::vector<Point> points_; ///< x = slip [m], ascending from 0, y = mu [-]
+    Interpolation path_;
+    bool constant_;
+};
 
 } // namespace damslip

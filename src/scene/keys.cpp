@@ -1,7 +1,12 @@
 #include "scene/keys.hpp"
 
-#include "scene/key_parts.hpp"
-#include "scene/usual.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/key_table.hpp"
+#include "scene/plausible.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -79,6 +84,200 @@ std::vector<KeyGroup> key_groups(SectionInput& section)
     append(fe_groups());
     add_usual_ranges(groups);
     return groups;
+}
+
+void apply_preset(Scene& scene, const std::function<bool(const char* key)>& open)
+{
+    if (scene.analysis.preset != AnalysisPreset::goldgruber_2015) return;
+    if (open("contact.enforcement")) scene.contact.enforcement = ContactEnforcement::slip_tolerance;
+    if (open("contact.slip_tolerance")) scene.contact.slip_tolerance = 0.005;
+    if (open("contact.separation")) scene.contact.separation = JointOpening::none;
+    if (scene.foundation && open("foundation.mass")) scene.foundation->mass = RockMass::massless;
+    if (scene.foundation && open("foundation.boundary")) scene.foundation->boundary = RockBoundary::fixed;
+    if (scene.reservoir && open("reservoir.far_end")) scene.reservoir->far_end = FarEnd::damper;
+    if (scene.reservoir && open("reservoir.bottom_motion")) scene.reservoir->bottom_motion = BottomMotion::still;
+    if (scene.reservoir && open("reservoir.bottom_reflection") && !scene.reservoir->bottom_density)
+        scene.reservoir->bottom_reflection = 1.0;
+    if (open("damping.mass")) scene.damping.mass = MassDamping::relative;
+    if (open("time.scheme")) scene.time.scheme = TimeScheme::hht;
+    if (open("time.alpha")) scene.time.alpha = -1.0 / 3.0;
+    if (open("time.dt")) scene.time.dt = 0.01;
+    if (open("time.substeps") && open("time.slip_tolerance")) scene.time.substeps = 0;
+}
+
+namespace {
+
+using namespace methods;
+
+constexpr Methods blocks = rigid | flexible, finite_elements = fe | reduced, slips = blocks | finite_elements,
+                  tied = spectrum | modes, model = tied | finite_elements,
+                  statics = slips | equilibrium | regressions | spectrum, all = statics | modes,
+                  moments = rigid | equilibrium | spectrum | finite_elements;
+
+constexpr std::array<const char*, 8> names{"rigid",    "flexible", "equilibrium", "regressions",
+                                           "spectrum", "fe",       "reduced",     "modes"};
+
+struct Row {
+    const char* key; ///< "drains.lost_at_slip", or a table: all its keys that have no row of their own
+    Methods honoured;
+};
+
+// clang-format off
+constexpr std::array rows{
+    Row{"site", statics},
+    Row{"section", all},
+    Row{"wedge", rigid | equilibrium | regressions}, Row{"wedge.plane", rigid | equilibrium | regressions},
+    Row{"wedge.force", rigid | equilibrium | regressions},
+    Row{"dam", model}, Row{"dam.density", all},
+
+    Row{"contact", slips}, Row{"contact.friction", statics}, Row{"contact.cohesion", statics},
+    Row{"contact.cohesion_lost_at_slip", slips | equilibrium}, Row{"contact.residual_friction", slips | equilibrium},
+    Row{"contact.friction_table", slips | equilibrium},
+    Row{"contact.sliding", fe}, Row{"contact.max_slip", fe},
+    Row{"contact.separation", finite_elements}, Row{"contact.enforcement", finite_elements},
+    Row{"contact.tangential_stiffness", finite_elements}, Row{"contact.slip_tolerance", finite_elements},
+    Row{"contact.normal", fe}, Row{"contact.pressure_at_zero_clearance", fe}, Row{"contact.clearance_at_zero_pressure", fe},
+    Row{"contact.bond", finite_elements}, Row{"contact.tensile_strength", fe}, Row{"contact.fracture_energy_tension", fe},
+    Row{"contact.fracture_energy_shear", fe}, Row{"contact.unloading", fe},
+    Row{"contact.kinetic_friction_ratio", rigid | fe}, Row{"contact.characteristic_rate", rigid | fe},
+    Row{"contact.relaxation_time", rigid | fe}, Row{"contact.relaxation_slip", rigid | fe},
+    Row{"contact.restitution", rigid | fe},
+    Row{"lift_joint", fe}, Row{"lift_joint.elevation", fe | tied},
+    Row{"anchor", rigid | fe}, Row{"anchor.distance", equilibrium | spectrum | fe},
+    Row{"anchor.prestress", rigid | equilibrium | regressions | spectrum | fe},
+    Row{"anchor.inclination", rigid | equilibrium | regressions | spectrum | fe},
+    Row{"anchor.dowel", rigid | equilibrium | regressions | spectrum | fe},
+    Row{"anchor.limit_force", equilibrium | spectrum},
+
+    Row{"uplift", statics}, Row{"uplift.crack", blocks | equilibrium | regressions | finite_elements}, Row{"uplift.opening", blocks | fe},
+    Row{"uplift.mouth_speed", blocks | fe}, Row{"uplift.after", rigid | fe}, Row{"uplift.joint_clearance", fe},
+    Row{"uplift.water_viscosity", fe}, Row{"uplift.cavitation_pressure", fe}, Row{"uplift.wet_end", fe},
+    Row{"curtain", statics}, Row{"curtain.young_modulus", model}, Row{"curtain.poisson_ratio", model},
+    Row{"drains", statics}, Row{"drains.lost_at_slip", blocks | fe},
+    Row{"foundation", model}, Row{"foundation.density", finite_elements}, Row{"foundation.mass", finite_elements},
+    Row{"foundation.boundary", fe}, Row{"foundation.wave_box", finite_elements},
+    Row{"foundation.wave_frequency", finite_elements}, Row{"foundation.permeability", statics},
+    Row{"reservoir", fe | modes}, Row{"reservoir.level", all}, Row{"reservoir.density", all}, Row{"reservoir.model", all},
+    Row{"reservoir.bulk_modulus", fe | tied}, Row{"reservoir.length", fe | tied}, Row{"reservoir.far_end", fe | tied},
+    Row{"reservoir.mesh_size", fe | tied}, Row{"reservoir.floor_pressure", finite_elements},
+    Row{"reservoir.surface", fe}, Row{"reservoir.floor", fe}, Row{"reservoir.bottom_motion", fe}, Row{"reservoir.bottom_reflection", fe}, Row{"reservoir.bottom_density", fe},
+    Row{"reservoir.bottom_modulus", fe},
+    Row{"added_mass", all},
+    Row{"gate", statics}, Row{"tailwater", statics}, Row{"silt", statics}, Row{"ice", statics}, Row{"force", statics},
+    Row{"ice.level", moments}, Row{"force.x", moments}, Row{"force.y", moments},
+
+    Row{"motion", statics}, Row{"motion.polarity", slips}, Row{"motion.vertical", slips | spectrum},
+    // Modified Rayleigh damping is fitted to the record.
+    Row{"motion.scale", statics | modes}, Row{"motion.record.scale", statics | modes},
+    Row{"motion.sequence", rigid | regressions | spectrum | fe | modes}, Row{"motion.sequence_pause", fe},
+    Row{"motion.record", statics}, Row{"motion.record.magnitude", regressions},
+    Row{"sliding", blocks}, Row{"sliding.scheme", rigid}, Row{"sliding.restitution", rigid},
+    Row{"sliding.run_out_max", slips}, Row{"sliding.steady_rate_change", finite_elements},
+    Row{"regressions", flexible | regressions}, Row{"regressions.weight", regressions},
+    Row{"flexible_block", flexible},
+    Row{"criteria", equilibrium}, Row{"criteria.allowable_slip", slips},
+    Row{"combination", equilibrium},
+
+    Row{"mesh", model}, Row{"mesh.rock_contact_size", fe},
+    Row{"stages", finite_elements},
+    Row{"damping", finite_elements}, Row{"damping.ratio", model},
+    Row{"damping.first_mode", finite_elements | modes}, Row{"damping.second_mode", finite_elements | modes},
+    Row{"time", finite_elements},
+    Row{"analysis", finite_elements},
+};
+// clang-format on
+
+/// What a method leaves out though the scene asks for it.
+struct LeftOut {
+    Methods set;
+    const char* key; ///< as in the sentence
+    bool (*asked)(const Scene&);
+    const char* instead;
+};
+
+bool follows_opening(const Scene& s, OpeningWater rule)
+{
+    return s.uplift && s.uplift->model != UpliftModel::none && s.uplift->water.opening == rule;
+}
+
+const std::array left_out{
+    LeftOut{blocks, "[[lift_joint]]", [](const Scene& s) { return !s.lift_joints.empty(); },
+            "it is the dam in one piece on its base; slip and opening of lift joints are left to finite elements"},
+    LeftOut{blocks, "contact.bond",
+            [](const Scene& s) {
+                return breaks_by_energy(s.contact) ||
+                       (s.contact.cohesion > 0.0 && bond_loss(s.contact) == BondLoss::pairs);
+            },
+            "it loses its cohesion all at once, at mu N' + c A"},
+    LeftOut{blocks, "uplift.opening = \"reynolds\"",
+            [](const Scene& s) { return follows_opening(s, OpeningWater::reynolds); },
+            "its joint has no width, the uplift stays as it was"},
+    LeftOut{blocks, "contact.restitution",
+            [](const Scene& s) { return s.contact.restitution > 0.0 && s.sliding.lift_off != LiftOff::ballistic; },
+            "with sliding.lift_off = \"no-friction\" it does not fly, and has nothing to rebound from"},
+    LeftOut{blocks, "added_mass.period_s = \"dam\"",
+            [](const Scene& s) {
+                return s.added_mass.period_of_dam && s.reservoir && s.reservoir->model != ReservoirModel::hydrostatic &&
+                       s.added_mass.formula == AddedMassFormula::westergaard;
+            },
+            "it has no period; its water is incompressible"},
+    LeftOut{finite_elements, "uplift.crack",
+            [](const Scene& s) {
+                return s.uplift && s.uplift->crack != CrackRule::none &&
+                       (follows_opening(s, OpeningWater::unchanged) || follows_opening(s, OpeningWater::zero));
+            },
+            "their base opens by itself, and the uplift of the whole base stays in the crack; write uplift.opening"},
+    LeftOut{finite_elements, "sliding.two_way = false", [](const Scene& s) { return !s.sliding.two_way; },
+            "their joint slides either way"},
+    LeftOut{
+        regressions, "contact.residual_friction",
+        [](const Scene& s) { return s.contact.residual_friction.value_or(s.contact.friction) != s.contact.friction; },
+        nullptr},
+    LeftOut{regressions, "contact.friction_table_m", [](const Scene& s) { return !s.contact.friction_table.empty(); },
+            nullptr},
+    LeftOut{regressions, "the loss of contact.cohesion_kPa at the first slip",
+            [](const Scene& s) { return s.contact.cohesion > 0.0 && s.contact.cohesion_lost_at_slip; }, nullptr},
+    LeftOut{regressions, "contact.kinetic_friction_ratio", [](const Scene& s) { return s.contact.rate.active(); },
+            nullptr},
+    LeftOut{regressions, "uplift.opening",
+            [](const Scene& s) { return s.uplift && !follows_opening(s, OpeningWater::unchanged); }, nullptr},
+    LeftOut{regressions, "drains.lost_at_slip_m",
+            [](const Scene& s) { return s.drains && s.drains->lost_at_slip.has_value(); }, nullptr},
+};
+
+} // namespace
+
+Methods honoured_by(const std::string& table, const std::string& key)
+{
+    for (const std::string& name : {table + "." + key, table})
+        for (const Row& row : rows)
+            if (name == row.key) return key == "name" ? 0 : row.honoured;
+    return 0;
+}
+
+std::string method_words(Methods set)
+{
+    if (set == all) return "all";
+    std::string words;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (set & (1u << i)) words += std::string(words.empty() ? "" : ", ") + names[i];
+    return words.empty() ? "none" : words;
+}
+
+std::vector<Diagnostic> not_honoured(const Scene& scene, Methods set)
+{
+    std::vector<Diagnostic> notes;
+    if (scene.wedge) return notes;
+    for (const LeftOut& row : left_out) {
+        if (!(row.set & set) || !row.asked(scene)) continue;
+        Diagnostic& note = notes.emplace_back();
+        const bool of_regressions = row.set == regressions;
+        const char* who = of_regressions ? "regressions" : row.set == blocks ? "sliding block" : "finite elements";
+        note.problem = fmt::format("{} is not in the slip of the {}: {}.", row.key, who,
+                                   row.instead ? row.instead : "they know the yield of the block at rest alone");
+        if (!of_regressions) note.fix = "no PASS rests on that slip";
+    }
+    return notes;
 }
 
 } // namespace damslip

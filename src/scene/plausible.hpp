@@ -4,7 +4,9 @@
 #include "scene/key_table.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Numbers that are allowed but not those of real dams: what is noted of them. A note is a Diagnostic that is not thrown: the
@@ -38,5 +40,25 @@ std::vector<std::string> note_texts(const std::vector<Diagnostic>& notes);
 /// The note of a water level above the crest. @param subject  "reservoir.level_m = 77.5"; levels [m]
 /// @returns nothing up to the crest
 std::optional<Diagnostic> unusual_level(const std::string& subject, double level, double crest);
+
+/// Ranges of real dams: what a number of the scene usually is, and who says so. They are rounded outward from what the source
+/// gives, so that a value outside is worth a second look, not wrong.
+
+/// Puts the usual range beside each number of the table. Every number has one, or a reason for having none (no_usual_range).
+void add_usual_ranges(std::vector<KeyGroup>& groups);
+
+/// A number without a usual range.
+struct NoUsualRange {
+    std::string_view key;    ///< "force.x"
+    std::string_view reason; ///< "a place"
+};
+std::span<const NoUsualRange> no_usual_range();
+
+/// What a short source of Usual::source stands for.
+struct UsualSource {
+    std::string_view name; ///< as in Usual::source, where several are parted by "; "
+    std::string_view full; ///< author, year, title, number
+};
+std::span<const UsualSource> usual_sources();
 
 } // namespace damslip

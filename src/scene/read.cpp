@@ -1,14 +1,13 @@
 #include "scene/read.hpp"
 
 #include "core/file.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "scene/check.hpp"
 #include "scene/findings.hpp"
 #include "scene/fragility_input.hpp"
 #include "scene/key_table.hpp"
 #include "scene/plausible.hpp"
-#include "scene/preset.hpp"
-#include "scene/read_table.hpp"
+#include "scene/keys.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,11 @@
 #include "scene/scene.hpp"
 
+#include "scene/check.hpp"
+#include "scene/section.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace damslip {
 
 Scene::Scene() = default;
@@ -8,5 +14,70 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(const Scene&) = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
+
+namespace {
+
+/// Water in a tension crack presses but hardly moves; it seeps out along the plane, whose pressure falls to zero at the
+/// toe (Hoek & Bray 1981).
+void fill_crack_water(Scene& scene, const Findings& findings)
+{
+    if (!findings.given("reservoir.model")) scene.reservoir->model = ReservoirModel::hydrostatic;
+    if (!scene.uplift) scene.uplift.emplace().model = UpliftModel::linear;
+}
+
+void name_parts(RockWedge& wedge)
+{
+    for (std::size_t i = 0; i < wedge.planes.size(); ++i)
+        if (wedge.planes[i].name.empty()) wedge.planes[i].name = fmt::format("plane {}", i + 1);
+    for (WedgeForce& force : wedge.forces)
+        if (force.name.empty()) force.name = "force";
+}
+
+} // namespace
+
+void fill_defaults(Scene& scene, const Findings& findings)
+{
+    if (scene.wedge) {
+        name_parts(*scene.wedge);
+        if (!scene.wedge->planes.empty())
+            scene.contact.friction = scene.wedge->planes.front().friction; // see with_friction
+        return;
+    }
+    const double base = base_length(scene.section);
+    if (scene.reservoir && findings.given("section.slope_height")) fill_crack_water(scene, findings);
+    if (scene.reservoir) {
+        if (!findings.given("reservoir.level")) scene.reservoir->level = crest_level(scene.section);
+        if (!findings.given("reservoir.length")) {
+            const double depths = scene.reservoir->far_end == FarEnd::absorbing ? 1.0 : 2.4;
+            scene.reservoir->length = std::max(depths * scene.reservoir->level, 1e-3);
+        }
+    }
+    if (scene.ice && !findings.given("ice.level"))
+        scene.ice->level = scene.reservoir ? scene.reservoir->level : crest_level(scene.section);
+    if (findings.given("time.alpha") && !findings.given("time.scheme")) scene.time.scheme = TimeScheme::hht;
+    if (scene.foundation) {
+        if (!findings.given("foundation.width")) scene.foundation->width = base * 20.0 / 3.0;
+        if (!findings.given("foundation.depth"))
+            scene.foundation->depth = std::max(base * 20.0 / 9.0, scene.curtain ? 2 * scene.curtain->depth : 0.0);
+    }
+    const bool water = scene.reservoir || scene.tailwater;
+    if (!scene.uplift && water && (scene.curtain || scene.drains))
+        scene.uplift.emplace().model = scene.curtain ? UpliftModel::seepage : UpliftModel::drains;
+    else if (scene.uplift && !findings.given("uplift.model"))
+        scene.uplift->model = !scene.uplift->points.empty() ? UpliftModel::points
+                              : scene.curtain               ? UpliftModel::seepage
+                              : scene.drains                ? UpliftModel::drains
+                                                            : UpliftModel::linear;
+    for (PointForce& force : scene.forces)
+        if (force.name.empty()) force.name = "force";
+    for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
+        if (scene.lift_joints[i].name.empty()) scene.lift_joints[i].name = fmt::format("lift joint {}", i + 1);
+    for (std::size_t i = 0; i < scene.anchors.size(); ++i) {
+        Anchor& anchor = scene.anchors[i];
+        if (anchor.name.empty()) anchor.name = fmt::format("anchor {}", i + 1);
+        if (anchor.prestress == 0.0 && !findings.given(fmt::format("anchor[{}].limit_force", i + 1)))
+            anchor.limit_force = AnchorForceRule::yield;
+    }
+}
 
 } // namespace damslip

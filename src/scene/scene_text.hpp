@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -54,5 +55,18 @@ private:
     explicit SceneText(std::shared_ptr<const Tables> tables) : tables_(std::move(tables)) {}
     std::shared_ptr<const Tables> tables_;
 };
+
+/// The scene with another peak friction; a residual value above it is lowered to it. Of a wedge it is the friction of the first
+/// plane, and the second keeps its share of it (without friction on the first plane: both get it). @throws UsageError for a
+/// scene with a friction table
+Scene with_friction(Scene scene, double friction);
+/// The same in place.
+void set_friction(Scene& scene, double friction);
+
+/// JSON Schema (draft 7) of the scene file, for editors and checkers.
+std::string scene_schema();
+
+/// Every key with unit, range, default and meaning, as Markdown.
+std::string scene_keys_markdown();
 
 } // namespace damslip

@@ -1,7 +1,13 @@
 #include "scene/section.hpp"
 
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "scene/check.hpp"
+#include "scene/rock_mass.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace damslip {
@@ -119,6 +125,208 @@ Polyline downstream_face(const Section& section)
 const char* sliding_body(const Scene& scene)
 {
     return scene.wedge ? "wedge" : scene.section.rock_slope ? "block" : "dam";
+}
+
+namespace {
+
+using checks::value;
+
+double cross(Point o, Point a, Point b)
+{
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+bool between(Point a, Point b, Point p)
+{
+    return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+           p.y <= std::max(a.y, b.y);
+}
+
+/// Closed segments ab and cd have a point in common.
+bool touch(Point a, Point b, Point c, Point d)
+{
+    const double d1 = cross(a, b, c), d2 = cross(a, b, d), d3 = cross(c, d, a), d4 = cross(c, d, b);
+    if (((d1 > 0) != (d2 > 0)) && ((d3 > 0) != (d4 > 0)) && d1 != 0 && d2 != 0 && d3 != 0 && d4 != 0) return true;
+    return (d1 == 0 && between(a, b, c)) || (d2 == 0 && between(a, b, d)) || (d3 == 0 && between(c, d, a)) ||
+           (d4 == 0 && between(c, d, b));
+}
+
+std::string point_text(Point p)
+{
+    return fmt::format("({}, {})", shortest(p.x), shortest(p.y));
+}
+
+void check_polygon(const Polyline& p, Findings& findings)
+{
+    const auto wrong = [&](std::string problem, std::string fix) {
+        findings.wrong("section.polygon", "section.polygon_m " + std::move(problem),
+                       "a simple polygon, counter-clockwise, from the heel at (0, 0) along the base to the toe",
+                       std::move(fix));
+    };
+    const std::size_t n = p.size();
+    if (n < 3) return wrong(fmt::format("has {} vertices.", n), "give at least three");
+    if (n > 400) return wrong(fmt::format("has {} vertices.", n), "a section needs far fewer; at most 400");
+    if (p[0] != Point{0, 0})
+        return wrong("starts at " + point_text(p[0]) + ".", "shift it so that the heel, given first, is (0, 0)");
+    for (const Point& q : p)
+        if (std::abs(q.x) > 1e5 || std::abs(q.y) > 1e5)
+            return wrong("has the vertex " + point_text(q) + ".", "coordinates are metres; at most 100 km");
+    for (std::size_t i = 0; i < n; ++i)
+        if (p[i] == p[(i + 1) % n])
+            return wrong("repeats the vertex " + point_text(p[i]) + ".", "delete one; the polygon closes by itself");
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 2; j < n; ++j) {
+            if (i == 0 && j == n - 1) continue;
+            if (touch(p[i], p[i + 1], p[j], p[(j + 1) % n]))
+                return wrong(fmt::format("crosses itself: edge {}-{} meets edge {}-{}.", point_text(p[i]),
+                                         point_text(p[i + 1]), point_text(p[j]), point_text(p[(j + 1) % n])),
+                             "put the vertices in order along the outline");
+        }
+    const double signed_area = area({p});
+    if (!(signed_area != 0)) return wrong("has no area.", "give the outline of the section");
+    if (signed_area < 0)
+        return wrong("runs clockwise.", "reverse the order after the heel: (0, 0), toe, ..., crest, back to the heel");
+    if (!(p[1].x > 0) || std::abs(p[1].y) > p[1].x)
+        return wrong("has the toe " + point_text(p[1]) + ".",
+                     "the second vertex is the toe, downstream (x > 0); the base dips less than 45 degrees");
+    if (crest_level({p}) <= 0) return wrong("has no vertex above the heel.", "y is up; the base is the first edge");
+    for (std::size_t i = 2; i < n; ++i)
+        if (cross(p[0], p[1], p[i]) <= 0)
+            return wrong("has the vertex " + point_text(p[i]) + " on or below the base.",
+                         "the base is the edge from heel to toe; all other vertices lie above its line. A key or step "
+                         "below it is not "
+                         "modelled: take the plane through the underside of the key as base, the rock before it as "
+                         "[[force]] (passive "
+                         "wedge) and the concrete of the key as cohesion_kPa");
+}
+
+Polyline polygon_by_dimensions(const SectionInput& in, Findings& findings)
+{
+    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
+        if (!value)
+            findings.wrong("section", fmt::format("section.{} is missing.", key),
+                           "polygon_m, or height_m, base_m and crest_m",
+                           fmt::format("add  {} = {}  or a polygon_m to [section]", key, example));
+        return value.has_value();
+    };
+    const bool has_height = need(in.height, "height_m", "62.5"), has_base = need(in.base, "base_m", "45");
+    if (!has_height || !has_base) return {};
+    const double h = *in.height, b = *in.base, crest = in.crest.value_or(0), neck = in.neck.value_or(0);
+    const double batter_height = std::min(in.upstream_slope_height.value_or(h), h);
+    const double crest_from = in.upstream_slope.value_or(0) * batter_height; // x of the crest's upstream end
+    const double crest_to = crest_from + crest;
+    const auto wrong = [&](const char* key, std::string problem, std::string fix) {
+        findings.wrong(std::string("section.") + key, std::move(problem), "dimensions that make a section",
+                       std::move(fix));
+    };
+    if (neck > 0 && !(crest > 0))
+        wrong("neck",
+              fmt::format("section.neck_m = {} is given without section.crest_m: the crest has no width.",
+                          shortest(neck)),
+              "add  crest_m = 6  or delete neck_m");
+    else if (neck >= h)
+        wrong("neck",
+              fmt::format("section.neck_m = {} is not below section.height_m = {}.", shortest(neck), shortest(h)),
+              "neck_m is the height of the vertical downstream face below the crest");
+    else if (crest_to > b)
+        wrong("crest",
+              fmt::format("the crest ends at x = {} m, downstream of the toe at section.base_m = {}.",
+                          shortest(crest_to), shortest(b)),
+              "widen the base, or lessen crest_m or upstream_slope");
+    const double toe_y = -b * std::tan(in.base_inclination.value_or(0));
+    if (toe_y >= h - neck)
+        wrong("base_inclination",
+              fmt::format("section.base_inclination_deg puts the toe at y = {} m.", shortest(toe_y)),
+              "the toe must lie below the downstream face");
+    Polyline p{{0, 0}, {b, toe_y}};
+    const auto add = [&p](Point q) {
+        if (q != p.back() && q != p.front()) p.push_back(q);
+    };
+    add({crest_to, h - neck});
+    add({crest_to, h});
+    add({crest_from, h});
+    if (batter_height < h) add({crest_from, batter_height});
+    return p;
+}
+
+bool any_of_rock_slope(const SectionInput& in)
+{
+    return in.slope_height || in.face_dip || in.plane_dip || in.crack_distance || in.upper_dip;
+}
+
+/// Empty where the slope cannot be: said in `findings`.
+Polyline polygon_of_rock_slope(const SectionInput& in, Findings& findings)
+{
+    const auto need = [&](const std::optional<double>& value, const char* key, const char* example) {
+        if (!value)
+            findings.wrong("section", fmt::format("section.{} is missing.", key),
+                           "slope_height_m, face_dip_deg, plane_dip_deg and crack_distance_m of a rock slope",
+                           fmt::format("add  {} = {}  to [section]", key, example));
+        return value.has_value();
+    };
+    const bool complete[] = {need(in.slope_height, "slope_height_m", "12"), need(in.face_dip, "face_dip_deg", "60"),
+                             need(in.plane_dip, "plane_dip_deg", "35"),
+                             need(in.crack_distance, "crack_distance_m", "4")};
+    if (!(complete[0] && complete[1] && complete[2] && complete[3])) return {};
+    const RockSlope slope{*in.slope_height, *in.face_dip, *in.plane_dip, *in.crack_distance, in.upper_dip.value_or(0)};
+    const auto degrees = [](const char* key, double angle) {
+        return fmt::format("{} = {:.10g}", key, angle / units::degree);
+    };
+    const auto wrong = [&](const char* key, std::string problem, const char* allowed, const char* fix) {
+        findings.wrong(std::string("section.") + key, std::move(problem), allowed, fix);
+        return Polyline{};
+    };
+    if (slope.plane_dip >= slope.face_dip)
+        return wrong("plane_dip",
+                     fmt::format("{} is not flatter than {}.", degrees("section.plane_dip_deg", slope.plane_dip),
+                                 degrees("section.face_dip_deg", slope.face_dip)),
+                     "a plane that comes out in the face: plane_dip_deg < face_dip_deg", "exchange them, if mixed up");
+    if (slope.upper_dip >= slope.face_dip)
+        return wrong("upper_dip",
+                     fmt::format("{} is not flatter than {}.", degrees("section.upper_dip_deg", slope.upper_dip),
+                                 degrees("section.face_dip_deg", slope.face_dip)),
+                     "upper_dip_deg < face_dip_deg", "there is no crest otherwise");
+    const double crest = slope.height / std::tan(slope.face_dip);
+    if (slope.crack_distance <= -crest)
+        return wrong("crack_distance",
+                     fmt::format("{} puts the crack before the slope: its toe is {} m before the crest.",
+                                 value("section.crack_distance_m", slope.crack_distance), shortest(crest)),
+                     "a crack between the toe of the slope and the place where the plane comes up", "move the crack");
+    if (crack_depth(slope) <= 1e-9 * slope.height)
+        return wrong("crack_distance",
+                     fmt::format("{}: the plane has come up to the surface before the crack.",
+                                 value("section.crack_distance_m", slope.crack_distance)),
+                     "a crack between the toe of the slope and the place where the plane comes up",
+                     "move the crack towards the crest; a block without crack is a polygon_m");
+    return sliding_block(slope);
+}
+
+} // namespace
+
+Section make_section(const SectionInput& in, Findings& findings)
+{
+    const bool dimensions = in.height || in.base || in.crest || in.neck || in.upstream_slope ||
+                            in.upstream_slope_height || in.base_inclination;
+    const bool slope = any_of_rock_slope(in);
+    Section section{in.polygon, slope};
+    if (!in.polygon.empty() && dimensions) {
+        findings.wrong("section", "section.polygon_m is given together with dimensions.",
+                       "polygon_m alone, or height_m, base_m, crest_m ... alone", "delete one of the two descriptions");
+        return section;
+    }
+    if (slope && (!in.polygon.empty() || dimensions)) {
+        findings.wrong("section", "section describes a rock slope together with a polygon or dimensions.",
+                       "slope_height_m, face_dip_deg, plane_dip_deg, crack_distance_m, upper_dip_deg alone",
+                       "delete one of the two descriptions");
+        return section;
+    }
+    if (in.polygon.empty()) {
+        if (findings.given("section.polygon")) return section; // already reported
+        section.polygon = slope ? polygon_of_rock_slope(in, findings) : polygon_by_dimensions(in, findings);
+        if (section.polygon.empty()) return section;
+    }
+    if (!findings.any()) check_polygon(section.polygon, findings);
+    return section;
 }
 
 } // namespace damslip

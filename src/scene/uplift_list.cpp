@@ -1,4 +1,4 @@
-#include "scene/uplift_row.hpp"
+#include "scene/uplift_models.hpp"
 
 #include <cassert>
 

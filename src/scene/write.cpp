@@ -1,7 +1,7 @@
 #include "scene/write.hpp"
 
 #include "core/file.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "scene/key_table.hpp"
 #include "scene/mesh_sizes.hpp"
 

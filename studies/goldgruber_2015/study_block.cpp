@@ -3,7 +3,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "core/units.hpp"
-#include "scene/with_friction.hpp"
+#include "scene/scene_text.hpp"
 #include "studies/goldgruber_2015/study_rows.hpp"
 
 #include <algorithm>

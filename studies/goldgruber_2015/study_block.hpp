@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/prepare/records.hpp"
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "pages/report/chart.hpp"
 #include "sliding/uplift/uplift_profile.hpp"
 

@@ -1,6 +1,6 @@
 #include "studies/goldgruber_2015/study_charts.hpp"
 
-#include "pages/sweep/sweep_charts.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include "analysis/modes/modes.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/sweep/sweep_axes.hpp"
-#include "fe2d/damping/rayleigh.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "scene/rock_mass.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "scene/scene.hpp"
 
 namespace damslip::study {

@@ -1,10 +1,7 @@
 #include "studies/goldgruber_2015/study_page.hpp"
 
-#include "pages/scene/effect_table.hpp"
-#include "pages/scene/record_charts.hpp"
-#include "pages/scene/report_provenance.hpp"
-#include "pages/scene/section_drawing.hpp"
-#include "pages/sweep/sweep_rows_view.hpp"
+#include "pages/scene/scene_pages.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 #include "scene/plausible.hpp"
 #include "studies/goldgruber_2015/study_charts.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/status_count.hpp"
-#include "core/table.hpp"
+#include "core/status.hpp"
+#include "core/csv.hpp"
 #include "pages/report/chart.hpp"
 #include "studies/goldgruber_2015/study_rows.hpp"
 

@@ -4,7 +4,7 @@
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "analysis/fragility/hazard_file.hpp"
 #include "core/input_error.hpp"
-#include "records/generate/spectrum_file.hpp"
+#include "records/generate/target_spectrum.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 // Smaller lines of A18: base shear of modes, a column that stays, the default mesh of short blocks, boxes of rock too small.
 #include "analysis/spectrum/spectrum_level.hpp"
-#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_pages.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/plausible.hpp"
 #include "scene/read.hpp"

@@ -3,7 +3,7 @@
 #include "agency_files.hpp"
 #include "core/input_error.hpp"
 #include "core/units.hpp"
-#include "records/read/component.hpp"
+#include "records/read/header.hpp"
 #include "records/read/read_record.hpp"
 
 #include <cmath>

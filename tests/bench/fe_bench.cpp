@@ -1,6 +1,6 @@
 // Seconds of an FE run, part by part: 20 s record of 0.01 s steps, exact contact, everything included.
 #include "fe2d/reduction/reduced_run.hpp"
-#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "verification/cases/fe_run_scenes.hpp"

@@ -4,7 +4,7 @@
 #include "fe2d/gmsh/read_gmsh.hpp"
 #include "fe2d/gmsh/write_gmsh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
-#include "fe2d/mesh/quality.hpp"
+#include "fe2d/mesh/faces.hpp"
 
 #include <algorithm>
 #include <cmath>

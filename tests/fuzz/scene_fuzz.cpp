@@ -4,7 +4,7 @@
 #include "scene/effect_plan.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"
-#include "scene/wedge_shape.hpp"
+#include "scene/rock_wedge.hpp"
 #include "scene/write.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Wrong command lines and the exact words their users read.
-#include "cli/input/number_list.hpp"
+#include "cli/input/make_axes.hpp"
 #include "cli/program.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

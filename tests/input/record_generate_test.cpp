@@ -1,9 +1,8 @@
 // Bad wishes to `record generate`, `scale`, `baseline`, `spectrum`, and what is answered.
 #include "cli/record_command.hpp"
 #include "core/input_error.hpp"
-#include "core/usage_error.hpp"
 #include "pages/record/record_tables.hpp"
-#include "records/generate/spectrum_file.hpp"
+#include "records/generate/target_spectrum.hpp"
 #include "source_dir.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // What central difference and superposition of modes refuse, each with the reason and a way out.
 #include "core/input_error.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "scene/read.hpp"
 #include "verification/exact/reference_scene.hpp"

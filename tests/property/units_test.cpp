@@ -5,7 +5,7 @@
 // scaling_test.cpp).
 #include "cli/program.hpp"
 #include "core/file.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "random/draw.hpp"
 
 #include <gtest/gtest.h>

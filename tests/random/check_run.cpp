@@ -1,7 +1,7 @@
 #include "random/check_run.hpp"
 
 #include "cli/program.hpp"
-#include "core/status_count.hpp"
+#include "core/status.hpp"
 #include "scene/mesh_sizes.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"

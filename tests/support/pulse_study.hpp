@@ -3,7 +3,7 @@
 #include "program_answer.hpp"
 #include "pulse_scene.hpp"
 
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/model/edge_dashpots.hpp"
+#include "fe2d/model/model.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
 #include "verification/exact/half_plane.hpp"
 #include "verification/exact/strip_loads.hpp"

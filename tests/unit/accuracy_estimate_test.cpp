@@ -1,7 +1,7 @@
 // What the ladder says that steps and meshes leave open, beside the true error on scenes whose slip is known from much
 // finer runs; and the rung it names, run again.
-#include "analysis/accuracy/climb.hpp"
-#include "analysis/accuracy/judge.hpp"
+#include "analysis/accuracy/ladder.hpp"
+#include "analysis/accuracy/accuracy.hpp"
 #include "analysis/accuracy/rung_runner.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

@@ -1,6 +1,5 @@
 // What the ladder's figure, tables and sentence say of a few results that are made up.
-#include "pages/accuracy/accuracy_tables.hpp"
-#include "pages/accuracy/cost_figure.hpp"
+#include "pages/accuracy/accuracy_pages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // The ladder's judgement: orders, limits, errors, front and choice from results that are made up, so that each is known.
-#include "analysis/accuracy/climb.hpp"
-#include "analysis/accuracy/convergence.hpp"
-#include "analysis/accuracy/judge.hpp"
+#include "analysis/accuracy/ladder.hpp"
+#include "analysis/accuracy/accuracy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // What `damslip fe` may say of a slip: with which motion, how sure, and when nothing.
 #include "core/file.hpp"
 #include "csv_rows.hpp"
-#include "pages/fe/contact_tables.hpp"
-#include "pages/fe/fe_report.hpp"
+#include "pages/fe/fe_pages.hpp"
 #include "program_answer.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

@@ -1,6 +1,6 @@
 // The flexible block: judged by its own slip, its decoupled slip exact, its limits and words true.
 #include "analysis/screen/screening.hpp"
-#include "pages/screen/screen_report.hpp"
+#include "pages/screen/screen_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "sliding/flexible/flexible_slide.hpp"

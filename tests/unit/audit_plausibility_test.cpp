@@ -3,7 +3,6 @@
 #include "program_answer.hpp"
 #include "scene/plausible.hpp"
 #include "scene/read.hpp"
-#include "scene/usual.hpp"
 #include "scene/write.hpp"
 #include "source_dir.hpp"
 

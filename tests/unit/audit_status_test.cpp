@@ -4,12 +4,11 @@
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
-#include "core/status_count.hpp"
-#include "pages/sweep/sweep_rows_view.hpp"
-#include "pages/sweep/sweep_tables.hpp"
+#include "core/status.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
-#include "scene/with_friction.hpp"
+#include "scene/scene_text.hpp"
 #include "source_dir.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,6 @@
 // The program in its surroundings: where output goes, what names may do, files that were cut.
 #include "agency_files.hpp"
-#include "cli/terminal/interrupt.hpp"
-#include "cli/terminal/progress.hpp"
-#include "cli/terminal/visible_stream.hpp"
+#include "cli/terminal/terminal.hpp"
 #include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "pages/report/table_text.hpp"

@@ -9,13 +9,13 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/fragility_study.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/fragility/fragility_estimate.hpp"
 
 #include "core/file.hpp"
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

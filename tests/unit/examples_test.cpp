@@ -1,7 +1,7 @@
 // Every .toml of examples/ is read and held against the figures it states under [expect].
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/prepare/seepage_source.hpp"
+#include "analysis/prepare/reservoir.hpp"
 #include "core/units.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"

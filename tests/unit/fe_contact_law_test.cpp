@@ -1,5 +1,5 @@
 // Elastic slip in front of Coulomb's law, and strength that changes with slip, on pairs solved by hand.
-#include "fe2d/contact/joint_solver.hpp"
+#include "fe2d/contact/joint_laws.hpp"
 #include "fe2d/run/strength.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // Contact as a small dense problem: Newton on the states against Lemke's method and hand-solved cases.
 #include "fe2d/contact/contact_solver.hpp"
-#include "fe2d/contact/gauss_seidel.hpp"
-#include "fe2d/contact/lemke.hpp"
+#include "fe2d/contact/contact_problem.hpp"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

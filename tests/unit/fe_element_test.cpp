@@ -1,6 +1,6 @@
 // Elements: patch tests, rigid modes, masses.
 #include "fe2d/assembly/assemble.hpp"
-#include "fe2d/element/scalar.hpp"
+#include "fe2d/element/elastic.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

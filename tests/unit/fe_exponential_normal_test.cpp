@@ -1,5 +1,5 @@
 // Soft exponential normal contact: the law, pairs solved by hand, and its limits.
-#include "fe2d/contact/joint_solver.hpp"
+#include "fe2d/contact/joint_laws.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Dam and rock whose meshes do not match, by slip or by size.
 #include "verification/cases/fe_run_scenes.hpp"
 
-#include "fe2d/run/pairing.hpp"
+#include "fe2d/run/contact_structure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Meshes through Gmsh files and back: the same mesh.
 #include "fe2d/gmsh/read_gmsh.hpp"
 #include "fe2d/gmsh/write_gmsh.hpp"
-#include "fe2d/mesh/export_mesh.hpp"
+#include "fe2d/mesh/mesh.hpp"
 #include "fe2d/mesh/import_mesh.hpp"
 #include "fe_scenes.hpp"
 #include "scene/read.hpp"

@@ -1,11 +1,8 @@
 // Lift joints in the mesh and the unknowns: nodes twice, faces through both, tied = uncracked.
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/mesh/quality.hpp"
-#include "fe2d/mesh/reservoir_mesh.hpp"
-#include "fe2d/model/lift_water.hpp"
-#include "fe2d/model/static_loads.hpp"
+#include "fe2d/mesh/faces.hpp"
+#include "fe2d/model/static_solution.hpp"
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/statics/static_solution.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>

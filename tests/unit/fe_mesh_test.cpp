@@ -1,9 +1,7 @@
 // Structured mesher: conformity, areas, split contact plane, grading, curtain, refusals.
 #include "core/input_error.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/mesh/grading.hpp"
-#include "fe2d/mesh/quality.hpp"
-#include "fe2d/mesh/reservoir_mesh.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "fe_scenes.hpp"
 #include "scene/section.hpp"
 

@@ -1,9 +1,8 @@
 // VTU files: every byte offset of the header points at a block of the right length.
 #include "core/file.hpp"
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/output/mesh_part.hpp"
 #include "fe2d/output/vtu.hpp"
-#include "fe2d/run/frame_spool.hpp"
+#include "fe2d/run/run_history.hpp"
 #include "fe_scenes.hpp"
 
 #include <gtest/gtest.h>

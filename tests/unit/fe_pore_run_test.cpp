@@ -1,8 +1,8 @@
 // Water in the rock (stages.pore_pressure) under a dam that may slide.
 #include "analysis/prepare/ready.hpp"
-#include "analysis/prepare/rock_water.hpp"
-#include "fe2d/statics/static_solution.hpp"
-#include "pages/fe/fe_output.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "pages/fe/fe_pages.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Dams tied to a base that moves: the coupling of the steps, and transfer functions with the rock's dynamic stiffness.
-#include "analysis/prepare/tied_scheme.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/input_error.hpp"
 #include "fe2d/harmonic/transfer.hpp"
-#include "fe2d/rock/rock_base.hpp"
-#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "fe_scenes.hpp"

@@ -1,6 +1,6 @@
 // The rock's side of the contact plane with an element size of its own.
 #include "fe2d/assembly/surface_load.hpp"
-#include "fe2d/mesh/quality.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe_scenes.hpp"
 

@@ -1,11 +1,8 @@
 // Parts of the staged run: factor with the interface last, condensed rock, products, resultants.
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/run/block_products.hpp"
-#include "fe2d/run/few_rows.hpp"
-#include "fe2d/run/node_ldlt.hpp"
-#include "fe2d/run/tied_frequencies.hpp"
+#include "fe2d/run/node_products.hpp"
+#include "fe2d/run/contact_structure.hpp"
 #include "fe2d/solver/dense_product.hpp"
-#include "fe2d/solver/transposed_product.hpp"
 #include "fe2d/time/condensation.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

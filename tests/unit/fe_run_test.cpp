@@ -2,7 +2,7 @@
 #include "core/input_error.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
-#include "scene/with_friction.hpp"
+#include "scene/scene_text.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"

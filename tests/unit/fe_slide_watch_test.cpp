@@ -1,6 +1,6 @@
 // When sliding with the ground at rest is self-excited: made-up histories on both sides of every criterion, and small dams.
 #include "fe2d/reduction/reduced_run.hpp"
-#include "fe2d/run/slide_probe.hpp"
+#include "fe2d/run/earthquake_pass.hpp"
 #include "fe2d/run/slide_watch.hpp"
 #include "program_answer.hpp"
 #include "scene/write.hpp"

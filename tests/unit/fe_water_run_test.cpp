@@ -1,5 +1,5 @@
 // Sliding runs with acoustic water.
-#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/structure_system.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

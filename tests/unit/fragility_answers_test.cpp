@@ -5,9 +5,7 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/fragility/capacity_roots.hpp"
-#include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
-#include "analysis/fragility/stage_fragility.hpp"
 
 #include "core/file.hpp"
 #include "core/status.hpp"

@@ -3,7 +3,7 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "scene/document.hpp"
+#include "scene/scene_text.hpp"
 #include "scene/fragility_input.hpp"
 #include "scene/fragility_keys.hpp"
 #include "scene/read.hpp"

@@ -1,7 +1,7 @@
 // Recorded motions (PROBABILITY.md 9, case 3): P of a one-way block under the shipped accelerograms is the mean over records and polarities of F(mu*),
 // mu* the friction with the limit's slip, found by integration in extended precision and bisection.
 #include "core/file.hpp"
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 #include "program_answer.hpp"
 #include "records/read/read_record.hpp"
 #include "verification/exact/block_slip.hpp"

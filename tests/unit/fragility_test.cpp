@@ -9,12 +9,12 @@
 // mu with D = d. Latin hypercubes of m points meet F_mu(mu*) to 1/m.
 #include "pulse_scene.hpp"
 
-#include "analysis/fragility/fragility_causes.hpp"
+#include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "analysis/prepare/ready.hpp"
-#include "analysis/screen/given_yield_runs.hpp"
+#include "analysis/screen/regression_rows.hpp"
 #include "program_answer.hpp"
 #include "records/read/read_record.hpp"
 #include "scene/read.hpp"

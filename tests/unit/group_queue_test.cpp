@@ -1,5 +1,5 @@
 // Who takes which groups of runs.
-#include "analysis/fe/group_queue.hpp"
+#include "analysis/fe/contact_runs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

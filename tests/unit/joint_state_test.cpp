@@ -3,8 +3,8 @@
 #include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "pages/fe/contact_tables.hpp"
-#include "records/transform/sequence.hpp"
+#include "pages/fe/fe_pages.hpp"
+#include "records/transform/transform.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/hard/hard_scenes.hpp"
 

@@ -1,9 +1,8 @@
 // Reports as PDF, by a stand-in for Chromium on the PATH: what it is asked, what becomes of what it prints, and what is said when it fails.
 // That a real one prints the pages is a test of the reports.
-#include "cli/print_pdf.hpp"
+#include "cli/verifier.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/usage_error.hpp"
 #include "program_answer.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,5 @@
 // Measures of an accelerogram against closed solutions of piecewise-linear acceleration.
-#include "records/measure/intensity.hpp"
-#include "records/measure/mean_period.hpp"
 #include "records/measure/measures.hpp"
-#include "records/measure/peaks.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 // Response spectra against closed solutions of the oscillator on piecewise-linear ground acceleration.
-#include "records/measure/oscillator.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "verification/exact/oscillator.hpp"
 

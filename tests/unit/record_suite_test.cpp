@@ -3,11 +3,11 @@
 #include "core/input_error.hpp"
 #include "program_answer.hpp"
 #include "records/generate/generate.hpp"
-#include "records/generate/spectrum_file.hpp"
+#include "records/generate/target_spectrum.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"
-#include "records/suite/select_suite.hpp"
+#include "records/suite/suite.hpp"
 #include "source_dir.hpp"
 
 #include <algorithm>

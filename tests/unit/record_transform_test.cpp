@@ -1,7 +1,5 @@
 // Scaling, subdividing, baseline and the two components on one grid.
-#include "records/measure/peaks.hpp"
-#include "records/transform/baseline.hpp"
-#include "records/transform/ground_motion.hpp"
+#include "records/measure/measures.hpp"
 #include "records/transform/transform.hpp"
 
 #include "core/input_error.hpp"

@@ -1,4 +1,4 @@
-#include "pages/report/chart_data.hpp"
+#include "pages/report/chart.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,8 @@
 // The report of FE contact runs: its charts say what the runs say.
 #include "analysis/prepare/ready.hpp"
 #include "core/units.hpp"
-#include "pages/fe/fe_charts.hpp"
-#include "pages/fe/fe_report.hpp"
-#include "pages/report/page_html.hpp"
+#include "pages/fe/fe_pages.hpp"
+#include "pages/report/page.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"
 

@@ -1,9 +1,8 @@
 #include "core/file.hpp"
-#include "pages/report/assets.hpp"
-#include "pages/report/chart_data.hpp"
-#include "pages/report/escape.hpp"
-#include "pages/report/page_html.hpp"
-#include "pages/report/sketch.hpp"
+#include "pages/report/page.hpp"
+#include "pages/report/chart.hpp"
+#include "pages/report/json.hpp"
+#include "pages/report/picture.hpp"
 #include "source_dir.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "pulse_scene.hpp"
 
 #include "analysis/screen/screening.hpp"
-#include "pages/screen/screen_report.hpp"
+#include "pages/screen/screen_pages.hpp"
 
 #include <gtest/gtest.h>
 

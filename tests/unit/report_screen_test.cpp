@@ -1,5 +1,5 @@
 #include "core/units.hpp"
-#include "pages/screen/screen_report.hpp"
+#include "pages/screen/screen_pages.hpp"
 #include "scene/read.hpp"
 #include "source_dir.hpp"
 

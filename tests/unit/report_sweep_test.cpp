@@ -1,6 +1,5 @@
 // The report of a sweep: its charts say what the rows say.
-#include "pages/sweep/sweep_charts.hpp"
-#include "pages/sweep/sweep_report.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 #include "scene/read.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "fe2d/rock/frequency_solver.hpp"
-#include "fe2d/rock/rock_of_scene.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 #include "fe_scenes.hpp"
 #include "rock_scenes.hpp"
 

@@ -1,7 +1,7 @@
 // A water's floor that is the radiating rock (reservoir.floor = "rock").
 #include "fe2d/harmonic/transfer.hpp"
-#include "fe2d/rock/rock_base.hpp"
-#include "fe2d/rock/rock_of_scene.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "rock_scenes.hpp"
 #include "scene/rock_mass.hpp"

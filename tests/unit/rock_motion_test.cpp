@@ -1,4 +1,4 @@
-#include "fe2d/rock/rock_motion.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
 #include "rock_scenes.hpp"
 
 #include <Eigen/Cholesky>

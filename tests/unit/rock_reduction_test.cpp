@@ -1,5 +1,5 @@
 #include "fe2d/rock/frequency_solver.hpp"
-#include "fe2d/rock/rock_motion.hpp"
+#include "fe2d/rock/reduced_rock.hpp"
 #include "fe2d/solver/linear_solver.hpp"
 #include "rock_scenes.hpp"
 

@@ -1,4 +1,3 @@
-#include "core/cache_folder.hpp"
 #include "core/file.hpp"
 #include "rock_scenes.hpp"
 

@@ -1,5 +1,5 @@
 #include "analysis/accuracy/rung.hpp"
-#include "analysis/sweep/sweep_method.hpp"
+#include "analysis/sweep/sweep_axes.hpp"
 #include "core/input_error.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"

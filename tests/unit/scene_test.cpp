@@ -1,5 +1,5 @@
 #include "core/input_error.hpp"
-#include "scene/document.hpp"
+#include "scene/scene_text.hpp"
 #include "scene/read.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"

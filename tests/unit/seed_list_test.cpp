@@ -1,5 +1,4 @@
 // Artificial records of a list of seeds: made once, as `record generate` makes them, and again where a line changes.
-#include "core/cache_folder.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "records/generate/generate.hpp"

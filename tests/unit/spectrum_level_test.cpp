@@ -1,6 +1,5 @@
-#include "analysis/spectrum/modal_forces.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
-#include "fe2d/modes/modal_combination.hpp"
+#include "fe2d/modes/natural_modes.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/read.hpp"
 

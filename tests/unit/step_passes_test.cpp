@@ -1,7 +1,7 @@
 // Passes of a step against the same formulas by Eigen's expressions: not a bit differs.
-#include "fe2d/run/step_passes.hpp"
+#include "fe2d/run/contact_motion.hpp"
 
-#include "core/vector_level.hpp"
+#include "core/version.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Measures of a suite, kept beside it: the same doubles, worked out once.
 #include "core/file.hpp"
 #include "records/measure/response_spectrum.hpp"
-#include "records/suite/suite_index.hpp"
+#include "records/suite/suite.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

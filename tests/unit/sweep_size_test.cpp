@@ -1,8 +1,8 @@
 // Sizes of a sweep: every length of a scene grows, nothing else does, and a run does not tell a grown scene from one
 // that was written so.
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/sweep/sweep_size.hpp"
-#include "core/number.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
+#include "core/text.hpp"
 #include "scene/read.hpp"
 #include "scene/write.hpp"
 #include "sweep_scene.hpp"

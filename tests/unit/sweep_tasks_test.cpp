@@ -1,7 +1,7 @@
 // Order, parts and FE groups of a sweep's rows; sizes; quoting of commands.
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/sweep/sweep_method.hpp"
-#include "analysis/sweep/sweep_size.hpp"
+#include "analysis/sweep/sweep_axes.hpp"
+#include "analysis/sweep/sweep_grid.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "cli/sweep_plan.hpp"
 #include "scene/read.hpp"

@@ -1,7 +1,7 @@
 // A rock wedge as a scene: what the commands say of examples/rock_wedge.toml and of small wedges.
 #include "cli/program.hpp"
 #include "scene/read.hpp"
-#include "scene/wedge_shape.hpp"
+#include "scene/rock_wedge.hpp"
 #include "scene/write.hpp"
 #include "source_dir.hpp"
 

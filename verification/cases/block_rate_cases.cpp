@@ -1,4 +1,4 @@
-#include "records/transform/sequence.hpp"
+#include "records/transform/transform.hpp"
 #include "sliding/block/slide.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/modules.hpp"

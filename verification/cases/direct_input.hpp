@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fe2d/model/edge_dashpots.hpp"
 #include "fe2d/model/model.hpp"
 #include "fe2d/time/linear_integrator.hpp"
 #include "verification/exact/free_field.hpp"

@@ -1,10 +1,10 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/contact/bond_law.hpp"
-#include "fe2d/run/joints_of_scene.hpp"
-#include "fe2d/run/static_path.hpp"
+#include "fe2d/run/strength.hpp"
+#include "fe2d/run/static_contact.hpp"
 #include "fe2d/run/static_relaxation.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <cmath>

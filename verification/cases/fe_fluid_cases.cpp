@@ -1,5 +1,5 @@
 #include "fe2d/fluid/fluid_model.hpp"
-#include "fe2d/harmonic/harmonic_solver.hpp"
+#include "fe2d/harmonic/transfer.hpp"
 #include "sliding/loads/added_mass.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/added_mass.hpp"

@@ -1,7 +1,7 @@
 #include "verification/cases/fe_hard_steps.hpp"
 
-#include "fe2d/contact/lemke.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/contact/contact_problem.hpp"
+#include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,7 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/model/static_loads.hpp"
+#include "fe2d/model/static_solution.hpp"
 #include "fe2d/time/central_difference.hpp"
-#include "fe2d/time/explicit_run.hpp"
-#include "fe2d/time/modal_recurrence.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "verification/exact/oscillator.hpp"
 #include "verification/exact/reference_scene.hpp"

@@ -1,4 +1,3 @@
-#include "fe2d/modes/modal_combination.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "sliding/loads/added_mass.hpp"
 #include "verification/cases/modules.hpp"

@@ -1,8 +1,8 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/contact/lemke.hpp"
+#include "fe2d/contact/contact_problem.hpp"
 #include "fe2d/run/ground_input.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/small_dam.hpp"
 

@@ -1,9 +1,9 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/material/elastic.hpp"
+#include "fe2d/element/elastic.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/cases/small_dam.hpp"
 #include "verification/exact/half_plane.hpp"

@@ -1,9 +1,9 @@
 #include "verification/cases/modules.hpp"
 
 #include "fe2d/contact/joint_laws.hpp"
-#include "fe2d/contact/rate_friction_law.hpp"
+#include "fe2d/contact/joint_law.hpp"
 #include "fe2d/run/ground_input.hpp"
-#include "records/transform/sequence.hpp"
+#include "records/transform/transform.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/model/held_edges.hpp"
-#include "fe2d/model/static_loads.hpp"
-#include "fe2d/statics/static_solution.hpp"
-#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/model/model.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/modal_run.hpp"
 #include "scene/rock_mass.hpp"
 #include "verification/cases/direct_input.hpp"

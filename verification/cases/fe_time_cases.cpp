@@ -1,10 +1,8 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/damping/deformation_only.hpp"
-#include "fe2d/damping/modified_rayleigh.hpp"
-#include "fe2d/damping/rayleigh.hpp"
-#include "fe2d/model/static_loads.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/damping/damping.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_time_models.hpp"
 #include "verification/exact/damped_oscillator.hpp"

@@ -1,6 +1,6 @@
 #include "verification/cases/modules.hpp"
 
-#include "fe2d/element/scalar.hpp"
+#include "fe2d/element/elastic.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "verification/exact/column_on_base.hpp"
 #include "verification/exact/reference_scene.hpp"

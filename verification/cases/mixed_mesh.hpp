@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/gmsh/gmsh_file.hpp"
+#include "fe2d/gmsh/write_gmsh.hpp"
 
 namespace damslip::verification {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/solver/dense_algebra.hpp"
+#include "fe2d/solver/dense_product.hpp"
 #include <Eigen/Core>
 
 #include <vector>

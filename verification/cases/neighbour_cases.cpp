@@ -1,5 +1,5 @@
 #include "core/units.hpp"
-#include "scene/rock_slope.hpp"
+#include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/combinations.hpp"

@@ -1,7 +1,7 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
-#include "probability/laws/normal.hpp"
+#include "probability/distribution.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"
 

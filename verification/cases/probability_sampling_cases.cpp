@@ -1,8 +1,8 @@
 #include "core/statistics.hpp"
-#include "probability/estimate/bands.hpp"
-#include "probability/laws/normal.hpp"
-#include "probability/sampling/unit_points.hpp"
-#include "probability/sensitivity/indices.hpp"
+#include "probability/bands.hpp"
+#include "probability/distribution.hpp"
+#include "probability/sampling.hpp"
+#include "probability/sensitivity.hpp"
 #include "verification/cases/modules.hpp"
 
 #include <array>

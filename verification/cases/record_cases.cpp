@@ -1,9 +1,8 @@
 // Accelerograms: measures and spectra against closed solutions, and the shipped artificial records against their targets.
 #include "records/generate/generate.hpp"
-#include "records/measure/intensity.hpp"
-#include "records/measure/peaks.hpp"
+#include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
-#include "records/transform/baseline.hpp"
+#include "records/transform/transform.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/oscillator.hpp"
 

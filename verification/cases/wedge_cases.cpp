@@ -1,5 +1,5 @@
 #include "scene/scene.hpp"
-#include "scene/wedge_shape.hpp"
+#include "scene/rock_wedge.hpp"
 #include "sliding/flexible/mode_shape.hpp"
 #include "sliding/wedge/wedge.hpp"
 #include "verification/cases/modules.hpp"

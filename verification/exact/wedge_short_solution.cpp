@@ -1,6 +1,6 @@
 #include "verification/exact/wedge_short_solution.hpp"
 
-#include "core/vector3.hpp"
+#include "core/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>

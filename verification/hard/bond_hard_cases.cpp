@@ -1,6 +1,6 @@
 #include "verification/hard/hard_scenes.hpp"
 
-#include "records/transform/sequence.hpp"
+#include "records/transform/transform.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <algorithm>

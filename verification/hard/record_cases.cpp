@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
-#include "records/transform/ground_motion.hpp"
+#include "records/transform/transform.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/exact/block_slip.hpp"
 

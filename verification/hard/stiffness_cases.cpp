@@ -1,7 +1,7 @@
 #include "verification/hard/hard_scenes.hpp"
 
 #include "fe2d/mesh/build_mesh.hpp"
-#include "fe2d/mesh/quality.hpp"
+#include "fe2d/mesh/faces.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
-#include "fe2d/solver/dense_algebra.hpp"
-#include "fe2d/time/explicit_run.hpp"
+#include "fe2d/solver/dense_product.hpp"
+#include "fe2d/time/central_difference.hpp"
 #include "fe2d/time/integrate.hpp"
 #include "verification/cases/fe_run_scenes.hpp"
 

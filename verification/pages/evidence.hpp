@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "verification/external/external.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "verification/cases/registry.hpp"
 #include "verification/hard/hard_case.hpp"
 #include "verification/second_solver/second_solver.hpp"

@@ -1,11 +1,10 @@
 #include "verification/program/carry.hpp"
 
-#include "cli/document.hpp"
-#include "cli/flags.hpp"
+#include "cli/command.hpp"
 #include "core/file.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "verification/pages/verify_tables.hpp"
 #include "verification/second_solver/second_solver.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/process.hpp"
+#include "cli/program.hpp"
 #include "verification/program/carry.hpp"
 
 int main(int argc, char** argv)

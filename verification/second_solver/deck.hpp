@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fe2d/assembly/added_mass_points.hpp"
-#include "fe2d/damping/rayleigh.hpp"
+#include "fe2d/assembly/surface_load.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/model/model.hpp"
 #include "records/record.hpp"
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "analysis/prepare/ready.hpp"
+#include "core/status.hpp"
+#include "core/watch.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,5 +42,62 @@ struct AblationPlan {
 /// @param scene  reservoir.model is not "auto" for the FE method: the removals must not choose another water each
 /// @param seepage_points  see EffectRow::remove
 AblationPlan make_ablations(const Scene& scene, Method method, const std::vector<Point>& seepage_points);
+
+/// The runs of an ablation, as data.
+
+/// One scene under one record. Empty: the run does not give it.
+struct RecordOutcome {
+    Status status = Status::interrupted;
+    std::string message;                   ///< one sentence where there is no slip to compare
+    std::optional<double> slip;            ///< final, positive downstream, of runs that can be compared [m]
+    std::optional<double> slip_other_step; ///< the same with AblationStep::other [m]
+    std::optional<double> crest;           ///< largest |crest - base|, horizontal, since the static state [m]
+    std::vector<double> lift_slips;        ///< of the lift joints, final, from bottom to top [m]
+    bool still_sliding = false;            ///< when the run-out ended: the slip is a lower bound
+    double seconds = 0.0; ///< of the processor for this run at AblationStep::halvings, without the set-up
+};
+
+/// One scene under all records.
+struct SceneRuns {
+    std::vector<RecordOutcome> records;
+    std::optional<double> yield_acceleration; ///< of the rigid block [m/s^2]
+    std::optional<double> critical_friction;  ///< least mu of static equilibrium [-]
+    std::int64_t unknowns = 0;                ///< of the FE model, water included; 0: rigid block
+    double set_up_seconds = 0.0;              ///< of the processor
+};
+
+/// The one time step of all FE runs of an ablation, so that changes are not those of the step.
+struct AblationStep {
+    int halvings = 0;        ///< steps dt / 2^k of every run
+    int other = 0;           ///< k of the runs that tell the error of the step: one less, or 1 beside 0
+    bool chosen = false;     ///< by time.slip_tolerance on the full scene; else the scene's time.substeps
+    double largest_dt = 0.0; ///< of the steps, over the records [s]
+    bool missed = false;     ///< chosen, but time.slip_tolerance is not met by it for some record
+};
+
+/// Error of a difference that is linear in slips, from the same difference at the other step, by first order, the worst
+/// that contact with moving edges shows [m]. @param at_step, at_other  the difference at both steps [m]
+double difference_error(const AblationStep& step, double at_step, double at_other);
+
+struct AblationRuns {
+    std::vector<SceneRuns> scenes;    ///< the full one, each removal, the simplest if there is one
+    std::optional<AblationStep> step; ///< of FE runs
+    int jobs = 1;
+};
+
+/// Runs all scenes on all records. Figures other than seconds do not depend on the number of threads.
+/// @param jobs  threads, one scene each; 0: all cores
+AblationRuns run_ablations(const AblationPlan& plan, const Records& records, int jobs, Watch& watch);
+
+/// Base profile of uplift.model = "seepage" as uplift.points_m, p over that of the heel; empty: another model, or no
+/// head at the heel. @throws InputError, NotConverged as the seepage
+std::vector<Point> seepage_points(const Scene& scene);
+
+SceneRuns run_rigid(const Ready& ready, const Watch& watch);
+/// @param fraction  told how much of the scene's runs is done, 0 ... 1
+SceneRuns run_fe(const Ready& ready, const AblationStep& step, const Watch& watch,
+                 const std::function<void(double fraction)>& done);
+/// The step of the full scene at its own accuracy, dt/8 at least; or that of time.substeps.
+AblationStep choose_step(const Ready& full, const Watch& watch);
 
 } // namespace damslip

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/ablation/ablation_runs.hpp"
+#include "analysis/ablation/ablation.hpp"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,14 @@
 #include "analysis/accuracy/accuracy.hpp"
 
-#include "core/processor_clock.hpp"
+#include "analysis/accuracy/ladder.hpp"
+#include "analysis/fe/mesh_error.hpp"
+#include "core/watch.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/rock_mass.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace damslip {
 
@@ -17,6 +25,282 @@ Accuracy measure_accuracy(const Scene& scene, double tolerance, Effort effort, c
     Accuracy accuracy{climb(runner.facts(), options, calls), {}};
     accuracy.judgement = judge_rungs(accuracy.rungs, tolerance);
     return accuracy;
+}
+
+namespace {
+
+void set_element(std::string_view word, Scene& scene)
+{
+    if (word == "q8") scene.mesh.element = ElementKind::q8;
+    if (word == "q9") scene.mesh.element = ElementKind::q9;
+    if (word == "t6") scene.mesh.element = ElementKind::t6;
+}
+
+void set_water(RungWater water, Scene& scene)
+{
+    if (!scene.reservoir) return;
+    switch (water) {
+    case RungWater::dry:
+        break;
+    case RungWater::hydrostatic:
+        scene.reservoir->model = ReservoirModel::hydrostatic;
+        break;
+    case RungWater::added_mass:
+        scene.reservoir->model = ReservoirModel::added_mass;
+        break;
+    case RungWater::acoustic:
+        scene.reservoir->model = ReservoirModel::acoustic;
+        break;
+    }
+}
+
+void set_rock(const Rung& rung, Scene& scene)
+{
+    if (!scene.foundation) return;
+    if (rung.rock == RungRock::massless) scene = with_massless_rock(scene);
+    if (rung.rock == RungRock::radiating) scene = with_radiating_rock(scene);
+    scene.foundation->wave_box *= rung.wave_box;
+}
+
+} // namespace
+
+Scene scene_of(const Scene& given, const Rung& rung)
+{
+    Scene scene = given;
+    if (rung.family == RungFamily::regression) return scene;
+    if (rung.family == RungFamily::rigid) {
+        scene.sliding.scheme = rung.scheme == RigidScheme::slammer ? SlidingScheme::slammer : SlidingScheme::exact;
+        if (rung.components == Components::horizontal) scene.motion.vertical = false;
+        return scene;
+    }
+    set_water(rung.water, scene);
+    if (rung.step == StepChoice::as_the_scene) return scene;
+    scene = with_exact_contact(scene).value_or(scene);
+    scene.time.substeps.reset();
+    scene.time.stepping = rung.step == StepChoice::adaptive ? Stepping::adaptive : Stepping::uniform;
+    if (rung.step == StepChoice::fixed) scene.time.substeps = rung.halvings;
+    if (rung.mesh != 1.0) scale_mesh(rung.mesh, scene);
+    set_element(rung.element, scene);
+    if (rung.tangential_stiffness) {
+        scene.contact.enforcement = ContactEnforcement::penalty;
+        scene.contact.tangential_stiffness = rung.tangential_stiffness;
+    }
+    set_rock(rung, scene);
+    if (rung.alpha) {
+        scene.time.scheme = TimeScheme::hht;
+        scene.time.alpha = *rung.alpha;
+    }
+    return scene;
+}
+
+namespace {
+
+/// The finest row and the column of meshes, which cross.
+struct Cross {
+    std::vector<const RungResult*> row, column;
+    const RungResult* corner = nullptr; ///< of the column, on the row's mesh; null: there is no column
+
+    Cross(const std::vector<RungResult>& results, RungWater water)
+        : row(fine_row(results, water)), column(mesh_column(results, water))
+    {
+        if (column.size() < 2 || row.empty()) return;
+        for (const RungResult* r : column)
+            if (r->rung.mesh == row.front()->rung.mesh) corner = r;
+    }
+};
+
+/// The step's limit on the finest mesh that has a row, plus what the mesh still changes at the column's step.
+std::optional<ModelLimit> limit_of(const std::vector<RungResult>& results, RungWater water, std::size_t records)
+{
+    const Cross cross(results, water);
+    ModelLimit limit;
+    for (std::size_t record = 0; record < records; ++record) {
+        const auto order = observed_order(slips_of(step_row(results, water), record));
+        const auto step = extrapolated(slips_of(cross.row, record), 2.0, order);
+        if (!step) return std::nullopt;
+        limit.model = model_of(cross.row.front()->rung);
+        limit.slip.push_back(step->value);
+        limit.open.push_back(0.5 * std::abs(step->correction));
+        if (!cross.corner) continue;
+        const auto mesh = extrapolated(slips_of(cross.column, record));
+        limit.slip.back() += mesh->value - cross.corner->slip[record];
+        limit.open.back() += 0.5 * std::abs(mesh->correction);
+        limit.mesh_known = true;
+    }
+    return limit;
+}
+
+/// Errors against the plain rung with the same step, in the order of `size`, which falls.
+template <class Size>
+std::optional<double> order_of_variants(const std::vector<RungResult>& results, RungWater water, std::size_t record,
+                                        double ratio, Size&& size)
+{
+    std::vector<std::pair<double, double>> errors; // size, slip - exact
+    for (const RungResult& r : results) {
+        if (!r.done() || r.rung.family != RungFamily::finite_elements || r.rung.water != water || !size(r.rung))
+            continue;
+        Rung plain = r.rung;
+        plain.modes.reset();
+        plain.tangential_stiffness.reset();
+        for (const RungResult& p : results)
+            if (p.done() && p.rung == plain) errors.emplace_back(*size(r.rung), r.slip[record] - p.slip[record]);
+    }
+    std::sort(errors.begin(), errors.end());
+    std::vector<double> falling;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const bool apart =
+            i + 1 == errors.size() || std::abs(errors[i + 1].first / errors[i].first / ratio - 1.0) < 1e-9;
+        if (apart) falling.push_back(errors[i].second);
+    }
+    return order_of_errors(falling, ratio);
+}
+
+void add_orders(const std::vector<RungResult>& results, RungWater water, std::size_t record, ModelLimit& limit)
+{
+    const Cross cross(results, water);
+    const auto row = cross.row.size() > 2 ? cross.row : step_row(results, water);
+    limit.order_step = observed_order(slips_of(row, record));
+    if (cross.corner) limit.order_mesh = observed_order(slips_of(cross.column, record));
+    limit.order_penalty =
+        order_of_variants(results, water, record, 10.0, [](const Rung& r) { return r.tangential_stiffness; });
+    limit.order_modes = order_of_variants(results, water, record, 2.0, [](const Rung& r) {
+        return r.modes ? std::optional<double>(*r.modes) : std::nullopt;
+    });
+}
+
+const ModelLimit* find(const std::vector<ModelLimit>& models, const Rung& rung)
+{
+    const std::string model = model_of(rung);
+    const auto at = std::find_if(models.begin(), models.end(), [&](const ModelLimit& m) { return m.model == model; });
+    return at == models.end() ? nullptr : &*at;
+}
+
+/// Estimate for one record; nothing where the model has no limit.
+std::optional<double> error_of(const RungResult& r, const ModelLimit* limit, std::size_t record)
+{
+    if (r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer)
+        return 0.0; // events located exactly
+    if (!limit) return std::nullopt;
+    return std::max(std::abs(r.slip[record] - limit->slip[record]), limit->open[record]);
+}
+
+void judge_rung(const RungResult& r, const RungResult& top, const ModelLimit* limit, const ModelLimit* top_limit,
+                std::size_t shown, RungVerdict& verdict)
+{
+    verdict.error = error_of(r, limit, shown);
+    const double own = limit ? limit->slip[shown] : r.slip[shown];
+    verdict.model_difference = own - (top_limit ? top_limit->slip[shown] : top.slip[shown]);
+    verdict.off_top = r.slip[shown] - top.slip[shown];
+    double deviation = 0.0;
+    for (std::size_t record = 0; record < r.slip.size(); ++record) {
+        const auto open = error_of(top, top_limit, record);
+        if (!open) return;
+        const double size = std::max(std::abs(top.slip[record]), least_slip);
+        deviation = std::max(deviation, (std::abs(r.slip[record] - top.slip[record]) + *open) / size);
+    }
+    verdict.deviation = deviation;
+}
+
+/// The exact scheme's slip is the limit of SLAMMER's.
+void add_rigid_limits(const std::vector<RungResult>& results, std::vector<ModelLimit>& models)
+{
+    for (const RungResult& r : results)
+        if (r.done() && r.rung.family == RungFamily::rigid && r.rung.scheme != RigidScheme::slammer) {
+            ModelLimit limit;
+            limit.model = model_of(r.rung);
+            limit.slip = r.slip;
+            limit.open.assign(r.slip.size(), 0.0);
+            models.push_back(std::move(limit));
+        }
+}
+
+} // namespace
+
+Judgement judge_rungs(const std::vector<RungResult>& results, double tolerance)
+{
+    Judgement j;
+    j.rungs.resize(results.size());
+    j.top = top_rung(results);
+    if (!j.top) return j;
+    const RungResult& top = results[*j.top];
+    for (std::size_t record = 0; record < top.slip.size(); ++record)
+        if (std::abs(top.slip[record]) > std::abs(top.slip[j.record])) j.record = record;
+    add_rigid_limits(results, j.models);
+    for (const RungWater water : {RungWater::dry, RungWater::hydrostatic, RungWater::added_mass, RungWater::acoustic})
+        if (auto limit = limit_of(results, water, top.slip.size())) {
+            add_orders(results, water, j.record, *limit);
+            j.models.push_back(std::move(*limit));
+        }
+    const ModelLimit* top_limit = find(j.models, top.rung);
+    std::vector<double> seconds;
+    std::vector<std::optional<double>> deviation;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (results[i].done())
+            judge_rung(results[i], top, find(j.models, results[i].rung), top_limit, j.record, j.rungs[i]);
+        seconds.push_back(results[i].seconds);
+        deviation.push_back(j.rungs[i].deviation);
+    }
+    j.top_error = j.rungs[*j.top].deviation;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        if (results[i].outcome == RungOutcome::failed && results[i].rung.plain() && below(top.rung, results[i].rung))
+            j.contradiction = i;
+    if (!j.contradiction) j.choice = cheapest_within(seconds, deviation, tolerance);
+    const std::vector<bool> front = pareto_front(seconds, deviation);
+    for (std::size_t i = 0; i < results.size(); ++i) j.rungs[i].front = front[i];
+    return j;
+}
+
+std::optional<std::size_t> cheapest_within(std::span<const double> seconds,
+                                           std::span<const std::optional<double>> deviation, double tolerance)
+{
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < seconds.size(); ++i)
+        if (deviation[i] && *deviation[i] <= tolerance && (!best || seconds[i] < seconds[*best])) best = i;
+    return best;
+}
+
+std::vector<bool> pareto_front(std::span<const double> seconds, std::span<const std::optional<double>> deviation)
+{
+    std::vector<bool> front(seconds.size(), false);
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
+        if (!deviation[i]) continue;
+        front[i] = true;
+        for (std::size_t k = 0; k < seconds.size(); ++k)
+            if (deviation[k] && seconds[k] <= seconds[i] && *deviation[k] <= *deviation[i] &&
+                (seconds[k] < seconds[i] || *deviation[k] < *deviation[i]))
+                front[i] = false;
+    }
+    return front;
+}
+
+std::optional<double> observed_order(std::span<const double> values, double ratio)
+{
+    if (values.size() < 3) return std::nullopt;
+    const auto last = values.last(3);
+    const double differences[] = {last[1] - last[0], last[2] - last[1]};
+    return order_of_errors(differences, ratio);
+}
+
+std::optional<double> order_of_errors(std::span<const double> errors, double ratio)
+{
+    assert(ratio > 1.0);
+    if (errors.size() < 2) return std::nullopt;
+    const double before = std::abs(errors[errors.size() - 2]), now = std::abs(errors.back());
+    if (!(before > 0.0 && now > 0.0)) return std::nullopt;
+    return std::log(before / now) / std::log(ratio);
+}
+
+std::optional<Limit> extrapolated(std::span<const double> values, double ratio, const std::optional<double>& elsewhere)
+{
+    if (values.size() < 2) return std::nullopt;
+    const double difference = values.back() - values[values.size() - 2];
+    Limit limit;
+    limit.order = observed_order(values, ratio);
+    const std::optional<double> shown = values.size() > 2 ? limit.order : elsewhere;
+    const double order = std::clamp(shown.value_or(least_order), least_order, largest_order);
+    limit.correction = difference / (std::pow(ratio, order) - 1.0);
+    limit.value = values.back() + limit.correction;
+    return limit;
 }
 
 } // namespace damslip

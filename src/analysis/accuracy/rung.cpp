@@ -1,6 +1,6 @@
 #include "analysis/accuracy/rung.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <array>

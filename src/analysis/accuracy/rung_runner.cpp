@@ -1,22 +1,56 @@
 #include "analysis/accuracy/rung_runner.hpp"
 
-#include "analysis/accuracy/peak_memory.hpp"
-#include "analysis/accuracy/regression_rungs.hpp"
-#include "analysis/accuracy/variant.hpp"
-#include "analysis/fe/mesh_scale.hpp"
+#include "analysis/accuracy/accuracy.hpp"
+#include "analysis/fe/mesh_error.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "core/input_error.hpp"
-#include "core/processor_clock.hpp"
 #include "core/units.hpp"
+#include "core/watch.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
-#include "scene/exact_contact.hpp"
+#include "scene/joint_bond.hpp"
 #include "scene/water.hpp"
+#include "sliding/empirical/ensemble.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace damslip {
+
+/// Slip by one regression, or by all that are valid together.
+struct RegressionSlip {
+    double median = 0.0;             ///< [m], P(D = 0) counted; of the ensemble the weighted median
+    std::optional<double> low, high; ///< 16 and 84 % [m]; none where no sigma is published
+    std::string remark;              ///< for the ensemble how many
+};
+
+/// @param id  of a regression, or "ensemble". Nothing where it is not valid here.
+std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
+                                              const RigidModel& model);
+
+/// The three regressions with the smallest published scatter among those that are valid for all records, and
+/// "ensemble"; best first. Scatter is chosen by, not closeness to any result. Empty: none is valid, or the block slides
+/// statically.
+std::vector<std::string> best_regressions(const Scene& scene, const Records& records);
+
+/// Growth of the process' resident memory from when this object was made to the peak since. Linux only: the peak is
+/// reset through /proc/self/clear_refs. Memory that the allocator kept from before is handed back first, so that it does
+/// not hide what is used anew.
+class PeakMemory {
+public:
+    PeakMemory();
+    std::optional<double> bytes() const; ///< none: this system does not say
+
+private:
+    std::optional<double> before_;
+};
 
 namespace {
 
@@ -207,7 +241,8 @@ bool RungRunner::rocks_first() const
     const Ready ready = prepare(scene_, Method::rigid_block, records_);
     const RigidModel model = ready.rigid_model();
     return model.rocking && std::any_of(ready.records().begin(), ready.records().end(), [&](const RecordPair& pair) {
-               return slide_model(ready.scene, model, ready.motion(pair, 1.0, polarities_of(ready.scene).front()), 1).status == Status::rocks_first;
+               return slide_model(ready.scene, model, ready.motion(pair, 1.0, polarities_of(ready.scene).front()), 1)
+                          .status == Status::rocks_first;
            });
 }
 
@@ -243,6 +278,126 @@ LadderFacts RungRunner::facts() const
             "Quadratic elements are not tried beside the scene's, which are quadratic themselves.");
     facts.coarsest = coarsest_mesh(scene_);
     return facts;
+}
+
+namespace {
+
+constexpr std::size_t shown = 3;
+
+/// Standard deviation of ln D.
+double natural_sigma(const sliding::RegressionResult& r)
+{
+    return r.regression->logarithm == sliding::Logarithm::decimal ? r.sigma * std::numbers::ln10 : r.sigma;
+}
+
+std::vector<sliding::RegressionResult> results_of(const Ready& ready, const RecordPair& record, const RigidModel& model)
+{
+    const double period = ready.scene.regressions.period;
+    return sliding::evaluate_all(regression_inputs(record, ready.motion(record), model, period));
+}
+
+std::optional<RegressionSlip> ensemble_slip(const Scene& scene, const std::vector<sliding::RegressionResult>& results)
+{
+    std::vector<sliding::RegressionWeight> weights;
+    for (const RegressionWeightKey& key : scene.regressions.weights)
+        if (sliding::find_regression(key.model)) weights.push_back({key.model, key.weight});
+    const sliding::Ensemble e = sliding::weighted_ensemble(results, weights);
+    if (!e.median_cm) return std::nullopt;
+    RegressionSlip slip{*e.median_cm * units::cm, {}, {}, fmt::format("{} regressions", e.members.size())};
+    if (e.low_cm) slip.low = *e.low_cm * units::cm;
+    if (e.high_cm) slip.high = *e.high_cm * units::cm;
+    return slip;
+}
+
+} // namespace
+
+std::optional<RegressionSlip> regression_slip(const std::string& id, const Ready& ready, const RecordPair& record,
+                                              const RigidModel& model)
+{
+    const std::vector<sliding::RegressionResult> results = results_of(ready, record, model);
+    if (id == "ensemble") return ensemble_slip(ready.scene, results);
+    for (const sliding::RegressionResult& r : results) {
+        if (r.regression->id != id || !sliding::valid(r)) continue;
+        RegressionSlip slip{*r.median_cm * units::cm, {}, {}, ""};
+        if (r.minus_sd_cm) slip.low = *r.minus_sd_cm * units::cm;
+        if (r.plus_sd_cm) slip.high = *r.plus_sd_cm * units::cm;
+        return slip;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> best_regressions(const Scene& scene, const Records& pairs)
+{
+    const Ready ready = prepare(scene, Method::rigid_block, pairs);
+    const std::vector<RecordPair>& records = ready.records();
+    const RigidModel model = ready.rigid_model();
+    if (model.state != sliding::StaticState::at_rest || records.empty()) return {};
+    std::map<std::string_view, std::pair<std::size_t, double>> seen; // id -> records it is valid for, largest scatter
+    bool ensemble = true;
+    for (const RecordPair& record : records) {
+        const auto results = results_of(ready, record, model);
+        ensemble = ensemble && ensemble_slip(ready.scene, results);
+        for (const sliding::RegressionResult& r : results) {
+            if (!sliding::valid(r) || r.sigma <= 0.0 || r.regression->use != sliding::EnsembleUse::estimate) continue;
+            auto& [count, scatter] = seen[r.regression->id];
+            ++count;
+            scatter = std::max(scatter, natural_sigma(r));
+        }
+    }
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [id, value] : seen)
+        if (value.first == records.size()) order.emplace_back(value.second, std::string(id));
+    std::sort(order.begin(), order.end());
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < std::min(shown, order.size()); ++i) ids.push_back(order[i].second);
+    if (ensemble) ids.push_back("ensemble");
+    return ids;
+}
+
+} // namespace damslip
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace damslip {
+
+namespace {
+
+/// A line of /proc/self/status, "VmRSS:   1234 kB" [bytes].
+std::optional<double> status_bytes(const std::string& name)
+{
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    double kilobytes = 0.0;
+    while (status >> word)
+        if (word == name + ":" && status >> kilobytes) return 1024.0 * kilobytes;
+    return std::nullopt;
+}
+
+bool reset_peak()
+{
+    std::ofstream clear("/proc/self/clear_refs");
+    clear << "5"; // proc(5): the peak becomes the present size
+    clear.flush();
+    return clear.good();
+}
+
+} // namespace
+
+PeakMemory::PeakMemory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+    if (reset_peak()) before_ = status_bytes("VmRSS");
+}
+
+std::optional<double> PeakMemory::bytes() const
+{
+    const std::optional<double> peak = status_bytes("VmHWM");
+    if (!before_ || !peak) return std::nullopt;
+    return std::max(0.0, *peak - *before_);
 }
 
 } // namespace damslip

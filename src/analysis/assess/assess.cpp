@@ -1,7 +1,6 @@
 #include "analysis/assess/assess.hpp"
 
-#include "analysis/assess/budget_watch.hpp"
-#include "analysis/fe/mesh_scale.hpp"
+#include "analysis/fe/mesh_error.hpp"
 #include "analysis/prepare/flexible_mass.hpp"
 #include "core/input_error.hpp"
 #include "scene/rock_mass.hpp"
@@ -181,7 +180,8 @@ double price_of(const Ready& ready)
     }
 }
 
-constexpr double cheap = 0.1; ///< share of the budget up to which the flexible block comes before the finite elements [-]
+constexpr double cheap =
+    0.1; ///< share of the budget up to which the flexible block comes before the finite elements [-]
 
 /// The flexible block where it takes at most `most` seconds. @returns whether it is settled, run or not to be had
 bool run_flexible(const Scene& given, const AssessOptions& options, double most, const BudgetWatch& watch,

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "analysis/ablation/ablation_runs.hpp"
+#include "analysis/ablation/ablation.hpp"
 #include "analysis/fe/contact_runs.hpp"
-#include "analysis/fe/model_spread.hpp"
+#include "analysis/fe/tied_runs.hpp"
 #include "analysis/screen/screening.hpp"
 #include "analysis/spectrum/spectrum_level.hpp"
+#include "core/watch.hpp"
 
 #include <optional>
 #include <string>
@@ -81,7 +82,7 @@ struct Assessment {
     std::vector<AssumptionRun> assumptions; ///< the same
     std::vector<LeftOut> left_out;
     bool interrupted = false; ///< by the user: nothing is recommended
-    double seconds = 0.0; ///< wall time
+    double seconds = 0.0;     ///< wall time
 
     std::vector<LevelSlip> levels;
     std::vector<Disagreement> disagreements;
@@ -109,5 +110,32 @@ const ContactRun& governing_run(const Assessment& a);
 
 /// exit_no_answer where the user interrupted it, a run has no answer, or nothing is recommended of a dam that does not fail.
 int exit_code_of(const Assessment& a);
+
+/// A watch that also ends a computation when its time is over.
+/// @tparam Clock  Stopwatch: wall time; ProcessorClock: processor time of the thread that made it
+template <class Clock>
+class BudgetWatchOf final : public Watch {
+public:
+    /// @param seconds  from now on @param outer  outlives this
+    BudgetWatchOf(Watch& outer, double seconds) : outer_(outer), seconds_(seconds) {}
+
+    double left() const { return seconds_ - clock_.seconds(); } ///< [s]
+    double spent() const { return clock_.seconds(); }           ///< [s]
+    bool over() const { return left() <= 0.0; }
+    bool interrupted() const { return outer_.stop_asked(); } ///< by the user, not by the clock
+
+    bool stop_asked() const override { return over() || outer_.stop_asked(); }
+    void results_at_hand() override { outer_.results_at_hand(); }
+    void begin(const std::string& label, double total) override { outer_.begin(label, total); }
+    void phase(const std::string& what) override { outer_.phase(what); }
+    void at(double done) override { outer_.at(done); }
+    void end() override { outer_.end(); }
+
+private:
+    Watch& outer_;
+    double seconds_;
+    Clock clock_;
+};
+using BudgetWatch = BudgetWatchOf<Stopwatch>;
 
 } // namespace damslip

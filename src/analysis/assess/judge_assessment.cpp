@@ -1,5 +1,4 @@
 #include "analysis/assess/assess.hpp"
-
 #include "core/units.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
@@ -206,9 +205,10 @@ void judge_slip(Assessment& a)
     }
     if (!a.recommended) {
         a.verdict = a.runs.empty() ? Verdict::none : verdict_of(a.runs, allowable);
-        a.verdict_reason = a.runs.empty()         ? "No level has a slip to judge."
-                           : all_answered(a.runs) ? fmt::format("Finite elements: {}.", word(worst_of(a.runs).fe.status))
-                                                  : "Finite elements without an answer: " + unanswered_words(a.runs) + ".";
+        a.verdict_reason = a.runs.empty() ? "No level has a slip to judge."
+                           : all_answered(a.runs)
+                               ? fmt::format("Finite elements: {}.", word(worst_of(a.runs).fe.status))
+                               : "Finite elements without an answer: " + unanswered_words(a.runs) + ".";
         return;
     }
     const Recommendation& r = *a.recommended;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "analysis/fe/mesh_error.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "sliding/block/slide.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -88,5 +90,31 @@ struct ReducedRecord {
 /// What a reduced run knows, in the form of a full one; the step's part of its error holds that of the modes left out, too.
 ContactRun as_contact_run(const ReducedRecord& run);
 std::vector<ContactRun> as_contact_runs(const std::vector<ReducedRecord>& runs);
+
+/// What a contact run of a scene condenses, holds and costs. Sizes are those of the run; seconds are measured on a
+/// second of strong shaking on this machine, so they differ from call to call.
+struct ContactCost {
+    struct Part {
+        std::string name; ///< "dam at rest, inside eliminated"
+        std::int64_t unknowns = 0;
+        std::string made; ///< how often
+        std::size_t bytes = 0;
+    };
+    struct OfRecord {
+        std::string record;
+        std::int64_t steps = 0;    ///< whole ones
+        double pass_seconds = 0.0; ///< of one pass with them
+    };
+    std::vector<Part> parts;           ///< rock, dam at rest, dam in motion, contact problem
+    std::int64_t contact_unknowns = 0; ///< what each part becomes
+    std::vector<OfRecord> records;     ///< empty: a file is not there, or seconds_per_step is none
+    double set_up_seconds = 0.0;
+    std::optional<double> seconds_per_step; ///< none: the dam does not stand before the earthquake
+
+    std::size_t set_up_factorisations() const { return parts.size() - 2; } ///< all but dam in motion, contact problem
+};
+
+/// @param ready  for finite elements; its records are estimated
+ContactCost contact_cost(const Ready& ready);
 
 } // namespace damslip

@@ -2,12 +2,13 @@
 
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
-#include "scene/exact_contact.hpp"
-#include "scene/key_methods.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/keys.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <fmt/format.h>
+#include <utility>
 
 namespace damslip {
 
@@ -157,6 +158,84 @@ std::vector<ReducedRecord> ReducedRuns::run(const TakeRun& take)
     }
     watch_.end();
     return runs;
+}
+
+GroupQueue::GroupQueue(std::vector<std::size_t> models, int threads)
+    : models_(std::move(models)), taken_(models_.size(), false),
+      threads_(static_cast<std::size_t>(std::max(1, threads)))
+{
+}
+
+std::optional<std::size_t> GroupQueue::next()
+{
+    const std::lock_guard lock(mutex_);
+    while (first_ < taken_.size() && taken_[first_]) ++first_;
+    if (first_ == taken_.size()) return std::nullopt;
+    taken_[first_] = true;
+    return first_++;
+}
+
+std::vector<std::size_t> GroupQueue::more_of(std::size_t group, std::size_t most)
+{
+    std::vector<std::size_t> more;
+    if (most < 2) return more;
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = first_; i < models_.size(); ++i)
+        if (!taken_[i] && models_[i] == models_[group]) more.push_back(i);
+    const std::size_t share = (more.size() + 1 + threads_ - 1) / threads_; // of those left and `group`
+    more.resize(std::min({more.size(), most - 1, share - 1}));
+    for (const std::size_t i : more) taken_[i] = true;
+    return more;
+}
+
+void FeMeter::begin(std::size_t runs)
+{
+    const std::lock_guard lock(mutex_);
+    under_way_[std::this_thread::get_id()] = {static_cast<double>(runs), 0.0};
+}
+
+void FeMeter::more(std::size_t runs)
+{
+    const std::lock_guard lock(mutex_);
+    under_way_[std::this_thread::get_id()].runs += static_cast<double>(runs);
+}
+
+void FeMeter::step(const fe2d::RunProgress& p)
+{
+    reached(static_cast<double>(p.step) / static_cast<double>(std::max<std::int64_t>(1, p.steps)));
+}
+
+void FeMeter::reached(double share)
+{
+    const std::lock_guard lock(mutex_);
+    Group& group = under_way_[std::this_thread::get_id()];
+    group.share = std::clamp(share, group.share, 1.0); // a further halving adds steps: never back
+    show();
+}
+
+void FeMeter::end()
+{
+    const std::lock_guard lock(mutex_);
+    done_ += under_way_[std::this_thread::get_id()].runs;
+    under_way_.erase(std::this_thread::get_id());
+    show();
+}
+
+void FeMeter::show()
+{
+    double done = done_;
+    for (const auto& [thread, group] : under_way_) done += group.runs * group.share;
+    watch_.at(done);
+}
+
+std::function<void(int unknowns)> tell_of_large_box(Watch& watch)
+{
+    constexpr int large = 20000; // boxes of 25 Hz have 9 000 to 14 000 and take 1 to 4 s
+    return [&watch](int unknowns) {
+        if (unknowns >= large)
+            watch.phase(fmt::format(
+                "the box of waves, {} unknowns, is reduced to the base (foundation.wave_frequency_Hz)", unknowns));
+    };
 }
 
 } // namespace damslip

@@ -1,15 +1,50 @@
 #pragma once
 
 #include "analysis/fe/contact_run.hpp"
-#include "analysis/fe/fe_meter.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/reducible.hpp"
+#include "core/watch.hpp"
+#include "fe2d/time/energy.hpp"
 
+#include <cstddef>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <thread>
+#include <vector>
+
+namespace damslip {
+
+/// Runs done, the shares of those under way included, for a progress bar in runs. Each thread has one group of runs
+/// under way.
+class FeMeter {
+public:
+    explicit FeMeter(Watch& watch) : watch_(watch) {}
+
+    void begin(std::size_t runs);          ///< a group begins on this thread
+    void more(std::size_t runs);           ///< join the group of this thread
+    void step(const fe2d::RunProgress& p); ///< a step of all its runs, in lockstep
+    void reached(double share);            ///< of the group, 0 ... 1
+    void end();                            ///< it has ended
+
+private:
+    struct Group {
+        double runs = 0.0, share = 0.0;
+    };
+    void show();
+
+    Watch& watch_;
+    std::mutex mutex_;
+    std::map<std::thread::id, Group> under_way_;
+    double done_ = 0.0;
+};
+
+/// RunOptions::reducing_rock of a run that is watched: names the phase where the box of waves is so large that its reduction
+/// takes a good part of a minute. @param watch  outlives it; a part of it has begun
+std::function<void(int unknowns)> tell_of_large_box(Watch& watch);
 
 /// The earthquakes of a scene by finite elements with contact.
-namespace damslip {
 
 struct FeOptions {
     std::optional<int> polarity = {}; ///< polarities_of() the scene where it is none
@@ -34,7 +69,7 @@ public:
     const PressureProfile& uplift() const
     {
         return options_.uplift;
-    }                                                     ///< before the earthquake, distance [m], pressure [Pa]
+    } ///< before the earthquake, distance [m], pressure [Pa]
     const std::vector<sliding::Equilibrium>& combinations() const { return combinations_; } ///< Ready::combinations()
     bool gives_way() const { return exact_.has_value(); } ///< is each run compared with exact contact?
     std::size_t whole() const;                            ///< runs of all records and polarities
@@ -91,6 +126,28 @@ private:
     CoarserMesh coarser_;
     RigidModel rigid_;
     std::vector<sliding::Equilibrium> combinations_;
+};
+
+/// Groups of runs, each of one model and one motion, that threads take one after the other. With a model whose runs gain by going in
+/// step (fe2d::EarthquakeRun::runs_together), a thread takes several groups of it at once, but leaves the other threads their
+/// share. What is taken together changes no result.
+class GroupQueue {
+public:
+    /// @param models  of the groups, by number: those with the same number share a model
+    GroupQueue(std::vector<std::size_t> models, int threads);
+
+    std::size_t groups() const { return models_.size(); }
+    /// The first group that nobody has taken; none: all are taken. Taken by this call.
+    std::optional<std::size_t> next();
+    /// More groups of the model of `group`, which this call takes. @param most  with `group`
+    std::vector<std::size_t> more_of(std::size_t group, std::size_t most);
+
+private:
+    std::mutex mutex_;
+    std::vector<std::size_t> models_;
+    std::vector<bool> taken_;
+    std::size_t first_ = 0; ///< all before are taken
+    std::size_t threads_;
 };
 
 } // namespace damslip

@@ -3,6 +3,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "fe2d/run/earthquake_run.hpp"
+#include "scene/scene.hpp"
 
 #include <functional>
 #include <limits>
@@ -60,5 +61,14 @@ private:
     std::unique_ptr<const fe2d::EarthquakeRun> full_;
     std::unique_ptr<const fe2d::ReducedRun> reduced_;
 };
+
+/// Makes the elements `factor` times as large everywhere but in the far rock; they grow as fast with the distance from the
+/// contact plane, and the water's follow.
+void scale_mesh(double factor, Scene& scene);
+
+inline constexpr double least_elements = 8.0; ///< on the base, of the coarsest mesh that says anything of a slip
+
+/// On the base, by the scene's size there.
+double elements_on_base(const Scene& scene);
 
 } // namespace damslip

@@ -1,11 +1,10 @@
 #include "analysis/fe/state_file.hpp"
 
 #include "core/file.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "core/version.hpp"
 #include "scene/anchor_bar.hpp"
 #include "scene/joint_bond.hpp"
-#include "scene/opening_water.hpp"
 #include "scene/write.hpp"
 
 #include <fmt/format.h>

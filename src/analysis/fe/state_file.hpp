@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe2d/run/run_state.hpp"
+#include "fe2d/run/strength.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>

@@ -2,11 +2,11 @@
 
 #include "analysis/fragility/fragility_estimate.hpp"
 #include "core/input_error.hpp"
-#include "core/processor_clock.hpp"
-#include "probability/fit/binary.hpp"
-#include "probability/hazard/annual_rate.hpp"
-#include "probability/laws/normal.hpp"
-#include "probability/sampling/philox.hpp"
+#include "core/watch.hpp"
+#include "probability/fit.hpp"
+#include "probability/annual_rate.hpp"
+#include "probability/distribution.hpp"
+#include "probability/sampling.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>

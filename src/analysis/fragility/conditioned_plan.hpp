@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/fragility/fragility_runs.hpp"
-#include "analysis/fragility/limit_counts.hpp"
-#include "probability/hazard/hazard_curve.hpp"
-#include "probability/laws/distribution.hpp"
+#include "analysis/fragility/fragility_estimate.hpp"
+#include "probability/annual_rate.hpp"
+#include "probability/distribution.hpp"
 
 #include <optional>
 

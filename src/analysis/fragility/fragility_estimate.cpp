@@ -3,7 +3,7 @@
 #include "analysis/fragility/conditioned_plan.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/statistics.hpp"
-#include "probability/fit/interval.hpp"
+#include "probability/fit.hpp"
 
 #include <algorithm>
 #include <cmath>

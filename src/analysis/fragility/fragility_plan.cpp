@@ -1,11 +1,10 @@
 #include "analysis/fragility/fragility_plan.hpp"
 
 #include "core/input_error.hpp"
-#include "core/number.hpp"
-#include "probability/laws/copula.hpp"
-#include "probability/laws/distribution.hpp"
-#include "probability/sampling/draws.hpp"
-#include "probability/sampling/unit_points.hpp"
+#include "core/text.hpp"
+#include "probability/copula.hpp"
+#include "probability/distribution.hpp"
+#include "probability/sampling.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,7 @@
 #include "analysis/fragility/hazard_file.hpp"
 #include "analysis/fragility/shaking_suite.hpp"
 #include "analysis/prepare/reducible.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/plausible.hpp"
 

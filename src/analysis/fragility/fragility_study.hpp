@@ -1,7 +1,7 @@
 #pragma once
 
+#include "analysis/fragility/capacity_roots.hpp"
 #include "analysis/fragility/conditioned_plan.hpp"
-#include "analysis/fragility/fragility_causes.hpp"
 #include "analysis/fragility/interval_cost.hpp"
 
 namespace damslip {

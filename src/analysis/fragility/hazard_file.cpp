@@ -1,10 +1,10 @@
 #include "analysis/fragility/hazard_file.hpp"
 
 #include "core/file.hpp"
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "records/read/number_table.hpp"
-#include "records/read/unit.hpp"
+#include "records/read/header.hpp"
 
 #include <algorithm>
 #include <cmath>

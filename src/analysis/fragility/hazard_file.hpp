@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/intensity_measure.hpp"
-#include "probability/hazard/hazard_curve.hpp"
+#include "core/statistics.hpp"
+#include "probability/annual_rate.hpp"
 
 #include <array>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/fragility/fragility_runs.hpp"
-#include "probability/fit/interval.hpp"
+#include "probability/fit.hpp"
 
 #include <functional>
 

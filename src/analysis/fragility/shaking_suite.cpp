@@ -5,7 +5,7 @@
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "records/measure/measures.hpp"
-#include "records/read/component.hpp"
+#include "records/read/header.hpp"
 #include "records/read/read_record.hpp"
 #include "records/transform/transform.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/fragility/fragility_plan.hpp"
-#include "records/suite/suite_index.hpp"
+#include "records/suite/suite.hpp"
 
 namespace damslip {
 
@@ -23,7 +23,7 @@ ShakingSuite measured_suite(const Scene& scene, Records pairs, const IntensityIn
 
 /// The records of [suite] files, or those of the scene where it names none, measured. Files: a folder, a glob, or a CSV with the columns
 /// horizontal and, as far as they are wanted, vertical, other_horizontal, event, weight, magnitude, scale; or a list of seeds. Their measures are
-/// kept in its folder (records/suite/suite_index.hpp).
+/// kept in its folder (records/suite/suite.hpp).
 /// @throws InputError for files that are missing or cannot be read, for a CSV with other columns
 ShakingSuite suite_of_input(const Scene& scene, const FragilityInput& input);
 

@@ -1,10 +1,9 @@
 #include "analysis/modes/modes.hpp"
 
-#include "core/cache_folder.hpp"
+#include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "fe2d/damping/rayleigh.hpp"
-#include "fe2d/rock/rock_of_scene.hpp"
-#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/damping/damping.hpp"
+#include "fe2d/rock/radiating_rock.hpp"
 #include "fe2d/time/structure_system.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/rock_mass.hpp"

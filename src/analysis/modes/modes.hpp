@@ -2,7 +2,7 @@
 
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
-#include "fe2d/damping/modified_rayleigh.hpp"
+#include "fe2d/damping/damping.hpp"
 #include "fe2d/fluid/coupled_modes.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/harmonic/transfer.hpp"

@@ -1,7 +1,7 @@
 #include "analysis/prepare/flexible_mass.hpp"
 
 #include "analysis/prepare/reservoir.hpp"
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 #include "fe2d/modes/natural_modes.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/section.hpp"

@@ -1,21 +1,23 @@
 #include "analysis/prepare/ready.hpp"
 
 #include "analysis/prepare/flexible_mass.hpp"
-#include "analysis/prepare/rock_water.hpp"
-#include "core/cache_folder.hpp"
+#include "analysis/prepare/reducible.hpp"
+#include "core/file.hpp"
 #include "fe2d/run/earthquake_run.hpp"
-#include "fe2d/time/coupled_structure.hpp"
+#include "fe2d/time/modal_run.hpp"
 #include "fe2d/time/structure_system.hpp"
-#include "records/measure/frequency_content.hpp"
-#include "scene/key_methods.hpp"
-#include "scene/opening_water.hpp"
+#include "records/measure/measures.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/keys.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
+#include "scene/water.hpp"
 #include "scene/write.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace damslip {
 
@@ -49,7 +51,8 @@ fe2d::CrackedUplift cracked_uplift(const Scene& scene, const UpliftState& state,
 
 /// That of the post-seismic combination (sliding::after_earthquake()), in which a crack takes water where uplift.crack lets it; with
 /// uplift.after = "full" in every case, and the drains then work where it has not reached them.
-fe2d::CrackedUplift uplift_after(const Scene& scene, const std::shared_ptr<SeepageSource>& seepage, bool drains_lost = false)
+fe2d::CrackedUplift uplift_after(const Scene& scene, const std::shared_ptr<SeepageSource>& seepage,
+                                 bool drains_lost = false)
 {
     if (!scene.uplift) return {};
     const Combination after = sliding::after_earthquake(scene);
@@ -223,6 +226,100 @@ Records load_records(const Scene& given, Method method)
 {
     const EffectPlan plan = make_effect_plan(given, method);
     return std::make_shared<const std::vector<RecordPair>>(read_records(called_for(plan, given), plan));
+}
+
+std::vector<std::string> contact_law_notes(const Scene& scene)
+{
+    std::vector<std::string> notes;
+    if (base_taken_as_dry(scene))
+        notes.push_back(
+            "The base is taken as dry although there is water on the dam: no answer here counts any uplift.");
+    if (scene.contact.normal == NormalContact::exponential)
+        notes.push_back("contact.normal = \"exponential\": openings are clearances of the two sides, of the order of "
+                        "clearance_at_zero_pressure_m under pressure too, negative where the pressure is above "
+                        "pressure_at_zero_clearance; a pair is open where it carries none.");
+    else if (scene.contact.separation == JointOpening::none)
+        notes.push_back(
+            "contact.separation = \"none\": the joint carries tension without shear, so its compressed part carries "
+            "more than the resultant. This lowers the slip, and a rigid dam no longer slides as a rigid block.");
+    return notes;
+}
+
+std::optional<std::string> base_note(const Scene& scene)
+{
+    switch (rock_kind(scene)) {
+    case RockKind::rigid:
+        return "rigid base: no radiation damping; an elastic dam may slide on it without end";
+    case RockKind::massless:
+        return fmt::format(
+            "massless rock keeps all waves: slips come out too large, often by half and more;  damslip fe "
+            "{} --rock radiating  lets them leave",
+            scene.file.empty() ? "SCENE" : scene.file.string());
+    case RockKind::boxed:
+    case RockKind::radiating:
+        break;
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+constexpr const char* auto_key = "time.scheme = \"auto\": ";
+
+/// Rock whose damping no real modes separate; empty: none.
+std::string rock_obstacle(const Scene& scene)
+{
+    if (rock_radiates(scene)) return "rock that lets waves out: real modes do not separate the equations";
+    if (rock_edges_are_viscous(scene))
+        return "a dashpot on every node of the rock's edges: real modes do not separate the equations";
+    return {};
+}
+
+} // namespace
+
+TiedScheme tied_scheme(const Scene& scene, const GroundMotion& motion, const fe2d::TiedRunOptions& options)
+{
+    const TimeOptions& time = scene.time;
+    if (time.scheme != TimeScheme::automatic) return {time.scheme, {}};
+    if (const std::string obstacle = rock_obstacle(scene); !obstacle.empty())
+        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, obstacle)};
+    if (const std::string obstacle = fe2d::modal_obstacle(options); !obstacle.empty())
+        return {TimeScheme::hht, fmt::format("{}HHT, since there is {}", auto_key, obstacle)};
+    const double steps = motion.dt / options.dt.value_or(motion.dt) * static_cast<double>(motion.accel_h.size() - 1);
+    if (steps < fe2d::modal_break_even)
+        return {TimeScheme::hht,
+                fmt::format("{}HHT, since {:.0f} steps cost less than finding modes", auto_key, steps)};
+    return {TimeScheme::modal,
+            fmt::format("{}superposition of modes, since a bonded base makes the model linear and {:.0f} direct steps "
+                        "cost more than its modes",
+                        auto_key, steps)};
+}
+
+std::string time_scheme_note(const Scene& scene)
+{
+    switch (scene.time.scheme) {
+    case TimeScheme::automatic:
+        if (const std::string obstacle = rock_obstacle(scene); !obstacle.empty())
+            return fmt::format("{}HHT; {}", auto_key, obstacle);
+        return scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic
+                   ? "time.scheme = \"auto\": HHT; with acoustic water real modes do not separate the equations"
+                   : fmt::format(
+                         "time.scheme = \"auto\": HHT where the base slides; superposition of modes on a bonded base "
+                         "(fe --base tied) and a motion of {} steps or more",
+                         fe2d::modal_break_even);
+    case TimeScheme::hht:
+        return "time.scheme = \"hht\": implicit, stable at any step";
+    case TimeScheme::newmark:
+        return "time.scheme = \"newmark\": implicit, no numerical damping of what the step does not resolve at gamma = "
+               "0.5";
+    case TimeScheme::central_difference:
+        return "time.scheme = \"central-difference\": explicit, lumped mass, steps of at most 0.9 of the stability "
+               "limit; sliding on "
+               "a rigid base only";
+    case TimeScheme::modal:
+        break;
+    }
+    return "time.scheme = \"modal\": superposition of modes; for fe --base tied only, a base that slides has none";
 }
 
 } // namespace damslip

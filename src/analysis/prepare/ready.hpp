@@ -3,11 +3,15 @@
 #include "analysis/prepare/records.hpp"
 #include "analysis/prepare/reservoir.hpp"
 #include "analysis/prepare/rigid_model.hpp"
-#include "analysis/prepare/seepage_source.hpp"
 #include "core/watch.hpp"
+#include "fe2d/time/integrate.hpp"
+#include "scene/scene.hpp"
 #include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace damslip::fe2d {
 struct ModelOptions; // fe2d/model/model.hpp
@@ -83,5 +87,25 @@ Ready prepare(Scene given, Method method, const PrepareOptions& options = {});
 
 /// The records that the scene names, as prepare() reads them.
 Records load_records(const Scene& given, Method method);
+
+/// What has to be known of the contact law the scene chooses and of the water in its joint, one sentence each; none for the
+/// default.
+std::vector<std::string> contact_law_notes(const Scene& scene);
+
+/// What has to be known first of a slip by finite elements on a base that lets no wave go; none where the rock radiates.
+std::optional<std::string> base_note(const Scene& scene);
+
+/// How a run on a bonded base is integrated.
+struct TiedScheme {
+    TimeScheme scheme = TimeScheme::hht; ///< never automatic
+    std::string reason;                  ///< of "auto": one sentence; else empty
+};
+
+/// "auto" takes modes where the model is linear with Rayleigh damping and no waves leave, and the motion has more steps than the
+/// modes cost solves.
+TiedScheme tied_scheme(const Scene& scene, const GroundMotion& motion, const fe2d::TiedRunOptions& options);
+
+/// What the scene's time.scheme means for its FE runs, for `explain`.
+std::string time_scheme_note(const Scene& scene);
 
 } // namespace damslip

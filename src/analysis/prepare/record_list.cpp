@@ -3,7 +3,6 @@
 #include "core/csv.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
-#include "core/number.hpp"
 #include "core/text.hpp"
 #include "records/generate/seed_list.hpp"
 #include "records/read/read_record.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "records/read/component.hpp"
+#include "records/read/header.hpp"
 #include "scene/scene.hpp"
 
 #include <string>

@@ -2,8 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "records/read/read_record.hpp"
-#include "records/transform/ground_motion.hpp"
-#include "records/transform/sequence.hpp"
+#include "records/transform/transform.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,16 @@
 #pragma once
 
-#include "core/stop.hpp"
-#include "fe2d/assembly/added_mass_law.hpp"
+#include "core/watch.hpp"
+#include "fe2d/assembly/surface_load.hpp"
 #include "scene/scene.hpp"
+#include "sliding/uplift/uplift_profile.hpp"
 
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace damslip {
 
@@ -36,5 +41,26 @@ struct DamPeriod {
 /// empty, hydrostatic or acoustic one.
 /// @throws InputError where the dam is so stiff that its period lies below the reservoir's; Interrupted
 std::optional<DamPeriod> resolve_dam_period(Scene& scene, const StopAsked& stop = {});
+
+/// Uplift profiles by the seepage solver for the rigid block, each state of water, curtain and drains solved once. For one scene and
+/// variants of it that differ in levels, strength and uplift model only. Safe from several threads.
+class SeepageSource {
+public:
+    /// For uplift.model = "seepage" of this scene; the function keeps a reference to this object.
+    /// It throws InputError when the base does not fit the rock box, NotConverged when the solver loses its accuracy.
+    sliding::SeepageProfile profile_of(const Scene& scene);
+
+    /// Uplift under the closed base, in the scene's own state of water, curtain and drains; empty where the scene has none.
+    PressureProfile uplift_of(const Scene& scene);
+
+    std::size_t solutions() const { return profiles_.size(); }
+
+private:
+    using Key = std::tuple<std::optional<double>, std::optional<double>, DrainState, CurtainState>;
+    PressureProfile solve(const Scene& scene, const UpliftState& state);
+
+    std::mutex mutex_;
+    std::map<Key, PressureProfile> profiles_;
+};
 
 } // namespace damslip

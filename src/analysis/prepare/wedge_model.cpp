@@ -1,7 +1,7 @@
 #include "analysis/prepare/wedge_model.hpp"
 
 #include "core/units.hpp"
-#include "scene/wedge_shape.hpp"
+#include "scene/rock_wedge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "core/parallel.hpp"
 #include "core/status.hpp"
-#include "scene/with_friction.hpp"
+#include "scene/scene_text.hpp"
 #include "sliding/block/yield_for_slip.hpp"
 
 #include <cmath>

@@ -1,12 +1,12 @@
 #include "analysis/screen/screening.hpp"
 
-#include "analysis/prepare/seepage_source.hpp"
+#include "analysis/prepare/reservoir.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "scene/key_methods.hpp"
+#include "scene/keys.hpp"
 #include "scene/water.hpp"
 #include "sliding/equilibrium/lift_block.hpp"
 

@@ -5,7 +5,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/screen/needed.hpp"
 #include "analysis/screen/regression_rows.hpp"
-#include "core/status_count.hpp"
+#include "core/status.hpp"
 #include "sliding/equilibrium/base_limits.hpp"
 #include "sliding/equilibrium/combinations.hpp"
 #include "sliding/flexible/flexible_slide.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/parallel.hpp"
 #include "scene/section.hpp"
-#include "scene/with_friction.hpp"
+#include "scene/scene_text.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,6 @@
 
 #include "core/csv.hpp"
 #include "core/file.hpp"
-#include "core/number.hpp"
 #include "core/text.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/read/read_record.hpp"

@@ -2,8 +2,7 @@
 
 #include "analysis/prepare/record_list.hpp"
 #include "records/generate/generate.hpp"
-#include "records/suite/select_suite.hpp"
-#include "records/suite/suite_index.hpp"
+#include "records/suite/suite.hpp"
 
 #include <optional>
 #include <string>

@@ -1,18 +1,22 @@
 #include "analysis/sweep/fe_sweep.hpp"
 
 #include "analysis/fe/contact_run.hpp"
-#include "analysis/fe/fe_meter.hpp"
-#include "analysis/fe/group_queue.hpp"
+#include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
+#include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
-#include "scene/exact_contact.hpp"
-#include "scene/with_friction.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/scene_text.hpp"
+#include "scene/write.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -300,6 +304,68 @@ FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& gro
     FeSweepCounts sum;
     for (const FeSweepCounts& c : counted) add(c, sum);
     return sum;
+}
+
+namespace {
+
+constexpr double resolution = 1e7; ///< values per metre
+
+double rounded(double slip)
+{
+    return std::round(slip * resolution) / resolution;
+}
+
+} // namespace
+
+SlipHistory slip_history(const std::vector<double>& time, const std::vector<double>& slip)
+{
+    SlipHistory history;
+    if (time.size() < 2) return history;
+    const double step = time[1] - time[0];
+    const auto every = static_cast<double>((time.size() + history_values - 1) / history_values);
+    history.interval = every * step;
+    std::size_t next = 1; // first sample at or after t
+    for (std::size_t k = 0; k < history_values; ++k) {
+        const double t = time.front() + static_cast<double>(k) * history.interval;
+        if (t > time.back() + 1e-6 * step) break;
+        while (next + 1 < time.size() && time[next] < t - 1e-6 * step) ++next;
+        const double share = (t - time[next - 1]) / (time[next] - time[next - 1]);
+        history.slip.push_back(rounded(slip[next - 1] + std::clamp(share, 0.0, 1.0) * (slip[next] - slip[next - 1])));
+    }
+    return history;
+}
+
+SweepIdentity sweep_identity(const Sweep& inputs)
+{
+    const Scene& scene = inputs.scene;
+    SweepIdentity identity;
+    identity.version = program_version();
+    identity.scene = scene_hash(scene);
+    std::string contents;
+    for (const RecordFiles& files : scene.motion.records) {
+        contents += sha256(read_file(files.horizontal)) + "\n";
+        contents += (files.vertical ? sha256(read_file(*files.vertical)) : "none") + "\n";
+    }
+    if (scene.mesh.file) contents += sha256(read_file(*scene.mesh.file)) + "\n";
+    identity.records = sha256(contents);
+    identity.grid = text_of(inputs.axes);
+    if (inputs.modes) identity.grid += fmt::format("; modes {}", *inputs.modes);
+    if (inputs.truncation_error) identity.grid += "; truncation error";
+    if (inputs.penalty_stiffness) identity.grid += "; penalty stiffness " + shortest(*inputs.penalty_stiffness);
+    identity.rows = inputs.tasks.rows();
+    return identity;
+}
+
+std::string hash_of(const SweepIdentity& identity)
+{
+    return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n", identity.version, identity.scene, identity.records, identity.grid,
+                              identity.rows));
+}
+
+std::vector<std::string> csv_comments(const SweepIdentity& identity)
+{
+    return {"damslip " + identity.version + " sweep", "scene " + identity.scene,
+            "sweep " + hash_of(identity) + fmt::format(", {} rows", identity.rows)};
 }
 
 } // namespace damslip

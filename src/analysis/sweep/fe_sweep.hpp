@@ -1,12 +1,12 @@
 #pragma once
 
 #include "analysis/prepare/ready.hpp"
-#include "analysis/sweep/slip_history.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/status.hpp"
 #include "core/watch.hpp"
 #include "fe2d/run/slide_watch.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <set>
@@ -15,6 +15,22 @@
 #include <vector>
 
 namespace damslip {
+
+/// Slip of one row over time, as much of it as a chart shows.
+struct SlipHistory {
+    double interval = 0.0;    ///< between values, the first at t = 0 [s]; 0: no history
+    std::vector<double> slip; ///< positive downstream, whole multiples of 0.1 µm [m]
+
+    friend bool operator==(const SlipHistory&, const SlipHistory&) = default;
+};
+
+constexpr std::size_t history_values = 400;          ///< at most
+constexpr std::size_t most_rows_with_history = 1000; ///< sweeps of more rows keep none
+
+/// Every n-th value, n so that there are at most `history_values`; the last interval is cut where it does not fit.
+/// @param time, slip  of equal length [s, m], time ascending; values between them are interpolated where the samples are
+/// not evenly spaced
+SlipHistory slip_history(const std::vector<double>& time, const std::vector<double>& slip);
 
 /// What one FE contact run gives to a sweep. Empty: not computed, or the status has none.
 struct FeSlip {
@@ -66,5 +82,25 @@ using BeginRows = std::function<void(std::span<const std::size_t> ids)>;
 /// Results do not depend on the number of threads.
 FeSweepCounts run_fe_groups(const Sweep& inputs, const std::vector<FeGroup>& groups, int jobs, Watch& watch,
                             const BeginRows& begin, const TakeSlips& take);
+
+/// All that the rows of a sweep depend on. Equal identities: equal rows, bit for bit, on one machine.
+struct SweepIdentity {
+    std::string version; ///< of the program
+    std::string scene;   ///< scene_hash after the command line's changes
+    std::string records; ///< SHA-256 over the contents of all record files and the imported mesh
+    std::string grid;    ///< axes and options in words
+    std::size_t rows = 0;
+
+    friend bool operator==(const SweepIdentity&, const SweepIdentity&) = default;
+};
+
+/// The record files of the scene are read.
+SweepIdentity sweep_identity(const Sweep& inputs);
+
+/// SHA-256 over all members.
+std::string hash_of(const SweepIdentity& identity);
+
+/// Comment lines on top of the CSV.
+std::vector<std::string> csv_comments(const SweepIdentity& identity);
 
 } // namespace damslip

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/sweep/slip_history.hpp"
-#include "analysis/sweep/sweep_identity.hpp"
+#include "analysis/sweep/fe_sweep.hpp"
 
 #include <array>
 #include <chrono>

@@ -4,6 +4,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/units.hpp"
+#include "scene/scene.hpp"
 #include "sliding/block/skipping_motion.hpp"
 
 namespace damslip {
@@ -60,5 +61,12 @@ Grid make_grid(const Scene& scene, const Axes& axes, const TaskList& tasks, cons
 
 /// The scene of a variant: level, uplift, reservoir and size of `at`.
 Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at);
+
+/// The scene geometrically `factor` times as large: section, rock box, curtain, drains, water and silt levels, uplift
+/// points, lift joints, element sizes and where forces act. Materials, slips, point forces and ice thrust stay.
+///
+/// A rigid block on friction with water alone has the same yield acceleration at every size: weight, thrust and uplift
+/// grow with the square of the factor, and so does the added mass.
+Scene sized(Scene scene, double factor);
 
 } // namespace damslip

@@ -1,12 +1,17 @@
 #include "analysis/sweep/sweep_run.hpp"
 
 #include "analysis/sweep/sweep_store.hpp"
+#include "core/input_error.hpp"
 #include "core/parallel.hpp"
-#include "core/stopwatch.hpp"
+#include "core/watch.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace damslip {
@@ -245,6 +250,136 @@ SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs)
     std::iota(wanted.begin(), wanted.end(), 0u);
     return run_sweep(sweep, make_grid(sweep.scene, sweep.axes, sweep.tasks, sweep.records, jobs), wanted, nullptr, jobs,
                      watch);
+}
+
+namespace {
+
+SweepComparison comparison_at(const Scene& scene, const Grid& grid, const SweepOutcome& outcome, GridIndex g)
+{
+    SweepComparison c;
+    c.at = g;
+    c.largest_error = 0.0;
+    const RigidModel& model = grid.model(g);
+    double fe = 0.0, rigid = 0.0;
+    for (g.record = 0; g.record < grid.records.size(); ++g.record)
+        for (g.polarity = 0; g.polarity < grid.axes.polarity.size(); ++g.polarity) {
+            const FinishedRow* row = outcome.find(grid.tasks.id(g));
+            if (!row) continue;
+            const RowResults& found = row->results;
+            if (found.critical_friction) c.critical_friction = found.critical_friction;
+            const Status status = status_of(*row).value_or(Status::not_resolved);
+            c.static_failures += fails_statically(status);
+            if (!found.slip || !is_answer(status)) c.without.add(status);
+            if (!is_answer(status) || !found.slip || model.state != sliding::StaticState::at_rest) continue;
+            const sliding::SlideResult slide =
+                slide_model(scene, model, grid.motion(g), grid.axes.polarity[g.polarity]);
+            const std::optional<double> block = reported(slide.status, std::abs(slide.slip));
+            if (!block) continue;
+            const double slip = std::abs(*found.slip);
+            ++c.motions;
+            fe += slip;
+            rigid += *block;
+            c.largest_fe = std::max(c.largest_fe, slip);
+            c.largest_rigid = std::max(c.largest_rigid, *block);
+            c.largest_error = found.slip_error && c.largest_error
+                                  ? std::optional(std::max(*c.largest_error, *found.slip_error))
+                                  : std::nullopt;
+        }
+    const auto n = static_cast<double>(std::max<std::int64_t>(1, c.motions));
+    c.mean_fe = fe / n;
+    c.mean_rigid = rigid / n;
+    if (rigid > 0.0) c.ratio_of_means = fe / rigid;
+    return c;
+}
+
+} // namespace
+
+std::vector<SweepComparison> compare_with_rigid(const Scene& scene, const Grid& grid, const SweepOutcome& outcome)
+{
+    std::vector<SweepComparison> list;
+    for (std::size_t id = 0; id < grid.tasks.rows(); ++id) { // one of each group of motions stands for it
+        const GridIndex g = grid.tasks.index(id);
+        if (g.record == 0 && g.polarity == 0 && grid.axes.method[g.method].kind == SweepKind::finite_elements)
+            list.push_back(comparison_at(scene, grid, outcome, g));
+    }
+    return list;
+}
+
+namespace {
+
+/// All that the records, as they are read, depend on.
+std::string names_of_records(const Scene& scene)
+{
+    std::string text = fmt::format("{}|{}|{}", scene.motion.vertical, scene.motion.sequence_pause,
+                                   fmt::join(scene.motion.sequence, "|"));
+    for (const RecordFiles& r : scene.motion.records)
+        text += fmt::format("\n{}|{}|{}|{}|{}|{}|{}|{}|{}", r.name, r.horizontal.string(),
+                            r.vertical ? r.vertical->string() : "", r.unit, r.dt.value_or(0.0), r.column,
+                            r.vertical_column, r.magnitude.value_or(0.0), r.scale);
+    return text;
+}
+
+std::size_t record_index(const Records& records, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const RecordPair& pair : *records) names.push_back(pair.files.name);
+    if (name.empty() && names.size() == 1) return 0;
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
+    refuse_usage(name.empty() ? fmt::format("the scene has {} records, and none is named.", names.size())
+                              : fmt::format("the scene has no record \"{}\".", name),
+                 fmt::format("one of \"{}\"", fmt::join(names, "\", \"")), "name one of them as \"record\"");
+}
+
+/// What a method needs of the scene. @throws UsageError
+void check_method(const Scene& scene, const SweepMethod& method)
+{
+    if (scene.wedge && method.kind == SweepKind::finite_elements)
+        refuse_usage(fmt::format("method {} cannot take a [wedge]: it has no section for finite elements.", method.id),
+                     "rigid, rigid-v and the regressions", "write another method");
+    if (is_flexible(method.kind) && (scene.wedge || (!scene.flexible_block && scene.regressions.period <= 0.0)))
+        refuse_usage(fmt::format("method {}: the scene does not say how the block vibrates.", method.id),
+                     "[flexible_block] with period_s, or regressions.period_s", "add it to the scene");
+    if (method.law == FeLaw::penalty && !scene.contact.tangential_stiffness)
+        refuse_usage("method fe-penalty: the scene does not give the stiffness of sticking.",
+                     "contact.tangential_stiffness_N_m3 with enforcement = \"penalty\"", "write  fe  or  fe-exact");
+}
+
+} // namespace
+
+PointAnswer PointRuns::run(const Scene& scene, const SweepMethod& method, const std::string& record, Watch& watch)
+{
+    const ProcessorClock clock(ProcessorTimeOf::process);
+    check_method(scene, method);
+    const std::string names = names_of_records(scene);
+    if (!records_ || names != names_) records_ = load_records(scene, Method::rigid_block);
+    names_ = names;
+    Axes axes = axes_of(scene);
+    axes.method = {method};
+    Sweep sweep{scene, std::move(axes), {}, records_};
+    sweep.tasks = make_tasks(sweep.axes, records_->size());
+    check_fe_scenes(sweep);
+    GridIndex at = sweep.tasks.index(0);
+    at.record = record_index(records_, record);
+    std::vector<std::size_t> ids;
+    for (at.polarity = 0; at.polarity < sweep.axes.polarity.size(); ++at.polarity) ids.push_back(sweep.tasks.id(at));
+    const Grid grid = make_grid(scene, sweep.axes, sweep.tasks, records_, 1);
+    SweepOutcome outcome = run_sweep(sweep, grid, ids, nullptr, 1, watch);
+    if (outcome.rows.size() < ids.size()) throw Interrupted("a point");
+    const auto severity = [](const FinishedRow& row) {
+        return std::tuple(!row.good, !row.results.slip, row.results.max_slip ? std::abs(*row.results.max_slip) : 0.0);
+    };
+    FinishedRow& worse = *std::max_element(outcome.rows.begin(), outcome.rows.end(),
+                                           [&](const auto& a, const auto& b) { return severity(a) < severity(b); });
+    const int polarity = sweep.axes.polarity[sweep.tasks.index(worse.id).polarity];
+    return {std::move(worse), (*records_)[at.record].files.name, polarity, method.id, clock.seconds()};
+}
+
+SweepMethod usual_method(const Scene& scene)
+{
+    const bool vertical = std::any_of(scene.motion.records.begin(), scene.motion.records.end(),
+                                      [](const RecordFiles& r) { return r.vertical.has_value(); });
+    return sweep_method(vertical && scene.motion.vertical ? "rigid-v" : "rigid");
 }
 
 } // namespace damslip

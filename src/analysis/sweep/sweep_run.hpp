@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/sweep_rows.hpp"
+#include "core/status.hpp"
 
 namespace damslip {
 
@@ -23,8 +24,8 @@ SweepOutcome run_sweep(const Sweep& sweep, Watch& watch, int jobs = 0);
 /// are not computed again; what finishes goes into it. Ends early when interrupted.
 /// @param wanted   ids, ascending
 /// @param kept     nullptr: none
-SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted,
-                       ResultStore* kept, int jobs, Watch& watch);
+SweepOutcome run_sweep(const Sweep& inputs, const Grid& grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
+                       int jobs, Watch& watch);
 
 /// What is known of all rows of a sweep whose rows are not held together.
 struct SweepTotals {
@@ -39,7 +40,45 @@ using TakePart = std::function<void(const Grid& grid, const std::vector<std::siz
 
 /// The same rows without finite elements, a few thousand at a time, so that the memory does not grow with their number.
 /// @param grid  from begin_grid()
-SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted,
-                           ResultStore* kept, int jobs, Watch& watch, const TakePart& take);
+SweepTotals run_long_sweep(const Sweep& inputs, Grid grid, const std::vector<std::size_t>& wanted, ResultStore* kept,
+                           int jobs, Watch& watch, const TakePart& take);
+
+/// FE slip against the rigid block's, over the motions of one friction, variant and FE method that both carried to their
+/// end, with the vertical component where the record has one. Slips are sizes: those of the two polarities do not cancel.
+struct SweepComparison {
+    GridIndex at; ///< of the first motion
+    std::int64_t motions = 0, static_failures = 0;
+    std::optional<double> critical_friction;
+    double mean_fe = 0.0, mean_rigid = 0.0, largest_fe = 0.0, largest_rigid = 0.0; ///< [m]
+    std::optional<double> ratio_of_means;
+    std::optional<double> largest_error; ///< of the time step [m]; none: some motion has none
+    StatusCount without;                 ///< FE runs without a slip or an answer
+};
+
+/// One for each friction, variant and FE method; the rigid block slides anew.
+std::vector<SweepComparison> compare_with_rigid(const Scene& scene, const Grid& grid, const SweepOutcome& outcome);
+
+/// One point of whoever asks from outside: a scene, a method, one of its records.
+struct PointAnswer {
+    FinishedRow row; ///< that of a sweep over this scene alone, bit for bit: of its polarities the worse
+    std::string record;
+    int polarity = 1;
+    std::string method;
+    double seconds = 0.0; ///< processor time
+};
+
+/// Answers point after point. The records are read again only when the scene names others, or another scale of them.
+class PointRuns {
+public:
+    /// @param record  name; empty: the only one @throws UsageError, InputError, NotConverged
+    PointAnswer run(const Scene& scene, const SweepMethod& method, const std::string& record, Watch& watch);
+
+private:
+    std::string names_; ///< what the records were read for
+    Records records_;
+};
+
+/// rigid-v where a record has a vertical component and the scene counts it, else rigid: the last method a sweep takes by itself.
+SweepMethod usual_method(const Scene& scene);
 
 } // namespace damslip

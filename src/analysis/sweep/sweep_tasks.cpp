@@ -1,6 +1,6 @@
 #include "analysis/sweep/sweep_tasks.hpp"
 
-#include "core/usage_error.hpp"
+#include "core/input_error.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "cli/terminal/streams.hpp"
+#include "cli/terminal/terminal.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_text.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -56,5 +57,19 @@ void need_scene_file(const RunInputs& inputs, const std::string& flag);
 /// What the command needs of a scene is a section, not a [wedge]. @param instead  what to do with a wedge
 /// @throws InputError for a scene of a rock wedge
 void need_section(const Scene& scene, const std::string& command, const std::string& instead);
+
+/// What a driver of Dakota asks for.
+struct DakotaQuestion {
+    std::vector<KeyChange> changes;
+    std::vector<std::string> responses; ///< descriptors, in order
+    std::vector<bool> wanted;           ///< of each response
+};
+
+/// Reads Dakota's parameters file, standard ("0.7 contact.friction") or aprepro ("{ contact.friction = 0.7 }"). Strings are
+/// choices. @throws InputError for a file cut short, gradients asked for
+DakotaQuestion read_dakota(const std::filesystem::path& file);
+
+/// Reads quoFEM's params.in: the number of variables, then a name and a value a line. @throws InputError
+std::vector<KeyChange> read_quofem(const std::filesystem::path& file);
 
 } // namespace damslip::cli

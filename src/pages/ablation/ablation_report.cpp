@@ -1,11 +1,12 @@
-#include "pages/ablation/ablation_tables.hpp"
+#include "pages/ablation/ablation_pages.hpp"
 
+#include "analysis/prepare/ready.hpp"
+#include "analysis/prepare/records.hpp"
 #include "core/units.hpp"
-#include "pages/ablation/tornado.hpp"
+#include "pages/report/picture.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/effect_table.hpp"
-#include "pages/scene/limits.hpp"
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
+#include "scene/plausible.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -219,6 +220,172 @@ std::string ablation_text(const Ablations& in, const EffectPlan& effects)
     std::string all = in.plan.full.title + "\n\n" + texts(tables);
     for (const std::string& note : ablation_notes(in)) all += "note: " + note + "\n";
     return all;
+}
+
+namespace {
+
+/// "dt/8"
+std::string step_word(int halvings)
+{
+    return halvings == 0 ? "dt" : fmt::format("dt/{}", 1 << halvings);
+}
+
+std::string step_note(const AblationStep& step)
+{
+    return fmt::format(
+        "time step: {} = {:.4g} s in all runs, {}; ± step is what it leaves open, from the same runs with {} and first "
+        "order; that of a change is of the difference itself.",
+        step_word(step.halvings), step.largest_dt,
+        step.missed
+            ? "the smallest there is: time.slip_tolerance asks for a smaller one with all effects (tolerance missed)"
+        : step.chosen ? "what time.slip_tolerance asks for with all effects, but dt/8 at least"
+                      : "as time.substeps says",
+        step_word(step.other));
+}
+
+std::optional<std::string> interaction_note(const Ablations& in)
+{
+    if (!in.plan.simplest || in.records.empty()) return std::nullopt;
+    std::string text = "effects act on each other, so the changes do not add up: ";
+    bool any = false;
+    for (std::size_t r = 0; r < in.records.size(); ++r) {
+        const std::vector<AblationRow> rows = rows_of(in.plan, in.runs, r);
+        const std::optional<double> sum = sum_of_changes(in.plan, rows), all = rows.back().slip.change;
+        if (!sum || !all) continue;
+        text += fmt::format("{}{}: sum {:+.4g} mm, all removed at once {:+.4g} mm", any ? "; " : "",
+                            in.records[r].files.name, *sum / units::mm, *all / units::mm);
+        any = true;
+    }
+    return any ? text + "." : "effects act on each other, so the changes do not add up.";
+}
+
+} // namespace
+
+std::vector<std::string> ablation_notes(const Ablations& in)
+{
+    std::vector<std::string> notes;
+    if (const auto note = base_note(in.plan.full); note && in.plan.method == Method::finite_elements)
+        notes.push_back(*note + ".");
+    for (std::string& note : note_texts(in.plan.full.notes)) notes.push_back(std::move(note));
+    notes.push_back("every run with " + polarity_words({polarities_of(in.plan.full).front()}));
+    if (!in.water.empty()) notes.push_back(in.water + " in all runs");
+    if (in.runs.step) notes.push_back(step_note(*in.runs.step));
+    if (in.plan.method == Method::rigid_block)
+        notes.push_back(
+            in.plan.full.sliding.scheme == SlidingScheme::exact
+                ? "rigid block: events are located exactly, so no step error; the crest moves with the base."
+                : "rigid block, SLAMMER's scheme: its step error is not estimated; the crest moves with "
+                  "the base.");
+    else
+        notes.push_back("crest: largest horizontal distance of its upstream end from where it stood over the base "
+                        "before the earthquake, so deformation and rocking without the slip; contact runs keep no "
+                        "crest acceleration.");
+    for (std::size_t r = 0; r < in.records.size(); ++r)
+        if (const RecordOutcome& full = in.runs.scenes.front().records[r]; !full.slip)
+            notes.push_back(fmt::format("{}: with all effects {}, so there is no slip that a removal could change. {}",
+                                        in.records[r].files.name, word(full.status), full.message));
+    if (const StatusCount unanswered = unanswered_runs(in.runs); !unanswered.empty())
+        notes.push_back("runs without an answer: " + unanswered.words() + ".");
+    if (in.records.empty())
+        notes.push_back("no record is given: no slip. Name one with --record or [[motion.record]].");
+    if (auto note = interaction_note(in)) notes.push_back(std::move(*note));
+    return notes;
+}
+
+namespace {
+
+// Pixels of the drawing; y is up.
+constexpr double width = 720.0, names = 200.0, figures = 130.0, row = 26.0, bar = 15.0, axis_height = 44.0;
+
+/// 1, 2 or 5 times a power of ten, at most the value.
+double round_step(double value)
+{
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double digit : {5.0, 2.0})
+        if (digit * power <= value) return digit * power;
+    return power;
+}
+
+struct Frame {
+    double low = 0.0, high = 0.0; ///< of the values
+    /// Both sides that have bars have room for their figures.
+    double x(double value) const
+    {
+        const double left = names + (low < 0 ? figures : 0.0);
+        return left + (value - low) / (high - low) * (width - figures - left);
+    }
+};
+
+Frame frame_of(const std::vector<Bar>& bars)
+{
+    Frame f;
+    double largest = 0.0;
+    for (const Bar& b : bars) {
+        if (!b.value) continue;
+        largest = std::max(largest, std::abs(*b.value));
+        f.low = std::min(f.low, *b.value);
+        f.high = std::max(f.high, *b.value);
+    }
+    for (const Bar& b : bars) { // whiskers longer than half the longest bar are cut at the frame
+        if (!b.value) continue;
+        f.low = std::min(f.low, *b.value - std::min(b.error, 0.5 * largest));
+        f.high = std::max(f.high, *b.value + std::min(b.error, 0.5 * largest));
+    }
+    if (f.high == f.low) f.high = 1.0;
+    return f;
+}
+
+void draw_axis(Sketch& sketch, const Frame& f, double top, const std::string& axis)
+{
+    const double step = round_step((f.high - f.low) / 3.0);
+    for (double k = std::ceil(f.low / step); k * step <= f.high * (1 + 1e-12); ++k) {
+        const double x = f.x(k * step);
+        sketch.line({{x, axis_height}, {x, top}}, k == 0.0 ? "axis" : "grid-line");
+        sketch.text({x, axis_height}, fmt::format("{:.6g}", k == 0.0 ? 0.0 : k * step), Align::middle, 0, 15, "small");
+    }
+    sketch.text({f.x(0.5 * (f.low + f.high)), axis_height}, axis, Align::middle, 0, 33, "small");
+}
+
+void draw_bar(Sketch& sketch, const Frame& f, const Bar& b, double middle)
+{
+    sketch.text({names, middle}, b.name, Align::end, -12, 4.5, "");
+    if (!b.value) {
+        sketch.text({f.x(0.0), middle}, b.words, Align::start, 8, 4.5, "small");
+        return;
+    }
+    const double from = f.x(0.0), to = f.x(*b.value), low = middle - bar / 2, high = middle + bar / 2;
+    const std::string css = std::string(*b.value > 0 ? "more" : "less") + (b.doubtful ? " doubtful" : "");
+    if (from != to) sketch.polygon({{from, low}, {to, low}, {to, high}, {from, high}}, css);
+    double end = to;
+    if (b.error > 0) {
+        const double a = f.x(std::max(f.low, *b.value - b.error)), z = f.x(std::min(f.high, *b.value + b.error));
+        sketch.line({{a, middle}, {z, middle}}, "whisker");
+        for (const double x : {a, z}) sketch.line({{x, middle - 4}, {x, middle + 4}}, "whisker");
+        end = *b.value < 0 ? std::min(a, to) : std::max(z, to);
+    }
+    sketch.text({end, middle}, b.words, *b.value < 0 ? Align::end : Align::start, *b.value < 0 ? -6 : 6, 4.5,
+                "halo small");
+}
+
+} // namespace
+
+Drawing tornado(std::string title, std::vector<Bar> bars, const std::string& axis, const std::string& note)
+{
+    std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) {
+        return (a.value ? std::abs(*a.value) : -1.0) > (b.value ? std::abs(*b.value) : -1.0);
+    });
+    const Frame f = frame_of(bars);
+    const double top = axis_height + row * static_cast<double>(bars.size()) + 4.0;
+    Sketch sketch({0, 0}, {width, top}, width);
+    draw_axis(sketch, f, top, axis);
+    double middle = top - 4.0 - row / 2;
+    for (const Bar& b : bars) {
+        draw_bar(sketch, f, b, middle);
+        middle -= row;
+    }
+    std::string description = title + ":";
+    for (const Bar& b : bars) description += fmt::format(" {} {};", b.name, b.words);
+    return {std::move(title), sketch.svg(description), note};
 }
 
 } // namespace damslip::pages

@@ -1,4 +1,4 @@
-#include "pages/ablation/ablation_tables.hpp"
+#include "pages/ablation/ablation_pages.hpp"
 
 #include "core/units.hpp"
 

@@ -1,6 +1,6 @@
-#include "pages/accuracy/accuracy_tables.hpp"
+#include "pages/accuracy/accuracy_pages.hpp"
 
-#include "core/status_count.hpp"
+#include "core/status.hpp"
 #include "core/units.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "pages/accuracy/cost_figure.hpp"
+#include "pages/accuracy/accuracy_pages.hpp"
 
-#include "pages/report/escape.hpp"
+#include "pages/report/json.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 #include "pages/explain/explain_page.hpp"
 
-#include "pages/fe/fe_output.hpp"
+#include "pages/fe/fe_pages.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/effect_table.hpp"
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

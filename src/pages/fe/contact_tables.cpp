@@ -1,7 +1,7 @@
-#include "pages/fe/contact_tables.hpp"
+#include "pages/fe/fe_pages.hpp"
 
 #include "core/units.hpp"
-#include "pages/scene/anchor_tables.hpp"
+#include "pages/scene/scene_pages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -196,10 +196,10 @@ Table contact_stage_table(const std::vector<ContactRun>& runs)
         columns.push_back({{"jumps", "jumps"}, of_bond(&fe2d::BondLoad::jumps)});
         columns.push_back({{"jump_loss_J_m", "lost in jumps", "J/m", 4}, of_bond(&fe2d::BondLoad::lost)});
     }
-    return table_of<R>(
-        "Static stages", columns, rows,
-        {"after the earthquake: cohesion lost where the joint has opened or slipped, friction of the path, curtain and drains of the post-seismic combination; slip since the start of the "
-         "stages."});
+    return table_of<R>("Static stages", columns, rows,
+                       {"after the earthquake: cohesion lost where the joint has opened or slipped, friction of the "
+                        "path, curtain and drains of the post-seismic combination; slip since the start of the "
+                        "stages."});
 }
 
 std::vector<ContactColumn> contact_run_columns(const std::optional<double>& allowable)
@@ -382,8 +382,10 @@ Table contact_event_table(const std::vector<ContactRun>& runs)
          {{"event", "event"}, [](const Row& r) { return r.event.name; }},
          {{"start_s", "from", "s", 6}, [](const Row& r) { return r.event.start; }},
          {{"end_s", "to", "s", 6}, [](const Row& r) { return r.event.end; }},
-         {{"slip_of_event_mm", "slip of it", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), units::mm); }},
-         {{"slip_so_far_mm", "slip so far", "mm", 5}, [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), units::mm); }},
+         {{"slip_of_event_mm", "slip of it", "mm", 5},
+          [](const Row& r) { return optional_cell(reported(r.event.status, r.event.change), units::mm); }},
+         {{"slip_so_far_mm", "slip so far", "mm", 5},
+          [](const Row& r) { return optional_cell(reported(r.event.status, r.event.slip), units::mm); }},
          {{"status", "status"}, [](const Row& r) { return word(r.event.status); }},
          {{"rigid_slip_of_event_mm", "rigid block, slip of it", "mm", 5},
           [=](const Row& r) { return of_rigid(r, &EventSlip::change); }}},

@@ -1,10 +1,12 @@
-#include "pages/fe/fe_charts.hpp"
+#include "pages/fe/fe_pages.hpp"
 
 #include "core/units.hpp"
+#include "scene/joint_bond.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <ranges>
 
 namespace damslip::pages {
 
@@ -230,6 +232,287 @@ std::optional<std::size_t> fastest_row(const fe2d::RunHistory& h)
         row = i;
     }
     return row;
+}
+
+namespace {
+
+constexpr std::size_t largest_instants = 150; ///< of one record alone
+
+/// Values of the pairs at one row of the history, in MPa.
+std::vector<double> row_values(const fe2d::PairHistory& pairs, const std::vector<float>& values, std::size_t row)
+{
+    std::vector<double> out;
+    for (Eigen::Index i = 0; i < pairs.pairs; ++i) out.push_back(1e-6 * static_cast<double>(values[pairs.at(row, i)]));
+    return out;
+}
+
+/// Every k-th row, the last one and the one of interest.
+std::vector<std::size_t> shown_rows(std::size_t rows, std::size_t largest, std::optional<std::size_t> also)
+{
+    const std::size_t every = std::max<std::size_t>(1, (rows + largest - 1) / largest);
+    std::vector<std::size_t> list;
+    for (std::size_t row = 0; row < rows; ++row)
+        if (row % every == 0 || row + 1 == rows || row == also) list.push_back(row);
+    return list;
+}
+
+Chart chart_of(const RunView& view, const std::string& what, const std::vector<float>& values)
+{
+    const fe2d::RunResult& fe = view.run.fe;
+    const fe2d::RunHistory& h = fe.history;
+    const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
+    Chart chart;
+    chart.title = view.run.label() + ": " + what + " along the base";
+    chart.x = {"distance from the heel", "m"};
+    chart.y = {what.substr(0, what.find(',')), "MPa"}; // the title has the rest
+    chart.together = view.together + "base";
+    const auto add = [&](const std::string& name, std::size_t row, int colour, Mark mark, Weight weight) {
+        chart.curves.push_back({name, distance, row_values(h.by_pair, values, row), {}, {}, mark, weight, colour});
+    };
+    const std::optional<std::size_t> fastest = fastest_row(h);
+    add("start", 0, 7, Mark::line, Weight::normal);
+    if (fastest)
+        add(fmt::format("largest slip rate, {:.4g} s", h.time[*fastest]), *fastest, 1, Mark::line, Weight::normal);
+    add(fmt::format("end, {:.4g} s", h.time.back()), h.time.size() - 1, 2, Mark::line, Weight::normal);
+
+    Moving moving;
+    moving.label = "time";
+    moving.unit = "s";
+    const std::size_t largest = std::max<std::size_t>(20, largest_instants / view.records);
+    for (const std::size_t row : shown_rows(h.time.size(), largest, fastest)) {
+        if (row == fastest.value_or(0)) moving.start = moving.at.size();
+        moving.at.push_back(h.time[row]);
+        moving.y.push_back(row_values(h.by_pair, values, row));
+    }
+    moving.curve = chart.curves.size();
+    add("at the slider's time", fastest.value_or(0), 0, Mark::line, Weight::strong);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double bottom = std::min(0.0, 1e-6 * static_cast<double>(*low)), top = 1e-6 * static_cast<double>(*high);
+    chart.y.low = bottom - 0.04 * (top - bottom);
+    chart.y.high = top + 0.04 * (top - bottom);
+    chart.moving = std::move(moving);
+    return chart;
+}
+
+char letter_of(fe2d::ContactState state)
+{
+    switch (state) {
+    case fe2d::ContactState::stick:
+        return 's';
+    case fe2d::ContactState::slip_upstream:
+        return 'u';
+    case fe2d::ContactState::slip_downstream:
+        return 'd';
+    case fe2d::ContactState::open:
+        return 'o';
+    case fe2d::ContactState::pulled:
+        return 'p';
+    }
+    return 's';
+}
+
+} // namespace
+
+std::vector<Chart> base_charts(const RunView& view)
+{
+    const fe2d::PairHistory& pairs = view.run.fe.history.by_pair;
+    std::vector<Chart> charts{chart_of(view, "effective pressure", pairs.pressure),
+                              chart_of(view, "shear, resisting downstream slip", pairs.shear)};
+    charts[0].note =
+        "Effective pressure, compression positive: water in the joint is not part of it. The slider moves both "
+        "charts.";
+    return charts;
+}
+
+std::optional<Chart> bond_chart(const RunView& view, const Scene& scene)
+{
+    const fe2d::RunResult& fe = view.run.fe;
+    const auto damage = fe.state.laws.find("bond_damage");
+    if (damage == fe.state.laws.end() || !breaks_by_energy(scene.contact)) return std::nullopt;
+    const std::vector<double> distance(fe.pair_distance.begin(), fe.pair_distance.end());
+    const std::vector<double>& all = damage->second; // the base's pairs first
+    if (all.size() < distance.size()) return std::nullopt;
+    const std::vector<double> values(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(distance.size()));
+    double broken = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i] >= 1.0) broken += fe.pair_area[static_cast<Eigen::Index>(i)];
+    Chart chart;
+    chart.title = view.run.label() + ": bond along the base";
+    chart.x = {"distance from the heel", "m"};
+    chart.y = {"damage κ", "–"};
+    chart.y.low = 0.0;
+    chart.y.high = 1.05;
+    chart.height = 240;
+    chart.together = view.together + "base";
+    chart.curves.push_back({"at the end", distance, values, {}, {}, Mark::line, Weight::strong, 1});
+    chart.note = fmt::format("0: intact, 1: broken for good. At the end {:.3g} m of {:.3g} m are broken.", broken,
+                             fe.pair_area.sum());
+    return chart;
+}
+
+StateMap base_states(const RunView& view)
+{
+    const fe2d::RunResult& fe = view.run.fe;
+    const fe2d::PairHistory& pairs = fe.history.by_pair;
+    StateMap map;
+    map.title = view.run.label() + ": where the base sticks, slips and opens";
+    map.time = fe.history.time;
+    map.distance.assign(fe.pair_distance.begin(), fe.pair_distance.end());
+    map.place = "from the heel";
+    map.kinds = {{'s', "sticks", -1}, {'u', "slips upstream", 2}, {'d', "slips downstream", 1}, {'o', "open", 0}};
+    if (std::find(pairs.state.begin(), pairs.state.end(), fe2d::ContactState::pulled) != pairs.state.end())
+        map.kinds.push_back({'p', "pulled (the joint may not open)", 3});
+    for (std::size_t row = 0; row < map.time.size(); ++row) {
+        std::string letters;
+        for (Eigen::Index i = 0; i < pairs.pairs; ++i) letters += letter_of(pairs.state[pairs.at(row, i)]);
+        map.states.push_back(std::move(letters));
+    }
+    map.note =
+        "Each cell is a contact pair at an instant of the record; where several share a pixel, open counts before "
+        "slip, slip before stick.";
+    return map;
+}
+
+// Tables of one run over time and along the base.
+
+namespace {
+
+char letter(fe2d::ContactState state)
+{
+    switch (state) {
+    case fe2d::ContactState::stick:
+        return 's';
+    case fe2d::ContactState::slip_downstream:
+        return 'd';
+    case fe2d::ContactState::slip_upstream:
+        return 'u';
+    case fe2d::ContactState::open:
+        return 'o';
+    case fe2d::ContactState::pulled:
+        return 'p';
+    }
+    return '?';
+}
+
+using RowColumn = ColumnOf<std::size_t>; ///< of the rows of a history
+
+/// One of its values in each row. @param values  outlives this
+auto of(const std::vector<double>& values)
+{
+    return [&values](std::size_t row) { return values[row]; };
+}
+
+std::vector<RowColumn> history_columns(const fe2d::RunHistory& h)
+{
+    std::vector<RowColumn> all{{{"time_s", "time", "s", 6}, of(h.time)},
+                               {{"ground_accel_h_m_s2", "a_h", "m/s²", 5}, of(h.ground_h)},
+                               {{"ground_accel_v_m_s2", "a_v", "m/s²", 5}, of(h.ground_v)},
+                               {{"slip_m", "slip", "m", 6}, of(h.slip)},
+                               {{"slip_heel_m", "slip, heel", "m", 6}, of(h.slip_heel)},
+                               {{"slip_middle_m", "slip, middle", "m", 6}, of(h.slip_middle)},
+                               {{"slip_toe_m", "slip, toe", "m", 6}, of(h.slip_toe)},
+                               {{"rocking_rad", "rocking", "rad", 6}, of(h.rocking)},
+                               {{"crest_x_m", "crest x", "m", 6}, of(h.crest_x)},
+                               {{"normal_force_N_m", "N'", "N/m", 6}, of(h.normal_force)},
+                               {{"shear_force_N_m", "T", "N/m", 6}, of(h.shear_force)},
+                               {{"normal_position_m", "N' from heel", "m", 6}, of(h.normal_position)},
+                               {{"moment_N_m_m", "moment", "N m/m", 6}, of(h.moment)},
+                               {{"open_length_m", "open", "m", 4}, of(h.open_length)},
+                               {{"slipping_length_m", "slipping", "m", 4}, of(h.slipping_length)},
+                               {{"largest_opening_m", "opening", "m", 4}, of(h.largest_opening)}};
+    for (const auto& [column, value] : energy_columns_of(h.energy))
+        all.push_back({column, [&h, value](std::size_t row) { return value(h.energy[row]); }});
+    all.push_back({{"imbalance_J_m", "imbalance", "J/m", 4}, of(h.imbalance)});
+    for (std::size_t k = 0; k < h.lifts.size(); ++k) {
+        const fe2d::LiftHistory& lift = h.lifts[k];
+        const std::string number = std::to_string(k + 1), key = "lift" + number + "_",
+                          name = "lift joint " + number + ", ";
+        all.push_back({{key + "slip_m", name + "slip", "m", 6}, of(lift.slip)});
+        all.push_back({{key + "rocking_rad", name + "rocking", "rad", 6}, of(lift.rocking)});
+        all.push_back({{key + "normal_force_N_m", name + "N'", "N/m", 6}, of(lift.normal_force)});
+        all.push_back({{key + "largest_opening_m", name + "opening", "m", 4}, of(lift.largest_opening)});
+    }
+    for (std::size_t k = 0; k < h.anchors.size(); ++k)
+        all.push_back({{"anchor" + std::to_string(k + 1) + "_force_N_m", "N, " + h.anchors[k].name, "N/m", 6},
+                       of(h.anchors[k].force)});
+    if (!h.crack_length.empty()) {
+        all.push_back({{"crack_length_m", "crack", "m", 5}, of(h.crack_length)});
+        all.push_back({{"wet_length_m", "water in the crack", "m", 5}, of(h.wet_length)});
+    }
+    for (RowColumn& column : slide_columns(h.slide)) all.push_back(std::move(column));
+    return all;
+}
+
+} // namespace
+
+std::vector<ColumnOf<std::size_t>> slide_columns(const fe2d::SlideHistory& h)
+{
+    if (h.rate.empty()) return {};
+    return {{{"thrust_over_friction", "χ", "–", 4}, of(h.thrust_over_friction)},
+            {{"hops", "hops", "", 6}, of(h.hops)},
+            {{"unloaded_share", "unloaded", "–", 4}, of(h.unloaded_share)},
+            {{"slip_rate_m_s", "slip rate", "m/s", 4}, of(h.rate)}};
+}
+
+Table contact_history_table(const fe2d::RunHistory& h)
+{
+    return table_of("", history_columns(h), std::views::iota(std::size_t{0}, h.time.size()));
+}
+
+Table base_table(const fe2d::RunResult& r)
+{
+    using Pair = Eigen::Index;
+    const auto of_pairs = [](const Eigen::VectorXd& values) { return [&values](Pair i) { return values[i]; }; };
+    return table_of<Pair>("",
+                          {{{"distance_m", "distance", "m", 5}, of_pairs(r.pair_distance)},
+                           {{"area_m", "length", "m", 5}, of_pairs(r.pair_area)},
+                           {{"pressure_Pa", "effective pressure", "Pa", 6}, of_pairs(r.pair_pressure)},
+                           {{"shear_Pa", "shear", "Pa", 6}, of_pairs(r.pair_shear)},
+                           {{"slip_m", "slip", "m", 6}, of_pairs(r.pair_slip)},
+                           {{"opening_m", "opening", "m", 6}, of_pairs(r.pair_opening)}},
+                          std::views::iota(Pair{0}, r.pair_slip.size()));
+}
+
+Table pair_table(const fe2d::RunResult& r, std::size_t largest)
+{
+    struct Row {
+        std::size_t instant;
+        Eigen::Index pair;
+        std::size_t place; ///< in the history by pair
+    };
+    const fe2d::PairHistory& p = r.history.by_pair;
+    const std::size_t instants = p.pairs ? r.history.time.size() : 0,
+                      every = std::max<std::size_t>(1, (instants + largest - 1) / largest);
+    std::vector<Row> rows;
+    for (std::size_t instant = 0; instant < instants; ++instant) {
+        if (instant % every && instant + 1 != instants) continue;
+        for (Eigen::Index i = 0; i < p.pairs; ++i) rows.push_back({instant, i, p.at(instant, i)});
+    }
+    const auto kept = [](const auto& values) {
+        return [&values](const Row& row) { return static_cast<double>(values[row.place]); };
+    };
+    return table_of<Row>(
+        "",
+        {{{"time_s", "time", "s", 6}, [&](const Row& row) { return r.history.time[row.instant]; }},
+         {{"distance_m", "distance", "m", 5}, [&](const Row& row) { return r.pair_distance[row.pair]; }},
+         {{"pressure_Pa", "effective pressure", "Pa", 6}, kept(p.pressure)},
+         {{"shear_Pa", "shear", "Pa", 6}, kept(p.shear)},
+         {{"slip_m", "slip", "m", 6}, kept(p.slip)},
+         {{"opening_m", "opening", "m", 6}, kept(p.opening)},
+         {{"state", "state"}, [&](const Row& row) { return std::string(1, letter(p.state[row.place])); }}},
+        rows);
+}
+
+Table state_map(const fe2d::RunHistory& h)
+{
+    const auto states = [&h](std::size_t row) {
+        std::string letters;
+        for (Eigen::Index i = 0; i < h.by_pair.pairs; ++i) letters += letter(h.by_pair.state[h.by_pair.at(row, i)]);
+        return letters;
+    };
+    return table_of<std::size_t>(
+        "", {{{"time_s", "time", "s", 6}, of(h.time)}, {{"states_heel_to_toe", "states, heel to toe"}, states}},
+        std::views::iota(std::size_t{0}, h.by_pair.pairs ? h.time.size() : 0));
 }
 
 } // namespace damslip::pages

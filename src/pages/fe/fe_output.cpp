@@ -1,13 +1,13 @@
-#include "pages/fe/fe_output.hpp"
+#include "pages/fe/fe_pages.hpp"
 
-#include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
-#include "fe2d/statics/stress.hpp"
-#include "pages/report/page_html.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "fe2d/output/vtu.hpp"
+#include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/effect_table.hpp"
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/write.hpp"
 
 #include <algorithm>
@@ -150,6 +150,135 @@ void write_fe_files(const std::filesystem::path& folder, const Scene& scene, con
     write_file(folder / "summary.json", answer.json.dump(2) + "\n");
     write_file(folder / "scene.resolved.toml", resolved_toml(scene));
     write_file(folder / "report.html", page_html(page));
+}
+
+namespace {
+
+/// What does not change from frame to frame.
+class FrameWriter {
+public:
+    FrameWriter(const FrameModel& of, std::filesystem::path folder, const Eigen::VectorXd& zero)
+        : of_(of), folder_(std::move(folder)), zero_(zero), dam_(fe2d::part_of(mesh(), 0, mesh().dam_element_count)),
+          rock_(fe2d::part_of(mesh(), mesh().dam_element_count, mesh().element_count()))
+    {
+        add_joint(mesh().contact.dam_nodes);
+        for (const fe2d::LiftPlane& lift : mesh().lifts) add_joint(lift.upper_nodes);
+        water_ = static_water();
+    }
+
+    /// @returns the name of the .vtm
+    std::string write(std::size_t number, const fe2d::RunFrame& frame) const
+    {
+        const std::string name = fmt::format("{:05d}", number);
+        std::vector<fe2d::VtmBlock> blocks;
+        const auto block = [&](const std::string& what) {
+            blocks.push_back({what, name + "_" + what + ".vtu"});
+            return folder_ / blocks.back().file;
+        };
+        const Eigen::VectorXd elastic =
+            of_.model.displacement_of({fe2d::Instant::end, 0.0, 0.0, frame.dam, frame.rock});
+        const Eigen::VectorXd shown = zero_.size() > 0 ? Eigen::VectorXd(elastic - zero_) : elastic;
+        const Eigen::MatrixXd displacement = node_vectors(of_.model.model().dofs, shown);
+        const fe2d::StressField stress =
+            fe2d::stress_field(mesh(), of_.model.model().dofs, of_.model.model().materials, elastic);
+        write_solid(block("dam"), dam_, displacement, stress);
+        if (!rock_.elements.empty()) write_solid(block("rock"), rock_, displacement, stress);
+        if (const fe2d::WaterBody* water = of_.model.water(); water && frame.water.size() > 0)
+            fe2d::write_vtu(block("water"), water->water.reservoir.mesh,
+                            {{"pressure_Pa", Eigen::MatrixXd(frame.water.transpose())}}, {});
+        write_joints(block("joints"), displacement, frame);
+        fe2d::write_vtm(folder_ / (name + ".vtm"), blocks);
+        return name + ".vtm";
+    }
+
+private:
+    const fe2d::Mesh& mesh() const { return of_.model.model().mesh; }
+
+    void add_joint(const std::vector<int>& nodes)
+    {
+        Polyline& joint = joints_.emplace_back();
+        for (const int node : nodes) {
+            joint.push_back(mesh().nodes[static_cast<std::size_t>(node)]);
+            joint_nodes_.push_back(node);
+        }
+    }
+
+    /// Pressure of the water in the joints before the earthquake [Pa].
+    Eigen::VectorXd static_water() const
+    {
+        Eigen::VectorXd pressure = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joint_nodes_.size()));
+        Eigen::Index at = 0;
+        const auto add = [&](const std::vector<double>& distances, const PressureProfile& profile) {
+            for (const double distance : distances)
+                pressure[at++] = profile.empty() ? 0.0 : pressure_at(profile, distance);
+        };
+        add(mesh().contact.distance, of_.uplift);
+        for (std::size_t k = 0; k < mesh().lifts.size(); ++k) {
+            const std::vector<double>& distances = mesh().lifts[k].distance;
+            const LiftJoint& joint = of_.scene.lift_joints[k];
+            add(distances, joint.water == JointWater::none
+                               ? PressureProfile{}
+                               : fe2d::lift_water_profile(of_.scene, joint, distances.back()));
+        }
+        return pressure;
+    }
+
+    static void write_solid(const std::filesystem::path& file, const fe2d::MeshPart& part,
+                            const Eigen::MatrixXd& displacement, const fe2d::StressField& stress)
+    {
+        const Eigen::Matrix3Xd at_nodes = part.at_nodes(stress.nodal);
+        fe2d::write_vtu(file, part.mesh,
+                        {{"displacement_m", part.at_nodes(displacement)},
+                         {"stress_xx_yy_xy_Pa", at_nodes},
+                         {"principal_major_minor_Pa", principal_stresses(at_nodes)}},
+                        {{"centre_stress_xx_yy_xy_Pa", part.at_elements(stress.centre)}});
+    }
+
+    void write_joints(const std::filesystem::path& file, const Eigen::MatrixXd& displacement,
+                      const fe2d::RunFrame& frame) const
+    {
+        Eigen::VectorXd water = water_;
+        if (frame.joint_water.size() > 0) water.head(frame.joint_water.size()) = frame.joint_water;
+        Eigen::MatrixXd moved(2, static_cast<Eigen::Index>(joint_nodes_.size()));
+        for (std::size_t i = 0; i < joint_nodes_.size(); ++i)
+            moved.col(static_cast<Eigen::Index>(i)) = displacement.col(joint_nodes_[i]);
+        const Eigen::Map<const Eigen::VectorXd> states(frame.states.data(),
+                                                       static_cast<Eigen::Index>(frame.states.size()));
+        const auto row = [](const auto& values) { return Eigen::MatrixXd(values.transpose()); };
+        fe2d::write_lines_vtu(file, joints_,
+                              {{"displacement_m", moved},
+                               {"opening_m", row(frame.opening)},
+                               {"slip_m", row(frame.slip)},
+                               {"normal_pressure_Pa", row(frame.pressure)},
+                               {"shear_Pa", row(frame.shear)},
+                               {"water_pressure_Pa", row(water)},
+                               {"state", row(states)}});
+    }
+
+    const FrameModel& of_;
+    std::filesystem::path folder_;
+    const Eigen::VectorXd& zero_;
+    fe2d::MeshPart dam_, rock_;
+    std::vector<Polyline> joints_;
+    std::vector<int> joint_nodes_;
+    Eigen::VectorXd water_;
+};
+
+} // namespace
+
+std::string write_frames(const std::filesystem::path& folder, const FrameModel& of, const ContactRun& run)
+{
+    const fe2d::FrameSpool* frames = run.fe.history.frames.get();
+    if (!frames || frames->count() == 0) return {};
+    const std::string series = run_file("frames", of.scene, run.record, run.suffix());
+    const FrameWriter writer(of, folder / series, run.fe.zero_displacement);
+    std::vector<fe2d::PvdEntry> entries;
+    for (std::size_t i = 0; i < frames->count(); ++i) {
+        const fe2d::RunFrame frame = frames->read(i);
+        entries.push_back({frame.time, series + "/" + writer.write(i, frame)});
+    }
+    fe2d::write_pvd(folder / (series + ".pvd"), entries);
+    return series + ".pvd";
 }
 
 } // namespace damslip::pages

@@ -1,14 +1,15 @@
-#include "pages/fe/fe_page.hpp"
+#include "pages/fe/fe_pages.hpp"
 
-#include "analysis/prepare/contact_law.hpp"
-#include "pages/fe/fe_output.hpp"
-#include "pages/fe/mesh_drawing.hpp"
-#include "pages/scene/limits.hpp"
-#include "pages/scene/record_charts.hpp"
-#include "pages/scene/report_provenance.hpp"
-#include "pages/scene/section_drawing.hpp"
+#include "analysis/prepare/ready.hpp"
+#include "core/units.hpp"
+#include "fe2d/mesh/faces.hpp"
+#include "fe2d/model/static_solution.hpp"
+#include "pages/scene/scene_pages.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
 
 namespace damslip::pages {
 
@@ -76,6 +77,147 @@ Table without_seconds(Table table)
         if (const auto end = note.find("; time without"); end != std::string::npos) note = note.substr(0, end) + ".";
     std::erase_if(table.notes, [](const std::string& note) { return note.starts_with("time without"); });
     return table;
+}
+
+namespace {
+
+constexpr double MPa = 1e6;
+
+std::string words(fe2d::Instant instant)
+{
+    switch (instant) {
+    case fe2d::Instant::start:
+        return "before the earthquake";
+    case fe2d::Instant::leans_downstream:
+        return "crest farthest downstream of the base";
+    case fe2d::Instant::leans_upstream:
+        return "crest farthest upstream of the base";
+    case fe2d::Instant::slides_fastest:
+        return "largest slip rate";
+    case fe2d::Instant::end:
+        return "end";
+    }
+    return "";
+}
+
+/// von Mises stress in plane strain, with σ_zz = ν (σ_xx + σ_yy) [Pa].
+double von_mises(const Eigen::Vector3d& s, double poisson_ratio)
+{
+    const double z = poisson_ratio * (s[0] + s[1]), a = s[0] - s[1], b = s[1] - z, c = z - s[0];
+    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s[2] * s[2]);
+}
+
+} // namespace
+
+std::vector<Polyline> dam_mesh_lines(const fe2d::Mesh& mesh)
+{
+    std::set<std::pair<int, int>> seen;
+    std::vector<Polyline> lines;
+    for (int e = 0; e < mesh.dam_element_count; ++e) {
+        const fe2d::Element& element = mesh.elements[static_cast<std::size_t>(e)];
+        for (int i = 0; i < element.size(); ++i) {
+            const int a = element.nodes[static_cast<std::size_t>(i)],
+                      b = element.nodes[static_cast<std::size_t>((i + 1) % element.size())];
+            if (seen.insert(std::minmax(a, b)).second)
+                lines.push_back({mesh.nodes[static_cast<std::size_t>(a)], mesh.nodes[static_cast<std::size_t>(b)]});
+        }
+    }
+    return lines;
+}
+
+StressView::StressView(const fe2d::EarthquakeRun& run) : run_(run)
+{
+    const fe2d::Mesh& mesh = run.model().mesh;
+    view_.title = "Stresses on the deformed mesh";
+    view_.nodes = mesh.nodes;
+    for (const fe2d::Element& e : mesh.elements) view_.elements.push_back(e.nodes);
+    view_.front_nodes = static_cast<std::size_t>(mesh.dam_node_count);
+    view_.fields = {{"major principal stress, tension positive", "MPa"},
+                    {"minor principal stress, tension positive", "MPa", true},
+                    {"vertical stress, tension positive", "MPa"},
+                    {"von Mises stress", "MPa"}};
+    view_.note =
+        "Total stresses: gravity, water and earthquake. Deformations are magnified, the dam's mean slip is drawn "
+        "to scale; dashed: the dam before any load. First shown is the instant with the largest tension in the dam; "
+        "the envelope is of the instants that are kept of each run, so between them a stress may be larger. The "
+        "colours end where 1 % of the dam's values lie beyond, since stresses in corners grow with every finer mesh.";
+}
+
+void StressView::add(const std::string& record, const fe2d::RunResult& result)
+{
+    for (const fe2d::StoredState& state : result.history.states.states()) {
+        const bool start = state.instant == fe2d::Instant::start;
+        if (start && !empty()) continue;
+        add_state(start ? words(state.instant) : record + ": " + words(state.instant), state, result.zero_displacement);
+    }
+}
+
+void StressView::add_state(const std::string& name, const fe2d::StoredState& state, const Eigen::VectorXd& zero)
+{
+    const fe2d::Model& model = run_.model();
+    const Eigen::VectorXd u = run_.displacement_of(state);
+    const fe2d::StressField stress = fe2d::stress_field(model.mesh, model.dofs, model.materials, u);
+    const Eigen::Vector2d shift = state.slip * run_.structure().plane().tangent;
+    const Eigen::MatrixXd at_nodes = node_vectors(model.dofs, zero.size() ? Eigen::VectorXd(u - zero) : u);
+
+    MeshView::State shown;
+    shown.name = name;
+    shown.time = state.time;
+    shown.shift_x = shift.x();
+    shown.shift_y = shift.y();
+    shown.values.resize(view_.fields.size());
+    for (int node = 0; node < model.mesh.node_count(); ++node) {
+        const bool dam = node < model.mesh.dam_node_count;
+        shown.ux.push_back(at_nodes(0, node) - (dam ? shift.x() : 0.0));
+        shown.uy.push_back(at_nodes(1, node) - (dam ? shift.y() : 0.0));
+        const Eigen::Vector3d s = stress.nodal.col(node);
+        const fe2d::PrincipalStress principal = fe2d::principal_stress(s);
+        const fe2d::Materials& m = model.materials;
+        shown.values[0].push_back(principal.major / MPa);
+        shown.values[1].push_back(principal.minor / MPa);
+        shown.values[2].push_back(s[1] / MPa);
+        shown.values[3].push_back(von_mises(s, dam ? m.dam.poisson_ratio : m.rock.poisson_ratio) / MPa);
+    }
+    view_.states.push_back(std::move(shown));
+}
+
+Table mesh_table(const fe2d::Mesh& mesh)
+{
+    struct Row {
+        const fe2d::Mesh& mesh;
+        fe2d::MeshQuality quality;
+    };
+    const std::vector<Row> rows{{mesh, fe2d::measure_quality(mesh)}};
+    Table t = table_of<Row>(
+        "Mesh",
+        {{{"nodes", "nodes"}, [](const Row& r) { return count_cell(r.mesh.nodes.size()); }},
+         {{"quadrilaterals", "quadrilaterals"}, [](const Row& r) { return r.quality.quadrilaterals; }},
+         {{"triangles", "triangles"}, [](const Row& r) { return r.quality.triangles; }},
+         {{"dam_elements", "in the dam"}, [](const Row& r) { return r.mesh.dam_element_count; }},
+         {{"base_nodes_dam", "base, dam"}, [](const Row& r) { return count_cell(r.mesh.contact.dam_nodes.size()); }},
+         {{"base_nodes_rock", "base, rock"}, [](const Row& r) { return count_cell(r.mesh.contact.rock_nodes.size()); }},
+         {{"smallest_edge_m", "smallest edge", "m", 4}, [](const Row& r) { return r.quality.smallest_edge; }},
+         {{"largest_edge_m", "largest edge", "m", 4}, [](const Row& r) { return r.quality.largest_edge; }},
+         {{"smallest_angle_deg", "smallest angle", "deg", 4},
+          [](const Row& r) { return r.quality.smallest_angle / units::degree; }},
+         {{"smallest_scaled_jacobian", "scaled Jacobian", "-", 3},
+          [](const Row& r) { return r.quality.smallest_scaled_jacobian; }}},
+        rows);
+    if (!mesh.has_rock())
+        t.notes.push_back("no rock: the base stands on a rigid plane.");
+    else
+        t.notes.push_back(mesh.contact.matching ? "the nodes of dam and rock face each other along the base."
+                                                : "the nodes of dam and rock do not face each other along the base.");
+    for (std::size_t i = 0; i < mesh.lifts.size(); ++i)
+        t.notes.push_back(fmt::format("lift joint {}: {} pairs of nodes.", i + 1, mesh.lifts[i].lower_nodes.size()));
+    return t;
+}
+
+std::string import_note(const Scene& scene, const fe2d::ImportSummary& s)
+{
+    return fmt::format("{}: Gmsh {}, {} nodes; {} of no element of dam and rock left out, {} at the place of another "
+                       "one joined, {} clockwise elements turned.",
+                       scene.mesh.file->string(), s.version, s.file_nodes, s.unused, s.joined, s.flipped);
 }
 
 } // namespace damslip::pages

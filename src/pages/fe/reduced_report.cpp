@@ -1,13 +1,9 @@
-#include "pages/fe/reduced_report.hpp"
+#include "pages/fe/fe_pages.hpp"
 
 #include "core/file.hpp"
 #include "core/version.hpp"
-#include "pages/fe/fe_charts.hpp"
-#include "pages/fe/fe_page.hpp"
-#include "pages/fe/fe_report.hpp"
-#include "pages/fe/rock_lines.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/record_charts.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 
@@ -115,10 +111,10 @@ void write_reduced_history(const std::filesystem::path& folder, const Scene& sce
                            const ReducedRecord& run)
 {
     const ContactRun as_full = as_contact_run(run);
-    write_file(folder / (run_file("history", scene, run.record, as_full.suffix()) + ".csv"),
-               csv(history_table(run.result.history),
-                   {"damslip " + program_version() + " fe --reduced", "scene " + hash,
-                    "record " + as_full.label(), "status " + word(run.result.status)}));
+    write_file(
+        folder / (run_file("history", scene, run.record, as_full.suffix()) + ".csv"),
+        csv(history_table(run.result.history), {"damslip " + program_version() + " fe --reduced", "scene " + hash,
+                                                "record " + as_full.label(), "status " + word(run.result.status)}));
 }
 
 std::vector<std::string> reduced_messages(const Scene& scene, const std::vector<ReducedRecord>& runs)

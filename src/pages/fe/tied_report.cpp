@@ -1,10 +1,10 @@
-#include "pages/fe/tied_report.hpp"
+#include "pages/fe/fe_pages.hpp"
 
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/record_charts.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
 

@@ -1,4 +1,4 @@
-#include "pages/fragility/fragility_tables.hpp"
+#include "pages/fragility/fragility_pages.hpp"
 
 #include "analysis/prepare/records.hpp"
 #include "core/units.hpp"

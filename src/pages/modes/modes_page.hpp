@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/modes/modes.hpp"
-#include "core/table.hpp"
+#include "core/csv.hpp"
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

@@ -3,7 +3,10 @@
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace damslip::pages {
 
@@ -61,6 +64,94 @@ Table spectrum_table(const Record& record, const records::ResponseSpectrum& spec
                        spectrum.points,
                        {"exact for the piecewise-linear record (Nigam & Jennings 1969), free vibration of one period "
                         "after its end included"});
+}
+
+namespace {
+
+/// A measured record times a factor; I_A grows with its square.
+struct SuiteMeasured {
+    const SuiteRow& row;
+    double factor = 1.0, misfit = 0.0;
+};
+
+std::vector<ColumnOf<SuiteMeasured>> suite_measure_columns()
+{
+    using M = SuiteMeasured;
+    return {{{"pga_m_s2", "PGA", "m/s²", 4}, [](const M& m) { return m.factor * m.row.measures.pga; }},
+            {{"pgv_m_s", "PGV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.pgv; }},
+            {{"arias_intensity_m_s", "Arias", "m/s", 3},
+             [](const M& m) { return m.factor * m.factor * m.row.measures.arias_intensity; }},
+            {{"cav_m_s", "CAV", "m/s", 3}, [](const M& m) { return m.factor * m.row.measures.cumulative_velocity; }},
+            {{"duration_5_95_s", "D5-95", "s", 3}, [](const M& m) { return m.row.measures.duration_5_95; }},
+            {{"mean_period_s", "Tm", "s", 3}, [](const M& m) { return optional_cell(m.row.measures.mean_period); }}};
+}
+
+} // namespace
+
+Table suite_index_table(const std::vector<SuiteRow>& rows)
+{
+    using M = SuiteMeasured;
+    std::vector<M> items;
+    for (const SuiteRow& row : rows) items.push_back({row});
+    std::vector<ColumnOf<M>> columns = {{{"name", "record"}, [](const M& m) { return m.row.name; }},
+                                        {{"event", "event"}, [](const M& m) { return m.row.event; }}};
+    for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
+    return table_of("Records", columns, items, {"Horizontal components as they are in their files."});
+}
+
+Table suite_selection_table(const std::vector<SuiteRow>& rows, const records::SuiteSelection& selection)
+{
+    using M = SuiteMeasured;
+    std::vector<M> items;
+    for (const records::ChosenRecord& c : selection.chosen) items.push_back({rows[c.record], c.factor, c.misfit});
+    std::vector<ColumnOf<M>> columns = {{{"name", "record"}, [](const M& m) { return m.row.name; }},
+                                        {{"event", "event"}, [](const M& m) { return m.row.event; }},
+                                        {{"factor", "factor", "–", 4}, [](const M& m) { return m.factor; }},
+                                        {{"misfit", "misfit", "–", 3}, [](const M& m) { return m.misfit; }}};
+    for (ColumnOf<M>& column : suite_measure_columns()) columns.push_back(std::move(column));
+    Table table = table_of(
+        "Selected", columns, items,
+        {fmt::format("misfit: root mean square of ln(factor Sa / target); of the geometric mean {:.3f}, of the records "
+                     "{:.3f}. {}",
+                     selection.mean_misfit, selection.single_misfit,
+                     selection.exhaustive ? "All sets were tried." : "Found step by step, with exchanges."),
+         "Measures are those of the scaled records; the vertical component has the same factor."});
+    for (const records::ChosenRecord& c : selection.chosen)
+        if (c.at_limit)
+            table.notes.push_back(fmt::format("{}: its factor {:.4g} is the largest or smallest allowed.",
+                                              rows[c.record].name, c.factor));
+    return table;
+}
+
+Table suite_spectrum_table(std::span<const double> periods, std::span<const double> target,
+                           const std::vector<std::vector<double>>& spectra, const records::SuiteSelection& selection)
+{
+    struct Row {
+        double period, target, mean, low, high;
+    };
+    constexpr std::size_t most_rows = 12;
+    std::vector<Row> rows;
+    const std::size_t last = periods.size() - 1, n = std::min(most_rows, periods.size());
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t k = n > 1 ? i * last / (n - 1) : 0;
+        double sum = 0.0, low = std::numeric_limits<double>::infinity(), high = 0.0;
+        for (const records::ChosenRecord& c : selection.chosen) {
+            const double value = c.factor * spectra[c.record][k];
+            sum += std::log(value);
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+        rows.push_back(
+            {periods[k], target[k], std::exp(sum / static_cast<double>(selection.chosen.size())), low, high});
+    }
+    return table_of<Row>("Spectra, 5 %",
+                         {{{"period_s", "T", "s", 3}, [](const Row& r) { return r.period; }},
+                          {{"target_m_s2", "target", "m/s²", 4}, [](const Row& r) { return r.target; }},
+                          {{"mean_m_s2", "geometric mean", "m/s²", 4}, [](const Row& r) { return r.mean; }},
+                          {{"mean_over_target", "mean/target", "–", 3}, [](const Row& r) { return r.mean / r.target; }},
+                          {{"smallest_m_s2", "smallest", "m/s²", 4}, [](const Row& r) { return r.low; }},
+                          {{"largest_m_s2", "largest", "m/s²", 4}, [](const Row& r) { return r.high; }}},
+                         rows);
 }
 
 } // namespace damslip::pages

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/suite/record_suite.hpp"
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "records/record.hpp"

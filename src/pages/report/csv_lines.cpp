@@ -1,8 +1,7 @@
 #include "pages/report/csv_lines.hpp"
 
-#include "core/append_number.hpp"
-#include "core/csv.hpp"
 #include "core/text.hpp"
+#include "core/csv.hpp"
 
 #include <bit>
 #include <cmath>

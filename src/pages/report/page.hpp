@@ -1,11 +1,12 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 #include "pages/report/chart.hpp"
 #include "pages/report/picture.hpp"
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -90,5 +91,23 @@ struct Page {
     std::vector<Section> sections;
     std::vector<std::pair<std::string, std::string>> provenance; ///< name, value: version, scene hash, checksums
 };
+
+/// The page as one HTML file that needs nothing else: style, script and data inside, no reference to any network.
+/// The same page gives the same bytes.
+std::string page_html(const Page& page);
+
+/// The table with its title and notes as HTML; numbers right-aligned with the column's digits, PASS / FAIL marked.
+/// @param section  title of the section it stands in; a table of the same title shows it only once
+std::string table_html(const TablePart& part, const std::string& section = "");
+
+/// Script and style that every page carries, embedded at build (assets.S).
+
+std::string_view uplot_script(); ///< uPlot 1.6.32 (MIT), minified; readable twin and checksums: vendor/uplot
+std::string_view uplot_style();
+std::string_view uplot_license(); ///< goes with every copy of the two
+std::string_view page_script();   ///< page.js
+std::string_view state_map_script();
+std::string_view mesh_view_script();
+std::string_view page_style(); ///< page.css
 
 } // namespace damslip::pages

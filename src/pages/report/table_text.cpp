@@ -1,7 +1,7 @@
 #include "pages/report/table_text.hpp"
 
 #include "pages/report/csv_lines.hpp"
-#include "pages/report/escape.hpp"
+#include "pages/report/json.hpp"
 
 #include <algorithm>
 #include <cmath>

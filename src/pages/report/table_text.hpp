@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/csv.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
-#include "pages/scene/limits.hpp"
+#include "pages/scene/scene_pages.hpp"
 
-#include "pages/scene/effect_table.hpp"
 #include "scene/rock_mass.hpp"
 #include "sliding/equilibrium/equilibrium_tables.hpp"
 
@@ -147,6 +146,17 @@ TablePart effect_part(const EffectPlan& plan)
     return rows_part(effect_table(plan),
                      {"on: taken into account; because: the key that decides it; cost: what the run "
                       "carries for it. Effects that are off are neither read nor built."});
+}
+
+Table effect_table(const EffectPlan& plan)
+{
+    using E = PlannedEffect;
+    return table_of<E>(plan.method == Method::rigid_block ? "Effect plan, rigid block" : "Effect plan, finite elements",
+                       {{{"effect", "effect"}, &E::name},
+                        {{"on", "on"}, &E::on},
+                        {{"reason", "because"}, &E::reason},
+                        {{"cost", "cost"}, &E::cost}},
+                       plan.effects);
 }
 
 } // namespace damslip::pages

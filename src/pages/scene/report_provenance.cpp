@@ -1,8 +1,16 @@
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
 
+#include "core/parallel.hpp"
+#include "core/statistics.hpp"
+#include "core/units.hpp"
 #include "core/version.hpp"
+#include "records/measure/measures.hpp"
+#include "records/measure/response_spectrum.hpp"
+#include "scene/section.hpp"
 #include "scene/write.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -53,8 +61,7 @@ Page begin_page(const Scene& scene, const std::string& about, const std::string&
     Page page;
     page.title = scene.title.empty() ? file : scene.title;
     page.title_block = title_block(scene.project);
-    page.footer =
-        page.title + (scene.project.revision.empty() ? "" : ", revision " + scene.project.revision) + words;
+    page.footer = page.title + (scene.project.revision.empty() ? "" : ", revision " + scene.project.revision) + words;
     page.subtitle = about + file + words;
     return page;
 }
@@ -102,6 +109,173 @@ std::vector<std::string> record_warnings(const std::vector<RecordPair>& records)
                 for (const std::string& w : r->warnings) list.push_back(pair.files.name + ": " + w);
     }
     return list;
+}
+
+namespace {
+
+constexpr double kilonewton = 1e3; // [N]
+
+std::string anchor_state_word(AnchorState state)
+{
+    switch (state) {
+    case AnchorState::elastic:
+        return "elastic";
+    case AnchorState::yields:
+        return "yields";
+    case AnchorState::slack:
+        return "slack";
+    case AnchorState::snapped:
+        return "SNAPPED";
+    }
+    return "";
+}
+
+} // namespace
+
+Table anchor_list_table(const Scene& scene)
+{
+    struct Row {
+        const Anchor& anchor;
+        AnchorBar bar;
+    };
+    std::vector<Row> rows;
+    for (const Anchor& anchor : scene.anchors) rows.push_back({anchor, anchor_bar(anchor, scene.contact.friction)});
+    Table t = table_of<Row>(
+        "Anchors, per metre of dam",
+        {{{"anchor", "anchor"}, [](const Row& r) { return r.anchor.name; }},
+         {{"joint", "through"}, [](const Row& r) { return r.anchor.joint.empty() ? "base" : r.anchor.joint; }},
+         {{"distance_m", "from upstream end", "m", 4}, [](const Row& r) { return r.anchor.distance; }},
+         {{"inclination_deg", "ψ", "°", 4}, [](const Row& r) { return r.anchor.inclination / units::degree; }},
+         {{"free_length_m", "free length", "m", 4}, [](const Row& r) { return r.anchor.free_length; }},
+         {{"prestress_kN_m", "P₀", "kN/m", 5}, [](const Row& r) { return r.anchor.prestress / kilonewton; }},
+         {{"yield_force_kN_m", "N_y", "kN/m", 5}, [](const Row& r) { return r.bar.yield_force / kilonewton; }},
+         {{"prestress_share", "P₀/N_y", "–", 3}, [](const Row& r) { return r.anchor.prestress / r.bar.yield_force; }},
+         {{"slip_to_yield_mm", "slip to yield", "mm", 4},
+          [](const Row& r) { return r.bar.slip_to_yield() / units::mm; }},
+         {{"dowel_kN_m", "dowel", "kN/m", 4}, [](const Row& r) { return r.bar.dowel / kilonewton; }}},
+        rows);
+    if (!t.rows.empty())
+        t.notes.push_back(
+            "slip to yield: of a shut joint, from the prestress on, whichever way comes first; dowel: what it "
+            "adds along the joint at most, without pull.");
+    return t;
+}
+
+Table anchor_run_table(const std::vector<AnchorRow>& rows)
+{
+    using R = AnchorRow;
+    Table t = table_of<R>(
+        "Anchors in the earthquakes",
+        {{{"record", "record"}, &R::record},
+         {{"polarity", "polarity"}, &R::polarity},
+         {{"anchor", "anchor"}, [](const R& r) { return r.anchor.name; }},
+         {{"largest_force_kN_m", "largest N", "kN/m", 5},
+          [](const R& r) { return r.anchor.history.largest_force / kilonewton; }},
+         {{"largest_force_over_yield", "largest N/N_y", "–", 4},
+          [](const R& r) { return r.anchor.history.largest_force / r.anchor.yield_force; }},
+         {{"force_at_end_kN_m", "N at end", "kN/m", 5}, [](const R& r) { return r.anchor.history.force / kilonewton; }},
+         {{"largest_stretch_mm", "largest stretch", "mm", 4},
+          [](const R& r) { return r.anchor.history.largest_stretch / units::mm; }},
+         {{"plastic_strain", "plastic strain", "–", 3}, [](const R& r) { return r.anchor.history.plastic_strain; }},
+         {{"snapped_at_s", "snapped at", "s", 5},
+          [](const R& r) { return optional_cell(r.anchor.history.snapped_at); }},
+         {{"state", "state"}, [](const R& r) { return anchor_state_word(r.anchor.history.state); }},
+         {{"stored_J_m", "stored", "J/m", 4}, [](const R& r) { return r.anchor.stored; }},
+         {{"plastic_J_m", "plastic work", "J/m", 4}, [](const R& r) { return r.anchor.history.plastic_work; }},
+         {{"loss_J_m", "lost in rupture", "J/m", 4}, [](const R& r) { return r.anchor.history.loss; }}},
+        rows);
+    if (!t.rows.empty()) t.notes.push_back("stretch: since it was locked off; plastic work: yielding and dowel.");
+    return t;
+}
+
+namespace {
+
+constexpr std::size_t named_records = 6;
+
+Record horizontal_record(const GroundMotion& motion)
+{
+    Record r;
+    r.name = motion.name;
+    r.dt = motion.dt;
+    r.acceleration = motion.accel_h;
+    return r;
+}
+
+double peak(const std::vector<double>& a)
+{
+    double p = 0.0;
+    for (const double x : a) p = std::max(p, std::abs(x));
+    return p;
+}
+
+} // namespace
+
+void thin_for(Chart& chart, std::size_t records)
+{
+    chart.thin_above = std::clamp<std::size_t>(80000 / std::max<std::size_t>(records, 1), 800, 20000);
+    chart.thin_buckets = chart.thin_above / (2 * std::max<std::size_t>(chart.curves.size(), 1));
+}
+
+Chart spectra(const std::vector<GroundMotion>& motions, int jobs)
+{
+    const std::vector<double> periods = records::logarithmic_periods(0.03, 4.0, 48);
+    std::vector<std::vector<double>> psa(motions.size(), std::vector<double>(periods.size()));
+    // One task per record and period: long and short records share the threads evenly.
+    parallel_for(motions.size() * periods.size(), jobs, [&](std::size_t task) {
+        const std::size_t i = task / periods.size(), k = task % periods.size();
+        const auto spectrum =
+            records::response_spectrum(motions[i].accel_h, motions[i].dt, std::span(&periods[k], 1), 0.05);
+        psa[i][k] = spectrum.points.front().pseudo_acceleration;
+    });
+    Chart chart;
+    chart.title = "Response spectra, 5 % damping, horizontal";
+    chart.x = {"period", "s", Scale::log};
+    chart.y = {"pseudo-acceleration", "m/s²", Scale::linear, 0.1, 0.0, {}, {}};
+    const bool named = motions.size() <= named_records;
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        chart.curves.push_back({motions[i].name,
+                                periods,
+                                psa[i],
+                                {},
+                                {},
+                                Mark::line,
+                                named ? Weight::normal : Weight::faint,
+                                named ? static_cast<int>(i) : 7});
+    if (named) return chart;
+    Curve median{"median, band 16 to 84 %", periods, {}, {}, {}, Mark::line, Weight::strong, 0};
+    for (std::size_t k = 0; k < periods.size(); ++k) {
+        std::vector<double> values;
+        for (const auto& row : psa) values.push_back(row[k]);
+        median.y.push_back(percentile(values, 0.5));
+        median.low.push_back(percentile(values, 0.16));
+        median.high.push_back(percentile(values, 0.84));
+    }
+    chart.curves.push_back(std::move(median));
+    return chart;
+}
+
+Table record_table(const std::vector<GroundMotion>& motions)
+{
+    struct Row {
+        const GroundMotion& motion;
+        records::Measures m;
+    };
+    std::vector<Row> rows;
+    for (const GroundMotion& motion : motions) rows.push_back({motion, records::measure(horizontal_record(motion))});
+    const auto vertical_peak = [](const Row& r) {
+        return r.motion.accel_v.empty() ? Cell() : Cell(peak(r.motion.accel_v));
+    };
+    return table_of<Row>(
+        "Records as scaled",
+        {{{"record", "record"}, [](const Row& r) { return r.motion.name; }},
+         {{"duration_s", "duration", "s", 4}, [](const Row& r) { return r.m.duration; }},
+         {{"pga_m_s2", "PGA", "m/s²", 4}, [](const Row& r) { return r.m.pga; }},
+         {{"pga_vertical_m_s2", "PGA vertical", "m/s²", 4}, vertical_peak},
+         {{"pgv_m_s", "PGV", "m/s", 4}, [](const Row& r) { return r.m.pgv; }},
+         {{"arias_intensity_m_s", "Arias intensity", "m/s", 4}, [](const Row& r) { return r.m.arias_intensity; }},
+         {{"duration_5_95_s", "D5-95", "s", 4}, [](const Row& r) { return r.m.duration_5_95; }},
+         {{"mean_period_s", "mean period", "s", 4}, [](const Row& r) { return optional_cell(r.m.mean_period); }}},
+        rows);
 }
 
 } // namespace damslip::pages

@@ -1,6 +1,6 @@
-#include "pages/scene/scene_template.hpp"
+#include "pages/scene/scene_pages.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>

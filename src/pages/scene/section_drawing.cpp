@@ -1,7 +1,9 @@
-#include "pages/scene/section_drawing.hpp"
+#include "pages/scene/scene_pages.hpp"
 
+#include "analysis/prepare/reservoir.hpp"
 #include "core/units.hpp"
-#include "pages/report/sketch.hpp"
+#include "pages/report/picture.hpp"
+#include "scene/effect_plan.hpp"
 #include "scene/section.hpp"
 
 #include <algorithm>
@@ -311,6 +313,12 @@ Drawing section_drawing(const Scene& scene, const PressureProfile& uplift, const
         drawing.note += fmt::format(" Below the base: uplift pressure {}.",
                                     mesh.empty() ? "of the yield acceleration" : "before the earthquake");
     return drawing;
+}
+
+std::string drawn_section(const Scene& given)
+{
+    const Scene scene = called_for(make_effect_plan(given, Method::rigid_block), given);
+    return standalone_svg(section_drawing(scene, SeepageSource().uplift_of(scene)).svg);
 }
 
 } // namespace damslip::pages

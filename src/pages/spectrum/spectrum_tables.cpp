@@ -1,8 +1,8 @@
 #include "pages/spectrum/spectrum_tables.hpp"
 
-#include "core/number.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
-#include "pages/report/json_object.hpp"
+#include "pages/report/json.hpp"
 #include "pages/report/table_text.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-#include "pages/sweep/sweep_charts.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 
+#include "analysis/prepare/records.hpp"
 #include "analysis/screen/screening.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <tuple>
 
 namespace damslip::pages {
@@ -290,6 +292,197 @@ Chart yield_over_friction(const SweepView& view)
         if (new_one) chart.curves.push_back(std::move(curve));
     }
     return chart;
+}
+
+namespace {
+
+/// The motion that slips most at one friction.
+struct Worst {
+    double friction = 0.0;
+    double slip = 0.0; ///< with its error; infinite: no slip or no answer [m]
+    std::string record;
+    int polarity = 1;
+};
+
+double counted_slip(const SweepRow& row)
+{
+    if (row.slip) return std::abs(*row.slip) + row.error.value_or(0.0);
+    return std::numeric_limits<double>::infinity();
+}
+
+/// A row that says nothing of the slip: a method that does not apply, such as a regression outside its data.
+bool says_nothing(const SweepRow& row)
+{
+    return !row.slip && !row.state;
+}
+
+/// By ascending friction; empty where the method says nothing.
+std::vector<Worst> worst_by_friction(const SweepView& view, std::size_t variant, const std::string& method)
+{
+    std::vector<Worst> list;
+    for (const double friction : view.frictions) {
+        const auto group = view.group(variant, method, friction);
+        if (group.empty()) continue;
+        Worst worst{friction, -1.0, "", 1};
+        for (const std::size_t i : group) {
+            const SweepRow& row = view.rows[i];
+            if (says_nothing(row) || counted_slip(row) <= worst.slip) continue;
+            worst = {friction, counted_slip(row), std::string(row.record), row.polarity};
+        }
+        if (worst.slip >= 0.0) list.push_back(worst);
+    }
+    return list;
+}
+
+NeededFriction needed_of(const std::vector<Worst>& list, double allowable)
+{
+    NeededFriction needed;
+    for (std::size_t i = list.size(); i-- > 0;) {
+        if (list[i].slip <= allowable) {
+            needed.holds = list[i].friction;
+            continue;
+        }
+        needed.more = list[i].friction;
+        needed.record = list[i].record;
+        needed.polarity = list[i].polarity;
+        if (i + 1 < list.size() && std::isfinite(list[i].slip)) {
+            const Worst &a = list[i], &b = list[i + 1];
+            needed.between = a.friction + (b.friction - a.friction) * (a.slip - allowable) / (a.slip - b.slip);
+        }
+        break;
+    }
+    return needed;
+}
+
+} // namespace
+
+std::vector<NeededFriction> needed_frictions(const SweepView& view, const std::optional<double>& allowable)
+{
+    std::vector<NeededFriction> list;
+    if (!allowable || view.frictions.size() < 2) return list;
+    for (std::size_t v = 0; v < view.variants.size(); ++v)
+        for (const std::string& method : view.methods) {
+            const std::vector<Worst> worst = worst_by_friction(view, v, method);
+            if (worst.size() < 2) continue;
+            NeededFriction needed = needed_of(worst, *allowable);
+            needed.variant = view.variant_names[v];
+            needed.method = method;
+            list.push_back(std::move(needed));
+        }
+    return list;
+}
+
+Table needed_friction_table(const SweepView& view, const std::optional<double>& allowable)
+{
+    using N = NeededFriction;
+    const std::vector<N> list = needed_frictions(view, allowable);
+    std::vector<ColumnOf<N>> columns{
+        {{"method", "method"}, &N::method},
+        {{"friction", "friction", "–", 4}, [](const N& n) { return optional_cell(n.friction()); }},
+        {{"friction_low", "slips more at", "–", 4}, [](const N& n) { return optional_cell(n.more); }},
+        {{"friction_high", "holds from", "–", 4}, [](const N& n) { return optional_cell(n.holds); }},
+        {{"friction_error", "±", "–", 2},
+         [](const N& n) {
+             return n.friction() ? Cell(std::max(*n.friction() - *n.more, *n.holds - *n.friction())) : Cell();
+         }},
+        {{"record", "governed by"}, &N::record},
+        {{"polarity", "polarity"}, [](const N& n) { return n.polarity ? count_cell(*n.polarity) : Cell(); }}};
+    if (view.variants.size() > 1) columns.insert(columns.begin(), {{"variant", "variant"}, &N::variant});
+    return table_of(
+        fmt::format("Friction for a slip of {:.4g} mm at most{}", allowable.value_or(0.0) / units::mm,
+                    list.empty() ? "" : ", " + polarity_words(view.polarities)),
+        columns, list,
+        {"all motions together: at \"holds from\" and every friction of the grid above it the largest slip, with its "
+         "error where it has one, is no more. friction: between the two, the slip taken as linear in it; ±: to the "
+         "farther of the two. Nothing in \"slips more at\": the lowest friction of the grid holds already; nothing in "
+         "\"holds from\": the highest does not."});
+}
+
+namespace {
+
+std::optional<std::size_t> place_of(const Table& table, const std::string& key)
+{
+    const auto at = std::find_if(table.columns.begin(), table.columns.end(),
+                                 [&](const Column& column) { return column.key == key; });
+    if (at == table.columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - table.columns.begin());
+}
+
+/// One motion, strength, variant and method under all rules.
+struct RuleLine {
+    std::vector<Cell> at;                   ///< of the columns that say where it is
+    std::map<std::string, Cell> slips = {}; ///< by rule [mm], or the word of a status without a slip
+
+    Cell apart() const
+    {
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (const auto& [rule, slip] : slips)
+            if (const double* mm = std::get_if<double>(&slip)) {
+                least = std::min(least, *mm);
+                most = std::max(most, *mm);
+            } else {
+                return {};
+            }
+        return slips.size() > 1 ? Cell(most - least) : Cell();
+    }
+};
+
+bool varies(const Table& rows, std::size_t column)
+{
+    return std::any_of(rows.rows.begin(), rows.rows.end(),
+                       [&](const std::vector<Cell>& row) { return row[column] != rows.rows.front()[column]; });
+}
+
+} // namespace
+
+std::optional<Table> opening_water_table(const Table& rows)
+{
+    const auto rule_at = place_of(rows, "opening_water"), slip_at = place_of(rows, "max_slip_m"),
+               status_at = place_of(rows, "status");
+    if (!rule_at || !slip_at || !status_at || rows.rows.empty() || !varies(rows, *rule_at)) return std::nullopt;
+
+    std::vector<std::size_t> where;
+    for (const char* key :
+         {"friction", "level_m", "uplift", "reservoir", "size", "scale", "polarity", "record", "method"})
+        if (const auto at = place_of(rows, key);
+            at && (varies(rows, *at) || std::string_view(key) == "friction" || std::string_view(key) == "method"))
+            where.push_back(*at);
+
+    std::vector<std::string> rules;
+    std::vector<RuleLine> lines;
+    for (const std::vector<Cell>& row : rows.rows) {
+        RuleLine line;
+        for (const std::size_t at : where) line.at.push_back(row[at]);
+        const auto* rule = std::get_if<std::string>(&row[*rule_at]);
+        if (!rule) continue;
+        if (std::find(rules.begin(), rules.end(), *rule) == rules.end()) rules.push_back(*rule);
+        const auto same = std::find_if(lines.begin(), lines.end(), [&](const RuleLine& l) { return l.at == line.at; });
+        RuleLine& target = same == lines.end() ? lines.emplace_back(std::move(line)) : *same;
+        const double* metres = std::get_if<double>(&row[*slip_at]);
+        target.slips[*rule] = metres ? Cell(std::abs(*metres) / units::mm) : row[*status_at];
+    }
+
+    std::vector<ColumnOf<RuleLine>> columns;
+    for (std::size_t k = 0; k < where.size(); ++k)
+        columns.push_back({rows.columns[where[k]], [k](const RuleLine& l) { return l.at[k]; }});
+    for (const std::string& rule : rules)
+        columns.push_back({{rule + "_mm", rule, "mm", 4}, [rule](const RuleLine& l) {
+                               const auto slip = l.slips.find(rule);
+                               return slip == l.slips.end() ? Cell() : slip->second;
+                           }});
+    columns.push_back({{"apart_mm", "apart", "mm", 3}, &RuleLine::apart});
+    return table_of("What the rules for water in the opening base are worth", columns, lines,
+                    {"largest slip on the way under each rule of uplift.opening; apart: the largest less the smallest. "
+                     "Rigid block: reynolds is taken as unchanged, for a block has no width of the joint; mouth is its "
+                     "rule for water that needs time."});
+}
+
+std::optional<Section> opening_water_section(const Table& rows)
+{
+    std::optional<Table> table = opening_water_table(rows);
+    if (!table) return std::nullopt;
+    return Section{
+        "Water in the opening base", {TablePart{std::move(*table), Layout::rows, 1, Fold::open}}, Fold::open};
 }
 
 } // namespace damslip::pages

@@ -1,6 +1,5 @@
-#include "pages/sweep/sweep_rows_view.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 
-#include "pages/sweep/sweep_tables.hpp"
 #include "sliding/empirical/regression.hpp"
 
 #include <algorithm>

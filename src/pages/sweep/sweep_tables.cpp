@@ -1,11 +1,10 @@
-#include "pages/sweep/sweep_tables.hpp"
+#include "pages/sweep/sweep_pages.hpp"
 
-#include "pages/sweep/opening_water_table.hpp"
 
-#include "analysis/prepare/contact_law.hpp"
+#include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
-#include "pages/scene/report_provenance.hpp"
+#include "pages/scene/scene_pages.hpp"
 #include "scene/plausible.hpp"
 
 #include <algorithm>

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "analysis/fragility/fragility_study.hpp"
+#include "analysis/fragility/interval_cost.hpp"
+#include "core/csv.hpp"
+#include "pages/report/page.hpp"
+
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+
+namespace damslip::pages {
+
+/// All that a fragility's tables and page show.
+struct FragilityView {
+    const Scene& scene;
+    const FragilityPlan& plan;
+    const FragilityRuns& runs;
+    const FragilityEstimate& estimate;
+    std::string method;                           ///< "rigid-v", "fe"
+    double unit = 1.0;                            ///< SI value of one unit of the levels
+    std::string unit_text = "m/s2";               ///< "g"
+    const FragilityCauses* causes = nullptr;      ///< nullptr: none
+    const ConditionedPlan* conditioned = nullptr; ///< nullptr: friction is drawn
+    std::vector<std::pair<LimitInput, std::vector<NeededYield>>> needed_yields = {}; ///< of limits of slip
+    std::vector<std::string> notes = {};
+    /// Half-width over runs of this run's own first draws at the level with P nearest to 0.1, one estimator a limit; empty: not known.
+    std::vector<IntervalPoint> own_cost = {};
+};
+
+/// Of a study that was answered; all of it outlives the view.
+inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& plan, const FragilityRuns& runs,
+                             const FragilityAnswer& answer)
+{
+    const IntensityInput& intensity = study.input.intensity;
+    return {study.scene,
+            plan,
+            runs,
+            answer.estimate,
+            study.method.id,
+            intensity.level_unit,
+            intensity.level_unit_text,
+            answer.causes ? &*answer.causes : nullptr,
+            answer.conditioned,
+            answer.needed_yields,
+            answer.notes,
+            answer.own_cost};
+}
+
+nlohmann::ordered_json fragility_json(const FragilityView& view);
+std::string fragility_text(const FragilityView& view);
+/// Curves with stripes and bands, rate by intensity, what P comes from, the tables.
+Page fragility_page(const FragilityView& view);
+/// OpenQuake's model (NRML 0.5): lognormal curves; P at the levels where a curve does not hold or two of them cross. Of a cloud: empty.
+std::string fragility_nrml(const FragilityView& view);
+/// P over the water level as the USACE library fragility-curves reads it; empty: the level is not drawn from a list of values.
+std::string fragility_usace(const FragilityView& view);
+
+/// What the price of an interval is shown with.
+struct IntervalCostView {
+    const Scene& scene;
+    const IntervalCost& cost;
+    const std::vector<RecordPair>& records;
+    std::string measure;            ///< "PGA"
+    double unit = 1.0;              ///< SI value of one unit of the levels
+    std::string unit_text = "m/s2"; ///< "g"
+};
+
+/// One row an estimator and number of runs.
+Table interval_cost_table(const IntervalCostView& view);
+nlohmann::ordered_json interval_cost_json(const IntervalCostView& view);
+std::string interval_cost_text(const IntervalCostView& view);
+Page interval_cost_page(const IntervalCostView& view);
+
+enum class CostAxis { seconds, runs };
+
+/// Half-width of the 95 % interval over processor time or over runs, both logarithmic, a line an estimator.
+Chart interval_cost_chart(const std::vector<IntervalPoint>& points, CostAxis axis, const std::string& title,
+                          const std::string& note);
+
+/// Of the levels, its key and heading with their unit.
+Column intensity_column(const FragilityView& view);
+/// One row a run: draw, record, level, answer. The same whatever the number of threads, parts and stops.
+/// @param first, end  the runs first ... end - 1 alone
+Table sample_table(const FragilityView& view, std::size_t first = 0,
+                   std::size_t end = std::numeric_limits<std::size_t>::max());
+enum class Readers { files, people };
+/// One row for each limit and level: counts, P, intervals, bands. @param readers  people: columns of missing runs only where there are any, no bands
+Table fragility_table(const FragilityView& view, Readers readers = Readers::files);
+/// One row for each limit and level: percentiles of P by lack of knowledge. Without epistemic variables no rows.
+Table band_table(const FragilityView& view);
+/// One row for each limit: the lognormal curve, or why there is none.
+Table curve_table(const FragilityView& view);
+/// The levels, "0.15 to 0.4 g", where the median of the limit's curve lies apart from them: it is extrapolated; else empty.
+std::string levels_apart_from_median(const FragilityView& view, const LimitEstimate& limit);
+/// One row for each limit: rates per year and their intervals. Without hazard no rows.
+Table rate_table(const FragilityView& view);
+/// The same for people: a table for each limit, from ... to.
+std::vector<Table> rate_tables(const FragilityView& view);
+/// One row for each limit and part of the intensities: its share of the rate.
+Table rate_part_table(const FragilityView& view);
+/// One row for each limit and level where friction was conditioned on: P, its error, the runs, what that gained.
+Table conditioned_table(const FragilityView& view);
+/// One row a variable: shares of the variance of P, and P at its ends.
+Table cause_table(const FragilityView& view);
+/// One row for each limit and level: the yield that a slip needs.
+Table needed_yield_table(const FragilityView& view);
+
+} // namespace damslip::pages

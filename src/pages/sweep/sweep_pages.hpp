@@ -1,0 +1,241 @@
+#pragma once
+
+#include "analysis/prepare/records.hpp"
+#include "analysis/sweep/fe_sweep.hpp"
+#include "analysis/sweep/sweep_run.hpp"
+#include "core/csv.hpp"
+#include "core/status.hpp"
+#include "pages/report/chart.hpp"
+#include "pages/report/page.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The rows of a sweep as its report reads them.
+namespace damslip::pages {
+
+/// What is the same for all motions, frictions and methods that are compared with each other.
+struct SweepVariant {
+    double level = 0.0; ///< [m]
+    std::string uplift, reservoir;
+    double size = 1.0, scale = 1.0;                  ///< [-]
+    std::string opening = {};                        ///< uplift.opening; empty: the scene's
+    std::optional<double> period = {}, damping = {}; ///< of the flexible block [s], [-]; none: the scene's
+
+    friend auto operator<=>(const SweepVariant&, const SweepVariant&) = default;
+};
+
+struct SweepRow {
+    std::int64_t id = 0;
+    std::size_t variant = 0; ///< of SweepView::variants
+    double friction = 0.0;
+    int polarity = 1;
+    std::string_view record, method; ///< of SweepView::words
+    double yield_acceleration = 0.0; ///< [m/s²]
+    double pga = 0.0;                ///< [m/s²]
+    std::optional<double> slip;      ///< of answers: largest on the way, else the final one [m]
+    std::optional<double> error;     ///< of an FE slip by its steps [m]
+    std::optional<double> low, high; ///< band of a regression [m]
+    std::optional<double> critical_friction;
+    std::string_view status;     ///< as printed
+    std::optional<Status> state; ///< the same of the list; none: a remark of a method that does not apply
+    bool error_known = true;     ///< false: an FE slip without an estimate of what the step leaves open
+
+    bool finite_elements() const { return method.starts_with("fe"); }
+    bool rigid() const { return method.starts_with("rigid"); }
+    bool fails_statically() const { return state && damslip::fails_statically(*state); }
+    bool unanswered() const { return state && !is_answer(*state); }
+};
+
+/// Rows without an answer, counted one by one.
+class UnansweredRows {
+public:
+    /// @param state  of SweepRow
+    void add(std::int64_t id, const std::optional<Status>& state);
+    std::string words() const; ///< as unanswered_words()
+
+private:
+    struct Rows {
+        std::size_t count = 0;
+        std::string first; ///< ids
+    };
+    std::map<Status, Rows> rows_;
+};
+
+struct SweepView {
+    std::vector<SweepRow> rows;
+    std::vector<SweepVariant> variants;     ///< in order of appearance
+    std::vector<std::string> variant_names; ///< what sets each apart from the others; empty for a single one
+    std::vector<std::string> methods, records;
+    std::vector<double> frictions; ///< ascending
+    std::vector<int> polarities;   ///< in order of appearance
+
+    /// Rows of a variant, method and friction, ascending; empty: none.
+    std::span<const std::uint32_t> group(std::size_t variant, std::string_view method, double friction) const;
+
+    std::vector<std::uint32_t> by_group;  ///< rows by variant and method, of these by friction
+    std::vector<std::size_t> group_begin; ///< in by_group: of each variant and method, and the end of the last
+    UnansweredRows unanswered;            ///< of all rows, those left out included
+
+    // Of a sweep of too many rows to be drawn: those of every n-th friction are in the lists above.
+    std::size_t every = 1;
+    std::size_t left_out = 0;                 ///< other rows
+    std::optional<SweepRow> largest_left_out; ///< of them, by |slip|
+    std::size_t all() const { return rows.size() + left_out; }
+
+    using Words = std::set<std::string, std::less<>>;
+    std::shared_ptr<const Words> words; ///< that the rows look at
+};
+
+/// Makes the view of rows that come one by one.
+class SweepViewMaker {
+public:
+    /// @param columns  by their keys, as `sweep` writes them; one that is missing has its default
+    /// @param every  n where only the rows of every n-th friction are added; the others are left out
+    explicit SweepViewMaker(const std::vector<Column>& columns, std::size_t every = 1);
+    ~SweepViewMaker();
+    void expect(std::size_t rows); ///< that many will be added: their memory is taken once
+    void add(const std::vector<Cell>& row);
+    void leave_out(const std::vector<Cell>& row);
+    SweepView view(); ///< of all that was added; once
+
+private:
+    struct Parts;
+
+    std::size_t variant_of(const std::vector<Cell>& row);
+    SweepRow row_of(const std::vector<Cell>& row);
+    void group_rows();
+
+    SweepView view_;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Of rows in one table.
+SweepView sweep_view(const Table& table);
+
+/// Rows without an answer, how many and which: "3 rows have no answer: 2 not resolved (rows 4, 7), 1 tolerance missed (row 9)";
+/// empty where all have one. Of many only the first are named.
+std::string unanswered_words(const SweepView& view);
+
+/// How many FE slips have no error estimate, and why; empty where all have one.
+std::string unknown_error_words(const SweepView& view);
+
+/// Charts of a sweep. Slips are the largest on the way; of the polarities of a record the worse counts.
+
+/// Slip over friction of one variant, a curve for each method: the largest of up to three records, of more the median, with
+/// a band from the least to the largest of the main method. Where the dam does not stand without an earthquake there is no
+/// value, and a line marks the critical friction.
+Chart slip_over_friction(const SweepView& view, std::size_t variant, const std::optional<double>& allowable);
+
+/// Slip over time of one variant and method under the first record and polarity, a curve for each friction (of more than
+/// eight every n-th); nothing where there is no history.
+/// @param histories  of the view's rows, in their order
+std::optional<Chart> slip_histories(const SweepView& view, std::size_t variant, const std::string& method,
+                                    const std::vector<SlipHistory>& histories);
+
+/// A history as a curve [s, mm].
+Curve history_curve(const std::string& name, const SlipHistory& history);
+
+/// The method a reader looks at first: FE, else the rigid block with the vertical component.
+std::string main_method(const SweepView& view);
+
+/// The same of one method, a curve for each of the first eight variants.
+Chart slip_by_variant(const SweepView& view, const std::string& method, const std::optional<double>& allowable);
+
+/// Slip of every row over a_y/PGA.
+Chart slip_over_yield_ratio(const SweepView& view);
+
+/// FE slip over the rigid block's, with the vertical component where both have it; nothing without both methods.
+std::optional<Chart> fe_over_rigid(const SweepView& view);
+
+/// Yield acceleration over friction of the variants.
+Chart yield_over_friction(const SweepView& view);
+
+/// The friction from which on no slip of a sweep is above the allowable one, of one variant by one method.
+struct NeededFriction {
+    std::string variant, method;
+    std::optional<double> more;    ///< highest friction of the grid that slips more; none: all hold
+    std::optional<double> holds;   ///< the next one; none: even the highest slips more
+    std::optional<double> between; ///< where the slip, linear in friction between the two, is the allowable one
+    std::string record;            ///< that slips most at `more`
+    std::optional<int> polarity;   ///< of that record
+
+    /// Between the two; none where the grid does not bracket it.
+    std::optional<double> friction() const { return !more || !holds ? std::nullopt : between ? between : holds; }
+};
+
+/// For every variant and method, between the two frictions of the grid that bracket it. Empty where there is no allowable slip or
+/// only one friction. An FE slip counts with its error of the step added; a row without a slip, or without an answer, slips
+/// more than any. @param allowable  [m]
+std::vector<NeededFriction> needed_frictions(const SweepView& view, const std::optional<double>& allowable);
+
+/// The same as a table.
+Table needed_friction_table(const SweepView& view, const std::optional<double>& allowable);
+
+/// What the rules for water in the opening base are worth: largest slips on the way under each rule side by side, and how
+/// far they are apart. None where the rows of a sweep have fewer than two rules.
+/// @param rows  columns by their keys, as `sweep` writes them
+std::optional<Table> opening_water_table(const Table& rows);
+std::optional<Section> opening_water_section(const Table& rows);
+
+/// A sweep as the report that is handed in.
+
+struct SweepReportInput {
+    const Scene* scene;               ///< as given; null: not known, as of merged parts
+    const Table& rows;                ///< the whole table of the sweep, or its first rows where `view` is given
+    const std::vector<Table>& tables; ///< further ones: comparison of the methods, counts
+    const std::vector<RecordPair>& records;
+    std::filesystem::path csv;               ///< where the rows are; empty: nowhere
+    std::vector<SlipHistory> histories = {}; ///< of the rows, in their order; empty: none kept
+    const SweepView* view = nullptr;         ///< of all rows, of a sweep too long for one table; null: made from `rows`
+};
+
+inline constexpr std::size_t listed_rows = 400; ///< that the report prints
+
+Page sweep_page(const SweepReportInput& input);
+
+/// The page as one HTML file.
+std::string sweep_report(const SweepReportInput& input);
+
+/// A sweep as tables.
+
+/// Rows in the order of their ids; what an interrupted sweep did not reach says so. Axes, yield acceleration and PGA, then
+/// what the method gave. @param mean  with the mean slip of both polarities, empty where one of them has none
+Table sweep_table(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome,
+                  bool mean = false);
+
+/// Takes the cells of a row, which are overwritten by those of the next. @param row  null: not reached
+using TakeRow = std::function<void(const std::vector<Cell>& cells, const FinishedRow* row)>;
+
+/// The rows of that table one after the other, none of them held. @param ids  ascending
+void for_each_sweep_row(const Grid& grid, const std::vector<std::size_t>& ids, const SweepOutcome& outcome, bool mean,
+                        const TakeRow& take);
+
+/// Its columns.
+std::vector<Column> sweep_columns(const Grid& grid, bool mean = false);
+
+/// Remark of FE rows whose step was given: nothing to compare it with was run, so ± step is empty.
+inline constexpr const char* no_error_estimate = "no error estimate: fixed sub-steps";
+
+Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& compared);
+
+/// Counts that show how much was made once; the same for any number of threads.
+Table count_table(const FeSweepCounts& counts);
+
+/// @param compared  empty without FE
+nlohmann::ordered_json sweep_json(const Scene& given, const Table& rows, const Table& compared,
+                                  const SweepOutcome& outcome);
+
+/// FE against the rigid block, counts and seconds, beside the rows, which have standard output for themselves.
+std::string fe_sweep_text(const FeSweepCounts& counts, const Table& compared);
+
+} // namespace damslip::pages

@@ -1,0 +1,178 @@
+#include "probability/sampling.hpp"
+
+#include "core/text.hpp"
+#include "probability/distribution.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <gsl/gsl_qrng.h>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace damslip::probability {
+
+namespace {
+
+/// The name of the stream of records. No variable has it: names of variables have no blanks.
+constexpr const char* record_stream = "record of a sample";
+
+} // namespace
+
+RecordDraw::RecordDraw(RecordOrder order, std::uint64_t seed, std::span<const double> weights, std::uint32_t replicate)
+    : order_(order), stream_(seed, record_stream, replicate)
+{
+    if (weights.empty()) throw ParameterError("records", "0", "one record at least");
+    double sum = 0.0;
+    for (const double w : weights) {
+        if (!(w > 0.0) || !std::isfinite(w)) throw ParameterError("weight", shortest(w), "a number > 0");
+        below_.push_back(sum += w);
+    }
+    for (double& b : below_) b /= sum;
+    below_.back() = 1.0;
+    equal_ = std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights.front(); });
+}
+
+RecordDraw::RecordDraw(RecordOrder order, std::uint64_t seed, std::size_t records, std::uint32_t replicate)
+    : RecordDraw(order, seed, std::vector<double>(records, 1.0), replicate)
+{
+}
+
+std::size_t RecordDraw::operator()(std::uint32_t sample) const
+{
+    const std::uint32_t n = static_cast<std::uint32_t>(below_.size());
+    double u = stream_.uniform(sample);
+    if (order_ == RecordOrder::balanced) {
+        const std::uint32_t block = sample / n;
+        const std::uint32_t stratum = permutation(stream_, n, 1 + block)[sample % n];
+        if (equal_) return stratum;
+        u = std::min((stratum + stream_.uniform(block)) / n, 1.0 - 0x1p-53); // one offset for the block: systematic
+    }
+    if (equal_) return std::min<std::size_t>(n - 1, static_cast<std::size_t>(u * n));
+    return static_cast<std::size_t>(std::upper_bound(below_.begin(), below_.end() - 1, u) - below_.begin());
+}
+
+std::vector<std::uint32_t> permutation(const Stream& stream, std::uint32_t n, std::uint32_t block)
+{
+    std::vector<std::uint32_t> p(n);
+    std::iota(p.begin(), p.end(), 0u);
+    for (std::uint32_t k = n; k > 1; --k) std::swap(p[k - 1], p[stream.below(k, k, block)]);
+    return p;
+}
+
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> key)
+{
+    constexpr std::uint64_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u; // multipliers and Weyl steps of Salmon et al. (2011)
+    constexpr std::uint32_t w0 = 0x9E3779B9u, w1 = 0xBB67AE85u;
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t a = m0 * c[0], b = m1 * c[2];
+        c = {static_cast<std::uint32_t>(b >> 32) ^ c[1] ^ key[0], static_cast<std::uint32_t>(b),
+             static_cast<std::uint32_t>(a >> 32) ^ c[3] ^ key[1], static_cast<std::uint32_t>(a)};
+        key[0] += w0;
+        key[1] += w1;
+    }
+    return c;
+}
+
+std::uint32_t stream_hash(std::string_view name)
+{
+    std::uint32_t hash = 2166136261u;
+    for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
+    return hash;
+}
+
+Stream::Stream(std::uint64_t seed, std::string_view name, std::uint32_t replicate)
+    : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}, hash_(stream_hash(name)),
+      replicate_(replicate)
+{
+}
+
+std::array<std::uint32_t, 4> Stream::block(std::uint32_t sample, std::uint32_t block) const
+{
+    return philox4x32({sample, hash_, replicate_, block}, key_);
+}
+
+std::uint64_t Stream::bits(std::uint32_t sample, std::uint32_t which) const
+{
+    const std::array<std::uint32_t, 4> b = block(sample, which);
+    return static_cast<std::uint64_t>(b[0]) << 32 | b[1];
+}
+
+double Stream::uniform(std::uint32_t sample, std::uint32_t block) const
+{
+    return static_cast<double>(bits(sample, block) >> 12 << 1 | 1u) * 0x1p-53; // (2k + 1) 2^-53
+}
+
+std::uint32_t Stream::below(std::uint32_t n, std::uint32_t sample, std::uint32_t block) const
+{
+    // n bits / 2^64 without 128-bit numbers: high half first, then what the low half carries over.
+    const std::uint64_t b = bits(sample, block);
+    const std::uint64_t carry = (b & 0xFFFFFFFFu) * n >> 32;
+    return static_cast<std::uint32_t>(((b >> 32) * n + carry) >> 32);
+}
+
+namespace {
+
+// Blocks of a variable's stream: 0 the number within the stratum; the permutation or the shift has one of its own.
+constexpr std::uint32_t whole_block = 1;
+
+/// Strata 0 ... N - 1 of the first N = 2^m points in each dimension. A point of gsl_qrng_sobol is k 2^-30, and its first N ones have zeros below
+/// 2^-m; it leaves the origin out.
+std::vector<std::uint32_t> sobol_strata(std::size_t dimension, std::uint32_t n, int bits)
+{
+    std::vector<std::uint32_t> strata(dimension * n, 0u);
+    const std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)> sequence(
+        gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(dimension)), gsl_qrng_free);
+    std::vector<double> x(dimension);
+    for (std::uint32_t i = 1; i < n; ++i) {
+        gsl_qrng_get(sequence.get(), x.data());
+        for (std::size_t k = 0; k < dimension; ++k)
+            strata[k * n + i] = static_cast<std::uint32_t>(std::ldexp(x[k], bits));
+    }
+    return strata;
+}
+
+} // namespace
+
+UnitPoints::UnitPoints(Sampling sampling, std::uint64_t seed, const std::vector<std::string>& names, std::uint32_t n,
+                       std::uint32_t replicate)
+    : sampling_(sampling), n_(n)
+{
+    if (n == 0) throw ParameterError("samples", "0", "a whole number > 0");
+    for (const std::string& name : names) streams_.emplace_back(seed, name, replicate);
+    if (sampling_ == Sampling::sobol && names.size() > sobol_dimensions) sampling_ = Sampling::random;
+    if (sampling_ == Sampling::sobol) {
+        if (!std::has_single_bit(n) || n > 1u << 30)
+            throw ParameterError("samples", fmt::format("{}", n), "a power of two up to 2^30, for Sobol' points");
+        bits_ = std::countr_zero(n);
+        if (!names.empty()) strata_ = sobol_strata(names.size(), n, bits_);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const std::uint32_t shift = streams_[k].below(n, 0, whole_block);
+            for (std::uint32_t i = 0; i < n; ++i) strata_[k * n + i] ^= shift;
+        }
+    }
+    if (sampling_ == Sampling::lhs)
+        for (const Stream& stream : streams_) {
+            const std::vector<std::uint32_t> order = permutation(stream, n, whole_block);
+            strata_.insert(strata_.end(), order.begin(), order.end());
+        }
+}
+
+double UnitPoints::operator()(std::uint32_t sample, std::size_t variable) const
+{
+    const double v = streams_[variable].uniform(sample);
+    if (sampling_ == Sampling::random) return v;
+    const double u = (strata_[variable * n_ + sample] + v) / n_;
+    return std::min(u, 1.0 - 0x1p-53); // rounded to 1 in the last stratum, once in 2^52
+}
+
+std::vector<double> UnitPoints::point(std::uint32_t sample) const
+{
+    std::vector<double> u;
+    for (std::size_t k = 0; k < dimension(); ++k) u.push_back((*this)(sample, k));
+    return u;
+}
+
+} // namespace damslip::probability

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace damslip::probability {
+
+/// Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011): 128 random bits as a function of counter and key alone.
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+/// 32-bit FNV-1a hash of a variable's name. Two names of one scene with the same hash are refused by the reader.
+std::uint32_t stream_hash(std::string_view name);
+
+/// Random numbers of one variable: sample i always has the same ones, whatever was drawn before, by whom and in which order.
+/// Key = seed; counter = (sample, hash of the name, replicate, block).
+class Stream {
+public:
+    Stream(std::uint64_t seed, std::string_view name, std::uint32_t replicate = 0);
+
+    std::array<std::uint32_t, 4> block(std::uint32_t sample, std::uint32_t block = 0) const;
+    std::uint64_t bits(std::uint32_t sample, std::uint32_t block = 0) const; ///< the first 64 of the block
+
+    /// u = (k + 1/2) 2^-52 with 52 random bits k, 0 < u < 1: every one is a double, and 1 - u is one of them, too.
+    /// (With 53 bits k + 1/2 would be rounded where u > 1/2, and the last one to u = 1.)
+    double uniform(std::uint32_t sample, std::uint32_t block = 0) const;
+
+    /// A whole number 0 ... n - 1, each with the same probability up to n 2^-64.
+    std::uint32_t below(std::uint32_t n, std::uint32_t sample, std::uint32_t block = 0) const;
+
+private:
+    std::array<std::uint32_t, 2> key_;
+    std::uint32_t hash_, replicate_;
+};
+
+enum class RecordOrder {
+    balanced,        ///< each block of R samples has every record once, in random order
+    with_replacement ///< each sample a record of its own
+};
+
+/// Which record a sample meets. Unequal weights, balanced: u = (pi(j) + v) / R with one v a block, through the distribution
+/// of the weights, so that a record of weight w is met R w times a block, rounded up or down.
+class RecordDraw {
+public:
+    /// @param weights  of the records, > 0, of any sum
+    RecordDraw(RecordOrder order, std::uint64_t seed, std::span<const double> weights, std::uint32_t replicate = 0);
+    RecordDraw(RecordOrder order, std::uint64_t seed, std::size_t records, std::uint32_t replicate = 0);
+
+    std::size_t operator()(std::uint32_t sample) const; ///< 0 ... R - 1
+
+private:
+    RecordOrder order_;
+    Stream stream_;
+    std::vector<double> below_; ///< below_[r] = share of the records 0 ... r
+    bool equal_;
+};
+
+/// A permutation of 0 ... n - 1, all n! equally likely (Fisher-Yates), fixed by stream and block alone.
+std::vector<std::uint32_t> permutation(const Stream& stream, std::uint32_t n, std::uint32_t block = 0);
+
+enum class Sampling {
+    random, ///< independent points
+    lhs,    ///< Latin hypercube: each variable has one point in each of N equal strata
+    sobol   ///< Sobol' points, shifted at random
+};
+
+/// Dimensions the Sobol' points have; beyond, points are random.
+inline constexpr std::size_t sobol_dimensions = 40;
+
+/// The N points of one replicate in the open unit cube, one coordinate a variable. The mean over them is an unbiased estimate; its error is
+/// taken from replicates, as the points of one are dependent (lhs, sobol).
+///
+/// lhs: u = (pi(i) + v) / N, permutation pi and v of the variable's stream.
+/// sobol: N a power of two, N = 2^m. The first N points of gsl_qrng_sobol with the origin put back, their m bits xor-ed with a random shift of the
+/// replicate, the bits below 2^-m drawn anew for each point (the plain shift leaves 1/(12 N^2) as the variance of the mean of u, fresh bits
+/// 1/(12 N^3)). Its coordinate is the variable's place in the list: a variable added at the end changes no other.
+class UnitPoints {
+public:
+    /// @throws ParameterError for n = 0; sobol: n no power of two or above 2^30
+    UnitPoints(Sampling sampling, std::uint64_t seed, const std::vector<std::string>& names, std::uint32_t n,
+               std::uint32_t replicate = 0);
+
+    double operator()(std::uint32_t sample, std::size_t variable) const;
+    std::vector<double> point(std::uint32_t sample) const;
+    std::uint32_t size() const { return n_; }
+    std::size_t dimension() const { return streams_.size(); }
+    Sampling used() const { return sampling_; } ///< random where sobol was asked for in more than 40 dimensions
+
+private:
+    Sampling sampling_;
+    std::uint32_t n_;
+    int bits_ = 0; ///< m
+    std::vector<Stream> streams_;
+    std::vector<std::uint32_t> strata_; ///< lhs, sobol: stratum 0 ... N - 1 of sample i in variable k at [k N + i]
+};
+
+} // namespace damslip::probability
