@@ -115,6 +115,34 @@ TEST(FeLiftJoint, SeveralJointsFromTheBottomUp)
     EXPECT_GT(measure_quality(mesh).smallest_scaled_jacobian, 0.3);
 }
 
+// Elements along a joint whose bond breaks by its energy are a quarter of E' G/f^2 or shorter (Bazant & Oh 1983), at one joint and at
+// three; the dam is still filled once, and the mesh conforms: no stress in a body that only moves is seen by the other tests.
+TEST(FeLiftJoint, MeshesABondByItsProcessZone)
+{
+    for (const std::vector<double>& elevations :
+         {std::vector<double>{51.5}, std::vector<double>{30.0, 51.5}, std::vector<double>{20.0, 23.0, 51.5}}) {
+        Scene scene = cracked(test::reference_dam_on_rock(), elevations);
+        for (LiftJoint& joint : scene.lift_joints) {
+            joint.strength.bond.loss = BondLoss::fracture;
+            joint.strength.bond.tensile_strength = 2.4e6;
+            joint.strength.bond.tension_energy = 200.0;
+        }
+        const double size = lift_mesh_size(scene, scene.lift_joints.front());
+        const double modulus = *scene.dam.young_modulus / (1.0 - scene.dam.poisson_ratio * scene.dam.poisson_ratio);
+        EXPECT_NEAR(size, modulus * 200.0 / (4.0 * 2.4e6 * 2.4e6), 1e-12 * size);
+        const Mesh mesh = build_mesh(scene);
+        ASSERT_EQ(mesh.lifts.size(), elevations.size());
+        for (std::size_t i = 0; i < elevations.size(); ++i) {
+            expect_joint(mesh, mesh.lifts[i], elevations[i]);
+            const std::vector<double>& at = mesh.lifts[i].distance;
+            for (std::size_t k = 1; k < at.size(); ++k) EXPECT_LT(at[k] - at[k - 1], 1.05 * size); // columns are not quite even
+            EXPECT_LT(at.back() / static_cast<double>(at.size() - 1), size * (1.0 + 1e-9));
+        }
+        EXPECT_NEAR(lift_mesh_area(mesh, 0, mesh.dam_element_count), 1599.75, 1e-9);
+        EXPECT_GT(measure_quality(mesh).smallest_scaled_jacobian, 0.2);
+    }
+}
+
 // The base dips 5 degrees and the crest rises: rows between them are blended, the joint is level all the same.
 TEST(FeLiftJoint, IsLevelAboveAnInclinedBase)
 {
