@@ -272,13 +272,14 @@ TEST(FeReportPage, BondsThatElementsCannotCarryAreSaid)
         const fe2d::EarthquakeRun model(scene, {});
         return bond_messages(scene, model.model().mesh);
     };
-    // E G/(4 c²): 25e9 * 1000/(4 * 4e12) = 1.56 m carry it, and 100 J/m² make it 0.156 m, sqrt(25e9 * 100/4) = 790.6 kPa.
-    EXPECT_TRUE(messages_with(1000.0).empty());
-    const std::vector<std::string> said = messages_with(100.0);
+    // E G/(4 c²): 25e9 * 100/(4 * 4e12) = 0.156 m is meshed. 10 J/m² make it 0.0156 m, shorter than 8 m/240: of the columns, doubled
+    // from 8 on, 256 are there, 0.03125 m each, which carry sqrt(25e9 * 10/(4 * 0.03125)) = 1414 kPa.
+    EXPECT_TRUE(messages_with(100.0).empty());
+    const std::vector<std::string> said = messages_with(10.0);
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_NE(said[0].find("lift: elements of 1 m"), std::string::npos) << said[0];
-    EXPECT_NE(said[0].find("cohesion 790.6 kPa"), std::string::npos) << said[0];
-    EXPECT_NE(said[0].find("at most 0.156 m"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("lift: elements of 0.0312"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("cohesion 1414"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("at most 0.0156 m"), std::string::npos) << said[0];
 }
 
 TEST(FeReportPage, SameBytesEachTime)
