@@ -18,16 +18,13 @@ function(damslip_install_package)
   add_library(damslip_records INTERFACE)
   target_link_libraries(damslip_records INTERFACE
     damslip_record records_read records_write records_measure records_transform records_generate records_suite)
-  add_library(damslip_sliding INTERFACE)
-  target_link_libraries(damslip_sliding INTERFACE
-    sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
   add_library(damslip_analysis INTERFACE)
   target_link_libraries(damslip_analysis INTERFACE
     analysis_prepare analysis_suite analysis_screen analysis_fe analysis_sweep analysis_fragility analysis_accuracy analysis_ablation)
   add_library(damslip_probability INTERFACE)
   target_link_libraries(damslip_probability INTERFACE
     probability_laws probability_sampling probability_fit probability_estimate probability_hazard probability_sensitivity probability_export)
-  foreach(target damslip_records damslip_sliding fe2d damslip_probability damslip_analysis)
+  foreach(target damslip_records fe2d damslip_probability damslip_analysis)
     damslip_install_library(${target})
   endforeach()
 

@@ -1,4 +1,4 @@
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include "sliding/block/coasting.hpp"
 #include "sliding/block/roots.hpp"

@@ -1,8 +1,8 @@
 #include "sliding/block/slip_motion.hpp"
 
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/roots.hpp"
-#include "sliding/block/sloped_slip.hpp"
-#include "sliding/block/slow_water.hpp"
+#include "sliding/block/slip_steps.hpp"
 
 #include <algorithm>
 #include <array>

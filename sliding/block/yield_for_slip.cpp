@@ -1,6 +1,6 @@
-#include "sliding/block/yield_for_slip.hpp"
+#include "sliding/block/slide_batch.hpp"
 
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>
 

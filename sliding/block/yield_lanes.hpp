@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <array>
 #include <cstddef>

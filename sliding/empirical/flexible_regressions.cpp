@@ -1,5 +1,4 @@
-#include "sliding/empirical/regression_rows.hpp"
-#include "sliding/empirical/slip_distribution.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>

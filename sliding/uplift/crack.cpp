@@ -1,6 +1,6 @@
-#include "sliding/uplift/crack.hpp"
+#include "sliding/uplift/uplift.hpp"
 
-#include "sliding/uplift/unchanged_uplift.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "core/vector3.hpp"
 #include "records/record.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 // exact integrator of the same run. Without arguments the records are artificial: white noise through a ground filter under an envelope, seeded.
 //   sliding_bench [FILE DT]...   text files of samples, lines with # skipped; the unit does not matter, yields follow the peak
 #include "core/parallel.hpp"
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>

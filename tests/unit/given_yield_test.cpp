@@ -3,7 +3,7 @@
 #include "program_answer.hpp"
 #include "records/read/read_record.hpp"
 #include "scene/read.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 #include "source_dir.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"

@@ -1,7 +1,7 @@
 #include "analysis/accuracy/regression_rungs.hpp"
 
 #include "core/units.hpp"
-#include "sliding/empirical/ensemble.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>

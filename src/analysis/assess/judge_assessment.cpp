@@ -1,7 +1,7 @@
 #include "analysis/assess/assess.hpp"
 
 #include "core/units.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

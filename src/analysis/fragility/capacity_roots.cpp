@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/sweep_rows.hpp"
 #include "core/parallel.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "probability/laws/copula.hpp"
 #include "probability/laws/distribution.hpp"
 #include "probability/sampling/unit_points.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>
 #include <cmath>

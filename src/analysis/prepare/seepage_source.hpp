@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include <map>
 #include <memory>

@@ -2,9 +2,9 @@
 
 #include "records/record.hpp"
 #include "scene/scene.hpp"
-#include "sliding/block/given_yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/flexible/strain_column.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/prepare/rigid_model.hpp"
-#include "sliding/empirical/ensemble.hpp"
 #include "sliding/empirical/regression.hpp"
 
 #include <optional>

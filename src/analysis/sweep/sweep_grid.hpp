@@ -4,7 +4,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/units.hpp"
-#include "sliding/block/skipping_motion.hpp"
+#include "sliding/block/slide.hpp"
 
 namespace damslip {
 

@@ -8,9 +8,7 @@
 #include "scene/exact_contact.hpp"
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
-#include "sliding/equilibrium/combinations.hpp"
-#include "sliding/equilibrium/criteria.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "pages/scene/effect_table.hpp"
 #include "scene/rock_mass.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 namespace damslip::pages {
 

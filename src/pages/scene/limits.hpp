@@ -2,7 +2,7 @@
 
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 /// What the numbers of a report hold for, and parts that several reports share.
 namespace damslip::pages {

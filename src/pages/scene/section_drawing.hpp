@@ -2,7 +2,7 @@
 
 #include "pages/report/page.hpp"
 #include "scene/scene.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 namespace damslip::pages {
 

@@ -12,7 +12,7 @@
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <fmt/format.h>
 

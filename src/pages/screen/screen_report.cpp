@@ -16,7 +16,7 @@
 #include "pages/screen/wedge_tables.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/section.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
