@@ -7,6 +7,9 @@ set(DAMSLIP_ALONE
   sliding/block/rigid_block.cpp sliding/block/slide.cpp sliding/empirical/regression_list.cpp sliding/empirical/regression_table.cpp
   src/cli/command_list.cpp src/scene/added_mass_list.cpp src/scene/effect_list.cpp src/scene/uplift_list.cpp)
 
+# Compiled by itself for another processor from a point in it on.
+list(APPEND DAMSLIP_ALONE sliding/block/permanent_contact_batch.cpp)
+
 # Files of folders that are cold otherwise, through which every row of a sweep goes: compiled like the hot ones, by themselves.
 set(DAMSLIP_PER_ROW
   src/analysis/prepare/rigid_model.cpp src/analysis/sweep/result_store.cpp src/analysis/sweep/sweep_rows.cpp

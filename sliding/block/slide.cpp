@@ -8,33 +8,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <array>
 #include <list>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace damslip::sliding {
 
 namespace {
 
-/// Samples first ... last, both included.
+/// Smallest and largest of samples first ... last, four sums side by side.
+std::pair<double, double> extremes(const std::vector<double>& a, std::size_t first, std::size_t last)
+{
+    std::array<double, 4> low, high;
+    low.fill(a[first]);
+    high.fill(a[first]);
+    std::size_t k = first;
+    for (; k + 3 <= last; k += 4)
+        for (std::size_t i = 0; i < 4; ++i) {
+            low[i] = std::min(low[i], a[k + i]);
+            high[i] = std::max(high[i], a[k + i]);
+        }
+    for (; k <= last; ++k) {
+        low[0] = std::min(low[0], a[k]);
+        high[0] = std::max(high[0], a[k]);
+    }
+    return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
+}
+
 AccelRange range_of(const GroundMotion& motion, std::size_t first, std::size_t last)
 {
     AccelRange range;
-    const auto [h_min, h_max] = std::minmax_element(motion.accel_h.begin() + first, motion.accel_h.begin() + last + 1);
-    range.h_min = *h_min;
-    range.h_max = *h_max;
-    if (motion.accel_v.empty()) return range;
-    const auto [v_min, v_max] = std::minmax_element(motion.accel_v.begin() + first, motion.accel_v.begin() + last + 1);
-    range.v_min = *v_min;
-    range.v_max = *v_max;
+    std::tie(range.h_min, range.h_max) = extremes(motion.accel_h, first, last);
+    if (!motion.accel_v.empty()) std::tie(range.v_min, range.v_max) = extremes(motion.accel_v, first, last);
     return range;
 }
 
-std::vector<AccelRange> ranges_of(const GroundMotion& motion, std::size_t intervals_each)
+AccelRange joined(std::span<const AccelRange> ranges)
 {
-    std::vector<AccelRange> ranges;
-    const std::size_t intervals = motion.accel_h.size() - 1;
-    for (std::size_t k = 0; k < intervals; k += intervals_each)
-        ranges.push_back(range_of(motion, k, std::min(k + intervals_each, intervals)));
-    return ranges;
+    AccelRange all = ranges.front();
+    for (const AccelRange& r : ranges)
+        all = {std::min(all.h_min, r.h_min), std::max(all.h_max, r.h_max), std::min(all.v_min, r.v_min),
+               std::max(all.v_max, r.v_max)};
+    return all;
 }
 
 } // namespace
@@ -42,9 +60,12 @@ std::vector<AccelRange> ranges_of(const GroundMotion& motion, std::size_t interv
 SkippingMotion::SkippingMotion(GroundMotion motion) : motion_(std::move(motion))
 {
     check_motion(motion_);
-    blocks_ = ranges_of(motion_, block);
-    large_blocks_ = ranges_of(motion_, large);
-    whole_ = range_of(motion_, 0, intervals());
+    for (std::size_t k = 0; k < intervals(); k += block)
+        blocks_.push_back(range_of(motion_, k, std::min(k + block, intervals())));
+    const std::span<const AccelRange> all(blocks_);
+    for (std::size_t k = 0; k < all.size(); k += block)
+        large_blocks_.push_back(joined(all.subspan(k, std::min(block, all.size() - k))));
+    whole_ = joined(large_blocks_);
 }
 
 void check_motion(const GroundMotion& motion)
@@ -194,10 +215,10 @@ private:
     StaticState state_ = StaticState::at_rest;
 };
 
-/// `blocks`: ranges of the motion's blocks of samples, for skipping; null: every interval is looked at.
-SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
-                        const SlideOptions& options, const RestBetweenEvents* between = nullptr)
+SlideResult slide_exact(const SkippingMotion& blocks, const SlipStages& stages, const SlideOptions& options,
+                        const RestBetweenEvents* between)
 {
+    const GroundMotion& motion = blocks.motion();
     const bool vertical = !motion.accel_v.empty();
     const double polarity = options.polarity;
     const auto a_h = [&](std::size_t k) { return polarity * motion.accel_h[k]; };
@@ -228,13 +249,11 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (e > 0) cross({0.0, a_h(first)}, {0.0, a_v(first)});
         if (motion.is_sequence()) result.events.push_back({motion.events[e].name, now(), now(), 0.0, 0.0});
         for (std::size_t k = first; k < last && !block.unresolved(); ++k) {
-            if (blocks && !history && !between && block.at_rest()) {
-                const std::size_t next = std::min(blocks->skip(k, rests), last);
+            if (!history && !between) {
+                std::size_t next = block.at_rest() ? std::min(blocks.skip(k, rests), last) : k;
                 n += next - k;
                 k = next;
-            }
-            if (!history && !between && k < last) {
-                const std::size_t next = block.pass(motion, polarity, k, last, n, blocks);
+                if (k < last) next = block.pass(blocks, polarity, k, last, n);
                 n += next - k;
                 k = next;
             }
@@ -259,10 +278,10 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
 }
 
 /// With the error of the table of water on its way: the difference to a table of half the resolution.
-SlideResult slide_with_error(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
-                             const SlideOptions& options, const RestBetweenEvents* between = nullptr)
+SlideResult slide_with_error(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options,
+                             const RestBetweenEvents* between = nullptr)
 {
-    SlideResult result = slide_exact(motion, blocks, stages, options, between);
+    SlideResult result = slide_exact(motion, stages, options, between);
     const OpeningUplift* opening = stages.front().block.opening.get();
     if (!opening || !opening->slow || !opening->slow->coarser()) return result;
     SlipStages coarser = stages;
@@ -273,7 +292,7 @@ SlideResult slide_with_error(const GroundMotion& motion, const SkippingMotion* b
     }
     SlideOptions plain = options;
     plain.history = HistoryOutput::none;
-    result.slip_error = std::abs(slide_exact(motion, blocks, coarser, plain, between).max_slip - result.max_slip);
+    result.slip_error = std::abs(slide_exact(motion, coarser, plain, between).max_slip - result.max_slip);
     result.notes.push_back("Its slip is known to " + shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
                            " mm, by a table of this water of half the resolution.");
     return result;
@@ -326,22 +345,18 @@ void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOpti
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
 {
-    check_motion(motion);
-    check_stages(stages);
-    check_anchors(options);
-    if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
-    return slide_with_error(motion, nullptr, stages, options);
+    return slide(SkippingMotion(motion), stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options,
                   const RestBetweenEvents* rests)
 {
+    const SkippingMotion blocks(motion);
     if (!rests || !motion.is_sequence() || options.sliding.scheme == SlidingScheme::slammer)
-        return slide(motion, stages, options);
-    check_motion(motion);
+        return slide(blocks, stages, options);
     check_stages(stages);
     check_anchors(options);
-    return slide_with_error(motion, nullptr, stages, options, rests);
+    return slide_with_error(blocks, stages, options, rests);
 }
 
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)
@@ -349,12 +364,57 @@ SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const 
     check_stages(stages);
     check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion.motion(), stages, options);
-    return slide_with_error(motion.motion(), &motion, stages, options);
+    return slide_with_error(motion, stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options)
 {
     return slide(motion, SlipStages{{0.0, block, 0.0}}, options);
+}
+
+namespace {
+
+/// @param stages  of at most batch_size blocks @returns false where they have to go one by one
+bool slide_batched(const SkippingMotion& motion, std::span<const SlipStages* const> stages, const SlideOptions& options,
+                   std::span<SlideResult> results)
+{
+    std::vector<SlipMotion> blocks;
+    std::array<SlipMotion*, batch_size> batch;
+    blocks.reserve(batch_size);
+    for (std::size_t i = 0; i < batch_size; ++i) { // the last one fills up
+        blocks.emplace_back(*stages[std::min(i, stages.size() - 1)], options);
+        batch[i] = &blocks[i];
+    }
+    if (!SlipMotion::pass_together(motion, options.polarity, batch)) return false;
+    const double dt = motion.motion().dt, end = static_cast<double>(motion.intervals()) * dt;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        SlipMotion& block = blocks[i];
+        run_out(block, *stages[i], end, dt, options.sliding.run_out_max, nullptr);
+        conclude(block, *stages[i], options, end, results[i]);
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<SlideResult> slide_together(const SkippingMotion& motion, std::span<const SlipStages* const> blocks,
+                                        const SlideOptions& options)
+{
+    std::vector<SlideResult> results(blocks.size());
+    SlideOptions plain = options;
+    plain.history = HistoryOutput::none;
+    const bool together = has_batched_runs() && !motion.motion().is_sequence() &&
+                          options.sliding.scheme == SlidingScheme::exact && options.anchors.empty();
+    for (std::size_t first = 0; first < blocks.size(); first += batch_size) {
+        const std::size_t count = std::min(batch_size, blocks.size() - first);
+        const auto here = blocks.subspan(first, count);
+        if (together && count > 1 && std::ranges::all_of(here, [](const SlipStages* s) { return s->size() == 1; })) {
+            for (const SlipStages* stages : here) check_stages(*stages);
+            if (slide_batched(motion, here, plain, std::span(results).subspan(first, count))) continue;
+        }
+        for (std::size_t i = 0; i < count; ++i) results[first + i] = slide(motion, *here[i], plain);
+    }
+    return results;
 }
 
 } // namespace damslip::sliding

@@ -175,13 +175,11 @@ WedgeYield without_cohesion(const Wedge& wedge, WedgeYield yield)
     return yield;
 }
 
-SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const FixedYieldOptions& options)
+SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const ConstantYieldOptions& options)
 {
-    FixedYield fixed;
-    fixed.downstream = {{yield.acceleration, 0.0}, yield.factor};
     GroundMotion horizontal = motion;
     horizontal.accel_v.clear();
-    return slide_fixed_yield(SkippingMotion(std::move(horizontal)), fixed, options);
+    return slide_constant_yield(SkippingMotion(std::move(horizontal)), {yield.acceleration, yield.factor}, options);
 }
 
 namespace {

@@ -15,7 +15,7 @@ namespace {
 /// Slip of the one-way block of this yield under k times the motion [m].
 double slip_at_factor(const sliding::SkippingMotion& motion, double yield, double factor)
 {
-    return factor * sliding::slide_fixed_yield(motion, sliding::fixed_yield(yield / factor)).slip;
+    return factor * sliding::slide_constant_yield(motion, {yield / factor}).slip;
 }
 
 /// The factor with D = d in (low, high], D(high) > d. Bisection: D is continuous, but flat below the yield.

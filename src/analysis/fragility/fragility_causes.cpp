@@ -215,7 +215,7 @@ std::vector<NeededYield> needed_yield(const FragilityPlan& plan, const SceneText
                 const sliding::SkippingMotion shaking(std::move(motion));
                 for (int i = 0; i < 50; ++i) {
                     const double yield = 0.5 * (low + high);
-                    (sliding::slide_fixed_yield(shaking, sliding::fixed_yield(yield)).slip > slip ? low : high) = yield;
+                    (sliding::slide_constant_yield(shaking, {yield}).slip > slip ? low : high) = yield;
                 }
                 k.push_back(0.5 * (low + high) / units::standard_gravity);
             }
