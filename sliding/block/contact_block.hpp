@@ -52,11 +52,11 @@ struct SlipTotals {
 struct ContactBlock {
     /// Sliding one way.
     struct Way {
-        GroundLinear excess;     ///< net driving force of the sliding block [N/m]
-        double mass = 1.0;       ///< that the slip feels [kg/m]
-        GroundLinear normal;     ///< N' of the block at rest [N/m]
-        double friction = 0.0;   ///< mu [-]
-        double bond = 0.0;       ///< cohesion and dowels [N/m]
+        GroundLinear excess;   ///< net driving force of the sliding block [N/m]
+        double mass = 1.0;     ///< that the slip feels [kg/m]
+        GroundLinear normal;   ///< N' of the block at rest [N/m]
+        double friction = 0.0; ///< mu [-]
+        double bond = 0.0;     ///< cohesion and dowels [N/m]
     };
     GroundLinear drive; ///< driving force of the block at rest, downstream [N/m]
     Way down, up;

@@ -1,5 +1,7 @@
 #include "sliding/block/permanent_contact.hpp"
 
+#include "sliding/block/constant_yield_run.hpp"
+
 namespace damslip::sliding {
 
 namespace {

@@ -6,9 +6,10 @@
 #include <immintrin.h>
 
 // From here on all is compiled for AVX2: the runs of four numbers, which have no other place. The headers above are
-// not, so this file includes permanent_contact.hpp after them, and is compiled by itself (cmake/alone.cmake).
+// not, so this file includes the runs after them, and is compiled by itself (cmake/alone.cmake).
 DAMSLIP_AVX2_BEGIN
 
+#include "sliding/block/constant_yield_run.hpp"
 #include "sliding/block/permanent_contact.hpp"
 
 namespace damslip::sliding {

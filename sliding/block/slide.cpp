@@ -7,8 +7,8 @@
 #include "sliding/block/yield.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <list>
 #include <span>
 #include <tuple>
@@ -293,7 +293,8 @@ SlideResult slide_with_error(const SkippingMotion& motion, const SlipStages& sta
     SlideOptions plain = options;
     plain.history = HistoryOutput::none;
     result.slip_error = std::abs(slide_exact(motion, coarser, plain, between).max_slip - result.max_slip);
-    result.notes.push_back("Its slip is known to " + shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
+    result.notes.push_back("Its slip is known to " +
+                           shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
                            " mm, by a table of this water of half the resolution.");
     return result;
 }

@@ -107,9 +107,7 @@ std::optional<double> yield_for_slip(const SkippingMotion& motion, double slip, 
     if (slip <= 0.0) return peak;
     ConstantYieldOptions options;
     options.polarity = polarity;
-    const auto slips_more = [&](double yield) {
-        return slide_constant_yield(motion, {yield}, options).slip > slip;
-    };
+    const auto slips_more = [&](double yield) { return slide_constant_yield(motion, {yield}, options).slip > slip; };
     double more = 1e-12 * peak, less = peak;
     if (!slips_more(more)) return std::nullopt;
     while (less - more > 1e-12 * peak) {

@@ -47,7 +47,8 @@ bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, d
     if (slow_water() && !water_stays(a_h_min, a_h_max, a_v_min, a_v_max)) return false;
     if (upper(-e.normal.constant, -e.normal.per_a_h, -e.normal.per_a_v) >= 0.0) return false;
     const auto slides = [&](SlipDirection direction) {
-        const double d = sign(direction), change = block.opening ? block.opening->largest(direction, a_v_min, a_v_max) : 0.0;
+        const double d = sign(direction),
+                     change = block.opening ? block.opening->largest(direction, a_v_min, a_v_max) : 0.0;
         const double c = block.cohesion_force + block.dowel_force - mu * change;
         return upper(d * e.drive.constant - c - mu * e.normal.constant, d * e.drive.per_a_h - mu * e.normal.per_a_h,
                      d * e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0;

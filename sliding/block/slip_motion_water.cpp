@@ -7,7 +7,7 @@
 namespace damslip::sliding {
 namespace {
 
-constexpr double wet_tolerance = 1e-8; ///< of the base's length and of the block's weight, within a part
+constexpr double wet_tolerance = 1e-8;        ///< of the base's length and of the block's weight, within a part
 constexpr double shortest_wet_part = 0x1p-26; ///< of an interval: the water's way may break there
 constexpr int most_wet_parts = 100000;
 

@@ -15,7 +15,7 @@ double SlipDistribution::below(double d) const
 {
     if (median <= 0.0) return 1.0;
     const double z = std::log(d / median);
-    const double share = sigma > 0.0 ? normal_cdf(z / sigma) : (z >= 0.0 ? 1.0 : 0.0);
+    const double share = sigma > 0.0 ? standard_normal_cdf(z / sigma) : (z >= 0.0 ? 1.0 : 0.0);
     return zero + (1.0 - zero) * share;
 }
 
@@ -42,7 +42,7 @@ double quantile(std::span<const SlipDistribution> mixture, double q)
     return std::exp(b);
 }
 
-double normal_cdf(double z)
+double standard_normal_cdf(double z)
 {
     return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
@@ -89,9 +89,9 @@ void count_zero(const Regression& regression, RegressionResult& result)
     const double to_natural = regression.logarithm == Logarithm::decimal ? std::numbers::ln10 : 1.0;
     const SlipDistribution d[] = {
         {1.0, *result.zero_probability, *result.nonzero_median_cm, result.sigma * to_natural}};
-    result.minus_sd_cm = quantile(d, normal_cdf(-1.0));
+    result.minus_sd_cm = quantile(d, standard_normal_cdf(-1.0));
     result.median_cm = quantile(d, 0.5);
-    result.plus_sd_cm = quantile(d, normal_cdf(1.0));
+    result.plus_sd_cm = quantile(d, standard_normal_cdf(1.0));
 }
 
 /// @param demand  [g], which the yield acceleration reaches
@@ -273,8 +273,8 @@ Ensemble weighted_ensemble(std::span<const RegressionResult> results, std::span<
     }
     ensemble.median_cm = quantile(members, 0.5);
     if (members.size() == 1 && members[0].sigma == 0.0 && members[0].median > 0.0) return ensemble;
-    ensemble.low_cm = quantile(members, normal_cdf(-1.0));
-    ensemble.high_cm = quantile(members, normal_cdf(1.0));
+    ensemble.low_cm = quantile(members, standard_normal_cdf(-1.0));
+    ensemble.high_cm = quantile(members, standard_normal_cdf(1.0));
     return ensemble;
 }
 

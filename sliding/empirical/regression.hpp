@@ -169,7 +169,7 @@ struct SlipDistribution {
 double quantile(std::span<const SlipDistribution> mixture, double q);
 
 /// Distribution function of the standard normal, to round-off in both tails.
-double normal_cdf(double z);
+double standard_normal_cdf(double z);
 
 /// Weight of one regression, by its id.
 struct RegressionWeight {

@@ -28,7 +28,7 @@ public:
     double slip() const { return slid_.downstream - slid_.upstream; }
     double slip_rate() const { return direction_ * rate_; }
     double yield(double a_v) const { return forms().down.yield.law.at(a_v); }
-    const OscillatorState& mode() const { return mode_; }
+    const ModeState& mode() const { return mode_; }
     double peak_acceleration() const { return peak_acceleration_; }
     void write(SlideResult& result) const;
 
@@ -44,7 +44,7 @@ private:
     };
     /// What slides and vibrates h after the start of the step.
     struct Moved {
-        OscillatorState mode;
+        ModeState mode;
         double path = 0.0, rate = 0.0;
     };
 
@@ -57,7 +57,7 @@ private:
     void stop();
     Moved moved(double h) const;
     double excess(int direction, double h) const;
-    double average_acceleration(const OscillatorState& state, double a_h) const;
+    double average_acceleration(const ModeState& state, double a_h) const;
     void enter_stages();
 
     Way way_of(const RigidBlock& block, const Yield& yield) const;
@@ -76,7 +76,7 @@ private:
     double longest_step_;
 
     double time_ = 0.0, a_h_ = 0.0, a_h_rate_ = 0.0, a_v_ = 0.0, a_v_rate_ = 0.0;
-    OscillatorState mode_;
+    ModeState mode_;
     std::size_t stage_ = 0;
     int direction_ = 0; ///< +1 downstream, -1 upstream, 0 at rest
     double rate_ = 0.0; ///< along the direction [m/s]
@@ -107,7 +107,7 @@ CoupledMotion::Way CoupledMotion::way_of(const RigidBlock& block, const Yield& y
     return {yield, coupling, Oscillator(omega_, flexible_.damping_ratio, 1.0 - flexible_.mass_ratio * coupling)};
 }
 
-double CoupledMotion::average_acceleration(const OscillatorState& state, double a_h) const
+double CoupledMotion::average_acceleration(const ModeState& state, double a_h) const
 {
     return (1.0 - flexible_.mass_ratio) * a_h + flexible_.mass_ratio * free_mode_.restoring(state);
 }
@@ -117,7 +117,7 @@ double CoupledMotion::average_acceleration(const OscillatorState& state, double 
 double CoupledMotion::excess(int direction, double h) const
 {
     if (direction < 0 && !two_way_) return -1.0;
-    const OscillatorState state = h > 0.0 ? free_mode_.after(mode_, a_h_, a_h_rate_, h) : mode_;
+    const ModeState state = h > 0.0 ? free_mode_.after(mode_, a_h_, a_h_rate_, h) : mode_;
     return direction * average_acceleration(state, a_h(h)) - way(direction).yield.law.at(a_v(h));
 }
 

@@ -39,7 +39,7 @@ private:
     struct Piece {
         double start = 0.0, length = 0.0;
         Line a_h, a_v;
-        OscillatorState begin, end; ///< of the mode
+        ModeState begin, end; ///< of the mode
         int halvings = 0;
     };
     /// What a piece's k is like.
@@ -58,7 +58,7 @@ private:
     void take_halves(const Piece& piece);
     void look_for_peak(const Piece& piece);
     std::pair<Piece, Piece> halves_of(const Piece& piece) const;
-    double vibration(const OscillatorState& state, double a_h, double a_h_rate) const;
+    double vibration(const ModeState& state, double a_h, double a_h_rate) const;
 
     FlexibleBlock flexible_;
     double omega_;
@@ -67,7 +67,7 @@ private:
     double factor_ = 1.0;        ///< largest slip acceleration per excess ground acceleration [-]
     double yield_per_a_v_ = 0.0; ///< largest change of the yield with a_v [-]
 
-    OscillatorState state_;
+    ModeState state_;
     double peak_acceleration_ = 0.0;
 };
 
@@ -97,7 +97,7 @@ double DecoupledMotion::average_acceleration(double a_h) const
 
 /// Bound of |r| from now on, while the ground acceleration stays on its line: r'' + 2 zeta omega r' + omega^2 r = 0, so
 /// r^2 + (r'/omega)^2 does not grow.
-double DecoupledMotion::vibration(const OscillatorState& state, double a_h, double a_h_rate) const
+double DecoupledMotion::vibration(const ModeState& state, double a_h, double a_h_rate) const
 {
     const double r = mode_.restoring(state) - a_h;
     const double r_rate = omega_ * omega_ * state.v - 2.0 * flexible_.damping_ratio * omega_ * r - a_h_rate;
@@ -186,7 +186,7 @@ std::pair<DecoupledMotion::Piece, DecoupledMotion::Piece> DecoupledMotion::halve
 {
     const double h = 0.5 * p.length, slope = (p.a_h.end - p.a_h.now) / p.length;
     const double a_h = p.a_h.at(0.5), a_v = p.a_v.at(0.5);
-    const OscillatorState middle = mode_.after(p.begin, p.a_h.now, slope, h);
+    const ModeState middle = mode_.after(p.begin, p.a_h.now, slope, h);
     return {{p.start, h, {p.a_h.now, a_h}, {p.a_v.now, a_v}, p.begin, middle, p.halvings + 1},
             {p.start + h, h, {a_h, p.a_h.end}, {a_v, p.a_v.end}, middle, p.end, p.halvings + 1}};
 }

@@ -16,7 +16,7 @@ Oscillator::Oscillator(double omega, double damping, double inertia)
 {
 }
 
-OscillatorState Oscillator::after(const OscillatorState& now, double p0, double p1, double h) const
+ModeState Oscillator::after(const ModeState& now, double p0, double p1, double h) const
 {
     // Particular solution, linear in time; the rest is free.
     const double v_p = p1 / stiffness_;
@@ -121,7 +121,7 @@ double largest_deflection(const FlexibleBlock& block, const GroundMotion& motion
     if (motion.accel_h.empty()) return 0.0;
     const double omega = 2.0 * pi / block.period;
     const Oscillator mode(omega, block.damping_ratio, 1.0);
-    OscillatorState state;
+    ModeState state;
     double largest = 0.0;
     const std::vector<double>& a = motion.accel_h;
     for (std::size_t k = 0; k + 1 < a.size(); ++k) {

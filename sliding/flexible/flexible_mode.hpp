@@ -16,7 +16,7 @@ struct FlexibleBlock {
     double mass_ratio = 8.0 / (std::numbers::pi * std::numbers::pi);
 };
 
-struct OscillatorState {
+struct ModeState {
     double x = 0.0; ///< [m]
     double v = 0.0; ///< x' [m/s]
 };
@@ -28,10 +28,10 @@ public:
     Oscillator(double omega, double damping, double inertia);
 
     /// State a time h later under p0 + p1 t. Under-, over- and critically damped alike.
-    OscillatorState after(const OscillatorState& now, double p0, double p1, double h) const;
+    ModeState after(const ModeState& now, double p0, double p1, double h) const;
 
     /// omega^2 x + 2 zeta omega x': what spring and damper pull with [m/s^2].
-    double restoring(const OscillatorState& s) const { return stiffness_ * s.x + damping_ * s.v; }
+    double restoring(const ModeState& s) const { return stiffness_ * s.x + damping_ * s.v; }
 
 private:
     double stiffness_, damping_; ///< omega^2 [1/s^2], 2 zeta omega [1/s]
