@@ -4,8 +4,11 @@ set(DAMSLIP_ALONE
   fe2d/contact/released_system.cpp fe2d/fluid/coupled_system.cpp fe2d/run/contact_stepper.cpp fe2d/run/dynamic_operator.cpp
   fe2d/run/ground_input.cpp fe2d/run/stages.cpp fe2d/time/linear_integrator.cpp fe2d/time/scheme.cpp
   records/read/format.cpp
-  sliding/block/base_equations.cpp sliding/block/slide.cpp sliding/empirical/regression_list.cpp sliding/empirical/regression_table.cpp
+  sliding/block/rigid_block.cpp sliding/block/slide.cpp sliding/empirical/regression_list.cpp sliding/empirical/regression_table.cpp
   src/cli/command_list.cpp src/scene/added_mass_list.cpp src/scene/effect_list.cpp src/scene/uplift_list.cpp)
+
+# Compiled by itself for another processor from a point in it on.
+list(APPEND DAMSLIP_ALONE sliding/block/permanent_contact_batch.cpp)
 
 # Files of folders that are cold otherwise, through which every row of a sweep goes: compiled like the hot ones, by themselves.
 set(DAMSLIP_PER_ROW

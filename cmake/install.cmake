@@ -15,12 +15,9 @@ endfunction()
 
 function(damslip_install_package)
   # All of a folder under one name; fe2d has its own.
-  add_library(damslip_sliding INTERFACE)
-  target_link_libraries(damslip_sliding INTERFACE
-    sliding_block sliding_flexible sliding_wedge sliding_empirical sliding_loads sliding_uplift sliding_equilibrium)
   add_library(damslip_analysis INTERFACE)
   target_link_libraries(damslip_analysis INTERFACE analysis_assess)
-  foreach(target damslip_sliding fe2d damslip_analysis)
+  foreach(target fe2d damslip_analysis)
     damslip_install_library(${target})
   endforeach()
 

@@ -3,10 +3,44 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-
-#include "sliding/block/line.hpp"
+#include <vector>
 
 namespace damslip::sliding {
+
+/// A quantity that is linear over the rest of a sample interval: its value now and at the interval's end.
+struct Line {
+    double now = 0.0;
+    double end = 0.0;
+
+    double at(double fraction) const { return now + (end - now) * fraction; } ///< fraction of the rest, 0 ... 1
+};
+
+/// From one fraction of the rest to another.
+inline Line part(const Line& line, double from, double to)
+{
+    return {from == 0.0 ? line.now : line.at(from), to == 1.0 ? line.end : line.at(to)};
+}
+inline Line operator-(const Line& a)
+{
+    return {-a.now, -a.end};
+}
+inline Line combine(double a, const Line& x, double b, const Line& y)
+{
+    return {a * x.now + b * y.now, a * x.end + b * y.end};
+}
+
+/// No event in the interval.
+inline constexpr double never = HUGE_VAL;
+
+/// Time from now, within `span`, after which the line is above zero: 0 if it is, or if it is zero and rises; `never` if
+/// it does not get there. A line that reaches zero just at the end is the next interval's business.
+inline double time_above_zero(const Line& line, double span)
+{
+    if (line.now > 0.0) return 0.0;
+    if (line.end <= 0.0) return never;
+    const double h = span * (-line.now / (line.end - line.now));
+    return h < span ? h : never;
+}
 
 /// First time h >= 0 at which v0 + a0 h + j h^2/2, positive just after h = 0, falls back to zero; `never` without one.
 /// v0 >= 0. Both roots come from the one sum that does not cancel.
@@ -62,5 +96,31 @@ inline double polynomial(std::span<const double> c, double x)
 /// one. Certain: the interval is cut at the zeros of the derivative, found in the same way; the recursion ends where
 /// one coefficient outweighs the rest.
 double first_fall_to_zero(std::span<const double> coefficients, double span);
+
+// Power series in time, sums of c_i h^i, of the slips that have no closed form.
+
+inline std::vector<double> derivative(std::span<const double> c)
+{
+    std::vector<double> d(c.size() - 1);
+    for (std::size_t i = 1; i < c.size(); ++i) d[i - 1] = static_cast<double>(i) * c[i];
+    return d;
+}
+
+/// The longest of `span`, half of it, a quarter, ... at which the last two terms are below round-off of the largest one.
+inline double length_to_round_off(std::span<const double> c, double span)
+{
+    double length = span;
+    for (int halvings = 0; halvings < 200; ++halvings) {
+        double largest = 0.0, last = 0.0, power = 1.0;
+        for (std::size_t i = 0; i < c.size(); ++i, power *= length) {
+            const double term = std::abs(c[i]) * power;
+            largest = std::max(largest, term);
+            if (i + 2 >= c.size()) last = std::max(last, term);
+        }
+        if (last <= 1e-17 * largest) break;
+        length *= 0.5;
+    }
+    return length;
+}
 
 } // namespace damslip::sliding

@@ -1,4 +1,4 @@
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 
 #include "sliding/block/yield.hpp"
 

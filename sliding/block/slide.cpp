@@ -2,17 +2,93 @@
 
 #include "core/input_error.hpp"
 #include "core/text.hpp"
-#include "sliding/block/slammer.hpp"
-#include "sliding/block/slide_rests.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slip_motion.hpp"
-#include "sliding/block/slow_water.hpp"
 #include "sliding/block/yield.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <list>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace damslip::sliding {
+
+namespace {
+
+/// Smallest and largest of samples first ... last, four sums side by side.
+std::pair<double, double> extremes(const std::vector<double>& a, std::size_t first, std::size_t last)
+{
+    std::array<double, 4> low, high;
+    low.fill(a[first]);
+    high.fill(a[first]);
+    std::size_t k = first;
+    for (; k + 3 <= last; k += 4)
+        for (std::size_t i = 0; i < 4; ++i) {
+            low[i] = std::min(low[i], a[k + i]);
+            high[i] = std::max(high[i], a[k + i]);
+        }
+    for (; k <= last; ++k) {
+        low[0] = std::min(low[0], a[k]);
+        high[0] = std::max(high[0], a[k]);
+    }
+    return {*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end())};
+}
+
+AccelRange range_of(const GroundMotion& motion, std::size_t first, std::size_t last)
+{
+    AccelRange range;
+    std::tie(range.h_min, range.h_max) = extremes(motion.accel_h, first, last);
+    if (!motion.accel_v.empty()) std::tie(range.v_min, range.v_max) = extremes(motion.accel_v, first, last);
+    return range;
+}
+
+AccelRange joined(std::span<const AccelRange> ranges)
+{
+    AccelRange all = ranges.front();
+    for (const AccelRange& r : ranges)
+        all = {std::min(all.h_min, r.h_min), std::max(all.h_max, r.h_max), std::min(all.v_min, r.v_min),
+               std::max(all.v_max, r.v_max)};
+    return all;
+}
+
+} // namespace
+
+SkippingMotion::SkippingMotion(GroundMotion motion) : motion_(std::move(motion))
+{
+    check_motion(motion_);
+    for (std::size_t k = 0; k < intervals(); k += block)
+        blocks_.push_back(range_of(motion_, k, std::min(k + block, intervals())));
+    const std::span<const AccelRange> all(blocks_);
+    for (std::size_t k = 0; k < all.size(); k += block)
+        large_blocks_.push_back(joined(all.subspan(k, std::min(block, all.size() - k))));
+    whole_ = joined(large_blocks_);
+}
+
+void check_motion(const GroundMotion& motion)
+{
+    Diagnostic wrong;
+    wrong.file = motion.name;
+    wrong.expected =
+        "a time step > 0 s and at least 2 finite samples, the vertical component as long as the horizontal one";
+    const auto finite = [](double a) { return std::isfinite(a); };
+    if (!(motion.dt > 0.0) || !std::isfinite(motion.dt))
+        wrong.problem = "ground motion: time step " + shortest(motion.dt) + " s is not allowed.";
+    else if (motion.accel_h.size() < 2)
+        wrong.problem = "ground motion: " + std::to_string(motion.accel_h.size()) + " samples are too few.";
+    else if (!motion.accel_v.empty() && motion.accel_v.size() != motion.accel_h.size())
+        wrong.problem = "ground motion: " + std::to_string(motion.accel_v.size()) + " vertical samples beside " +
+                        std::to_string(motion.accel_h.size()) + " horizontal ones.";
+    else if (!std::ranges::all_of(motion.accel_h, finite) || !std::ranges::all_of(motion.accel_v, finite))
+        wrong.problem = "ground motion: a sample is not a finite number.";
+    else
+        return;
+    throw InputError(wrong);
+}
+
 namespace {
 
 /// Zero samples between two events until the block rests, and for the pause from there on. @returns false where it does not
@@ -139,10 +215,10 @@ private:
     StaticState state_ = StaticState::at_rest;
 };
 
-/// `blocks`: ranges of the motion's blocks of samples, for skipping; null: every interval is looked at.
-SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
-                        const SlideOptions& options, const RestBetweenEvents* between = nullptr)
+SlideResult slide_exact(const SkippingMotion& blocks, const SlipStages& stages, const SlideOptions& options,
+                        const RestBetweenEvents* between)
 {
+    const GroundMotion& motion = blocks.motion();
     const bool vertical = !motion.accel_v.empty();
     const double polarity = options.polarity;
     const auto a_h = [&](std::size_t k) { return polarity * motion.accel_h[k]; };
@@ -173,13 +249,11 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
         if (e > 0) cross({0.0, a_h(first)}, {0.0, a_v(first)});
         if (motion.is_sequence()) result.events.push_back({motion.events[e].name, now(), now(), 0.0, 0.0});
         for (std::size_t k = first; k < last && !block.unresolved(); ++k) {
-            if (blocks && !history && !between && block.at_rest()) {
-                const std::size_t next = std::min(blocks->skip(k, rests), last);
+            if (!history && !between) {
+                std::size_t next = block.at_rest() ? std::min(blocks.skip(k, rests), last) : k;
                 n += next - k;
                 k = next;
-            }
-            if (!history && !between && k < last) {
-                const std::size_t next = block.pass(motion, polarity, k, last, n, blocks);
+                if (k < last) next = block.pass(blocks, polarity, k, last, n);
                 n += next - k;
                 k = next;
             }
@@ -204,10 +278,10 @@ SlideResult slide_exact(const GroundMotion& motion, const SkippingMotion* blocks
 }
 
 /// With the error of the table of water on its way: the difference to a table of half the resolution.
-SlideResult slide_with_error(const GroundMotion& motion, const SkippingMotion* blocks, const SlipStages& stages,
-                             const SlideOptions& options, const RestBetweenEvents* between = nullptr)
+SlideResult slide_with_error(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options,
+                             const RestBetweenEvents* between = nullptr)
 {
-    SlideResult result = slide_exact(motion, blocks, stages, options, between);
+    SlideResult result = slide_exact(motion, stages, options, between);
     const OpeningUplift* opening = stages.front().block.opening.get();
     if (!opening || !opening->slow || !opening->slow->coarser()) return result;
     SlipStages coarser = stages;
@@ -218,8 +292,9 @@ SlideResult slide_with_error(const GroundMotion& motion, const SkippingMotion* b
     }
     SlideOptions plain = options;
     plain.history = HistoryOutput::none;
-    result.slip_error = std::abs(slide_exact(motion, blocks, coarser, plain, between).max_slip - result.max_slip);
-    result.notes.push_back("Its slip is known to " + shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
+    result.slip_error = std::abs(slide_exact(motion, coarser, plain, between).max_slip - result.max_slip);
+    result.notes.push_back("Its slip is known to " +
+                           shortest(1e3 * std::exp2(std::round(std::log2(result.slip_error)))) +
                            " mm, by a table of this water of half the resolution.");
     return result;
 }
@@ -271,22 +346,18 @@ void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOpti
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options)
 {
-    check_motion(motion);
-    check_stages(stages);
-    check_anchors(options);
-    if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion, stages, options);
-    return slide_with_error(motion, nullptr, stages, options);
+    return slide(SkippingMotion(motion), stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options,
                   const RestBetweenEvents* rests)
 {
+    const SkippingMotion blocks(motion);
     if (!rests || !motion.is_sequence() || options.sliding.scheme == SlidingScheme::slammer)
-        return slide(motion, stages, options);
-    check_motion(motion);
+        return slide(blocks, stages, options);
     check_stages(stages);
     check_anchors(options);
-    return slide_with_error(motion, nullptr, stages, options, rests);
+    return slide_with_error(blocks, stages, options, rests);
 }
 
 SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const SlideOptions& options)
@@ -294,12 +365,57 @@ SlideResult slide(const SkippingMotion& motion, const SlipStages& stages, const 
     check_stages(stages);
     check_anchors(options);
     if (options.sliding.scheme == SlidingScheme::slammer) return slide_slammer(motion.motion(), stages, options);
-    return slide_with_error(motion.motion(), &motion, stages, options);
+    return slide_with_error(motion, stages, options);
 }
 
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options)
 {
     return slide(motion, SlipStages{{0.0, block, 0.0}}, options);
+}
+
+namespace {
+
+/// @param stages  of at most batch_size blocks @returns false where they have to go one by one
+bool slide_batched(const SkippingMotion& motion, std::span<const SlipStages* const> stages, const SlideOptions& options,
+                   std::span<SlideResult> results)
+{
+    std::vector<SlipMotion> blocks;
+    std::array<SlipMotion*, batch_size> batch;
+    blocks.reserve(batch_size);
+    for (std::size_t i = 0; i < batch_size; ++i) { // the last one fills up
+        blocks.emplace_back(*stages[std::min(i, stages.size() - 1)], options);
+        batch[i] = &blocks[i];
+    }
+    if (!SlipMotion::pass_together(motion, options.polarity, batch)) return false;
+    const double dt = motion.motion().dt, end = static_cast<double>(motion.intervals()) * dt;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        SlipMotion& block = blocks[i];
+        run_out(block, *stages[i], end, dt, options.sliding.run_out_max, nullptr);
+        conclude(block, *stages[i], options, end, results[i]);
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<SlideResult> slide_together(const SkippingMotion& motion, std::span<const SlipStages* const> blocks,
+                                        const SlideOptions& options)
+{
+    std::vector<SlideResult> results(blocks.size());
+    SlideOptions plain = options;
+    plain.history = HistoryOutput::none;
+    const bool together = has_batched_runs() && !motion.motion().is_sequence() &&
+                          options.sliding.scheme == SlidingScheme::exact && options.anchors.empty();
+    for (std::size_t first = 0; first < blocks.size(); first += batch_size) {
+        const std::size_t count = std::min(batch_size, blocks.size() - first);
+        const auto here = blocks.subspan(first, count);
+        if (together && count > 1 && std::ranges::all_of(here, [](const SlipStages* s) { return s->size() == 1; })) {
+            for (const SlipStages* stages : here) check_stages(*stages);
+            if (slide_batched(motion, here, plain, std::span(results).subspan(first, count))) continue;
+        }
+        for (std::size_t i = 0; i < count; ++i) results[first + i] = slide(motion, *here[i], plain);
+    }
+    return results;
 }
 
 } // namespace damslip::sliding

@@ -5,16 +5,68 @@
 #include "records/record.hpp"
 #include "scene/anchor_bar.hpp"
 #include "scene/scene.hpp"
-#include "sliding/block/skipping_motion.hpp"
-#include "sliding/block/slip_stage.hpp"
+#include "sliding/block/rigid_block.hpp"
 
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-/// Sliding of a rigid block under a ground motion: the general, event-located integrator.
 namespace damslip::sliding {
+
+/// Range of the ground acceleration over some intervals, end samples included [m/s^2].
+struct AccelRange {
+    double h_min = 0.0, h_max = 0.0, v_min = 0.0, v_max = 0.0;
+};
+
+/// A ground motion with the ranges of its blocks of samples, made once and used for many yields: a block at rest skips
+/// every stretch whose range cannot start it. Two levels: blocks of 32 intervals, and 32 of those.
+class SkippingMotion {
+public:
+    /// @throws InputError for what check_motion refuses.
+    explicit SkippingMotion(GroundMotion motion);
+
+    static constexpr std::size_t block = 32;            ///< intervals of a block
+    static constexpr std::size_t large = block * block; ///< intervals of a large block
+
+    const GroundMotion& motion() const { return motion_; }
+    bool has_vertical() const { return !motion_.accel_v.empty(); }
+    std::size_t intervals() const { return motion_.accel_h.size() - 1; }
+    const AccelRange& whole() const { return whole_; }
+    const AccelRange& block_range(std::size_t k) const { return blocks_[k]; } ///< intervals 32 k ... 32 k + 31
+    const AccelRange& large_range(std::size_t k) const
+    {
+        return large_blocks_[k];
+    } ///< intervals 1024 k ... 1024 k + 1023
+
+    /// First interval at or after k which does not lie in a whole block that `rests(range)` says cannot move;
+    /// intervals() when there is none.
+    template <typename Rests>
+    std::size_t skip(std::size_t k, Rests&& rests) const
+    {
+        while (k < intervals()) {
+            if (k % large == 0 && rests(large_blocks_[k / large]))
+                k += large;
+            else if (k % block == 0 && rests(blocks_[k / block]))
+                k += block;
+            else
+                return k;
+        }
+        return intervals();
+    }
+
+private:
+    GroundMotion motion_;
+    std::vector<AccelRange> blocks_, large_blocks_;
+    AccelRange whole_;
+};
+
+/// @throws InputError for dt <= 0, fewer than 2 samples, components of unequal length, non-finite samples.
+void check_motion(const GroundMotion& motion);
+
+// Sliding of a rigid block under a ground motion: the general, event-located integrator.
 
 enum class HistoryOutput { none, samples };
 
@@ -110,5 +162,51 @@ std::vector<SlideResult> slide_together(const SkippingMotion& motion, std::span<
 
 /// One block that does not change with slip.
 SlideResult slide(const GroundMotion& motion, const RigidBlock& block, const SlideOptions& options = {});
+
+/// The static state of the block between two records of a sequence: water at rest in what has cracked so far.
+class RestBetweenEvents {
+public:
+    virtual ~RestBetweenEvents() = default;
+
+    /// The crack that opens with sliding in a direction (downstream: at the heel), under (a_h, a_v) [m/s²]; a block that slides
+    /// has the crack of its own acceleration, no longer one [m].
+    virtual double crack(SlipDirection direction, double a_h, double a_v) const = 0;
+
+    struct Rest {
+        SlipStages stages;                             ///< as many as before, from the same paths on
+        std::string note;                              ///< what it stands on, for people
+        std::shared_ptr<const RestBetweenEvents> next; ///< from there on
+    };
+    /// With cracks of these lengths [m]. Its first block says whether it stands (static_state()).
+    virtual Rest rest(double heel, double toe) const = 0;
+};
+
+/// slide() of a sequence with such a state after each record but the last: slip, its path and the strength lost with it,
+/// friction that lags and anchors go on, the motion itself has come to rest. A block that does not stand there ends the
+/// sequence with the status of its static state. @param rests  null: as slide()
+SlideResult slide(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options,
+                  const RestBetweenEvents* rests);
+
+// The step-by-step scheme of SLAMMER, kept for comparison with results of its users.
+
+/// Trapezoid rule of SLAMMER (Jibson, Rathje, Jibson & Lee 2013, U.S. Geological Survey Techniques and Methods 12-B1)
+/// for its rigid-block analysis. With y_k = s'' at sample k, zero while the block rests:
+///
+///     v_k = v_{k-1} + dt/2 (y_{k-1} + y_k),   s_k = s_{k-1} + dt/2 (v_{k-1} + v_k);   v_k = y_k = 0 when v_k would
+///     turn against the slip.
+///
+/// Start and stop are moved to samples and the slip is integrated by trapezoids: an error of order dt^2 that is
+/// largest, relative to the slip, when a_y is near the peak (few samples above a_y). The scheme has no state before the
+/// first sample (y_{-1} = 0) and ends with the record; there is no run-out. Not taken over: SLAMMER skips samples that
+/// are exactly zero, time included, while the block slides.
+///
+/// Yield may follow a_v and change between stages (friction constant within each); lift-off is `no_friction` only.
+SlideResult slide_slammer(const GroundMotion& motion, const SlipStages& stages, const SlideOptions& options);
+
+/// The same for a constant yield and one-way sliding; the kernel the bench times.
+/// @param accel ground acceleration [m/s^2], positive drives the block; @param dt [s]; @param yield_acceleration
+/// [m/s^2], > 0
+/// @returns slip [m]
+double slammer_slip(std::span<const double> accel, double dt, double yield_acceleration);
 
 } // namespace damslip::sliding

@@ -1,8 +1,8 @@
 #include "sliding/block/slip_motion.hpp"
 
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/roots.hpp"
-#include "sliding/block/sloped_slip.hpp"
-#include "sliding/block/slow_water.hpp"
+#include "sliding/block/slip_steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,9 +29,6 @@ int events_per_interval(const SlipStage& stage)
     return stage.restitution > 0.0 ? 200000 : stage.rate.active() ? 5000 : 1000;
 }
 
-constexpr double wet_tolerance = 1e-8;             ///< of the base's length and of the block's weight, within a part
-constexpr double shortest_wet_part = 0x1p-26;      ///< of an interval: the water's way may break there
-constexpr int most_wet_parts = 100000;
 constexpr double shortest_flight = 1e-13; ///< [s]; a landing that would rebound for less stays
 
 } // namespace
@@ -102,68 +99,6 @@ void SlipMotion::cross(double start, double dt, const Line& a_h, const Line& a_v
     }
 }
 
-/// Water on its way: in parts that are short enough for its uplift to be linear, and end where the block's motion changes.
-void SlipMotion::cross_wet(double start, double dt, const Line& a_h, const Line& a_v)
-{
-    double from = 0.0, length = 1.0;
-    bool changed = false;
-    for (int parts = 0; from < 1.0 && !unresolved_; ++parts) {
-        unresolved_ = parts > most_wet_parts;
-        const double to = from + length < 1.0 ? from + length : 1.0, h = (to - from) * dt;
-        const Line part_h = part(a_h, from, to), part_v = part(a_v, from, to);
-        const double bend = let_water_flow(h, part_h, part_v);
-        if (bend > 1.0 && length > shortest_wet_part) {
-            length *= 0.5;
-            continue;
-        }
-        cross_part(start + from * dt, h, part_h, part_v, true, changed);
-        changed = span_ > 0.0;
-        longest_wet_ = std::max({longest_wet_, wet_down_.now, wet_up_.now});
-        from = to - (to - from) * (span_ / h);
-        if (bend < 0.2) length = std::min(2.0 * length, 1.0);
-    }
-}
-
-const SlowWater* SlipMotion::slow_water() const
-{
-    const OpeningUplift* opening = stages_[stage_].block.opening.get();
-    return opening ? opening->slow.get() : nullptr;
-}
-
-/// x_w of one end of the base a time dt later, where (a_h, a_v) is the ground's acceleration then.
-double SlipMotion::wet_after(SlipDirection direction, double wet, double dt, double a_h, double a_v) const
-{
-    const SlowWater& water = *slow_water();
-    if (moving_ && !airborne_ && direction_ != direction) return water.first(direction);
-    const double come = std::min(wet + water.speed() * dt, water.length());
-    if (airborne_) return come;
-    const double sliding = water.sliding(direction, a_v, come).wet;
-    return moving_ ? sliding : std::min(sliding, water.front(direction, a_h, a_v, wet, come));
-}
-
-/// Where the water will be at the end of a part. @returns how far its way and its uplift are from straight lines, 1: as far
-/// as they may be
-double SlipMotion::let_water_flow(double dt, const Line& a_h, const Line& a_v)
-{
-    const SlowWater& water = *slow_water();
-    double bend = 0.0;
-    for (const SlipDirection direction : {SlipDirection::downstream, SlipDirection::upstream}) {
-        Line& wet = direction == SlipDirection::downstream ? wet_down_ : wet_up_;
-        const double middle = wet_after(direction, wet.now, 0.5 * dt, a_h.at(0.5), a_v.at(0.5));
-        const double at_once = wet_after(direction, wet.now, dt, a_h.end, a_v.end);
-        wet.end = wet_after(direction, middle, 0.5 * dt, a_h.end, a_v.end);
-        const auto uplift = [&](double a_v, double x) { return water.sliding(direction, a_v, x).change; };
-        const double chord = 0.5 * (uplift(a_v.now, wet.now) + uplift(a_v.end, wet.end));
-        const double off = std::abs(uplift(a_v.at(0.5), middle) - chord) / stage().block.mass / stage().block.gravity;
-        // Water that the crack still held back now and no longer at the end: it went on at an instant between.
-        const double way = water.speed() * dt;
-        const bool held = wet_after(direction, wet.now, dt, a_h.now, a_v.now) < wet.now + way;
-        const double late = held && wet.end >= wet.now + way * (1.0 - 1e-9) ? way : std::abs(wet.end - at_once);
-        bend = std::max({bend, off / wet_tolerance, late / (wet_tolerance * water.length())});
-    }
-    return bend;
-}
-
 /// @param up_to_change  only to the first start, stop or change of contact or stage; span_ is what is left
 /// @param goes_on  from such a change: the contact is what it left
 void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line& a_v, bool up_to_change, bool goes_on)
@@ -172,11 +107,8 @@ void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line
     span_ = dt;
     a_h_ = a_h;
     a_v_ = a_v;
-    pressed_ = stays_pressed();
-    if (!pressed_) {
-        read_opening();
-        if (!goes_on) settle_contact();
-    }
+    read_opening();
+    if (!goes_on) settle_contact();
     const long before = changes_;
     for (int events = 0; span_ > 0.0 && !(up_to_change && changes_ != before); ++events) {
         if (events >= events_per_interval(stage())) {
@@ -184,7 +116,7 @@ void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line
             return;
         }
         if (!moving_)
-            pressed_ ? wait_pressed() : wait();
+            wait();
         else if (!anchors_.empty())
             move_anchored();
         else if (touching_ && stage().rate.active())
@@ -194,38 +126,6 @@ void SlipMotion::cross_part(double start, double dt, const Line& a_h, const Line
         else
             move();
     }
-}
-
-/// Contact is kept and the stage is plain: N' at rest and N' of the sliding block, linear over the interval, are positive
-/// at both its ends.
-bool SlipMotion::stays_pressed() const
-{
-    if (!touching_ || airborne_ || !plain_[stage_]) return false;
-    const Line at_rest = line(forms().equations.normal), sliding = line(forms().free_normal);
-    return std::min({at_rest.now, at_rest.end, sliding.now, sliding.end}) > 0.0;
-}
-
-void SlipMotion::read_opening()
-{
-    opening_down_ = opening_up_ = {};
-    const OpeningUplift* opening = stage().block.opening.get();
-    if (!opening) return;
-    const auto over = [&](SlipDirection direction) {
-        if (const SlowWater* slow = opening->slow.get()) {
-            const Line& wet = direction == SlipDirection::downstream ? wet_down_ : wet_up_;
-            return Line{slow->sliding(direction, a_v_.now, wet.now).change,
-                        slow->sliding(direction, a_v_.end, wet.end).change};
-        }
-        return Line{opening->at(direction, a_v_.now), opening->at(direction, a_v_.end)};
-    };
-    opening_down_ = over(SlipDirection::downstream);
-    opening_up_ = over(SlipDirection::upstream);
-}
-
-Line SlipMotion::less_opening(const Line& normal, SlipDirection direction) const
-{
-    if (!stage().block.opening) return normal;
-    return combine(1.0, normal, -1.0, direction == SlipDirection::downstream ? opening_down_ : opening_up_);
 }
 
 /// N' of the block sliding without resistance; at rest its uplift is the static one.
@@ -389,19 +289,6 @@ void SlipMotion::wait()
         turn_contact();
 }
 
-/// The same where contact is kept.
-void SlipMotion::wait_pressed()
-{
-    const StageForms& f = forms();
-    const Line drive = line(f.equations.drive), normal = line(f.equations.normal);
-    const Line resistance{f.friction * normal.now + f.bond, f.friction * normal.end + f.bond};
-    const double h_down = time_above_zero(combine(1.0, drive, -1.0, resistance), span_);
-    const double h_up = options_.two_way ? time_above_zero(combine(-1.0, drive, -1.0, resistance), span_) : never;
-    const double h = std::min(h_down, h_up);
-    elapse(std::min(h, span_));
-    if (h != never) start(h == h_down ? SlipDirection::downstream : SlipDirection::upstream);
-}
-
 /// The same while friction goes back to its value at rest.
 void SlipMotion::wait_lagging()
 {
@@ -451,7 +338,6 @@ bool SlipMotion::enter_stages()
     while (stage_ + 1 < stages_.size() && stages_[stage_ + 1].from_slip <= path_) ++stage_;
     if (stage_ != before) {
         ++changes_;
-        pressed_ = false;
         read_opening();
     }
     return stage_ != before;
@@ -498,7 +384,7 @@ void SlipMotion::move()
     if (from_rest_) accel.now = std::max(accel.now, 0.0);
     const double jerk = (accel.end - accel.now) / span_;
     const double h_stop = time_of_stop(rate_, accel.now, jerk);
-    const double h_contact = pressed_ ? never : time_of_contact_change();
+    const double h_contact = time_of_contact_change();
     double h = std::min({h_stop, h_contact, span_});
     const double h_stage = next_stage_path() == never ? never : time_of_stage(h, accel);
     h = std::min(h, h_stage);
@@ -697,45 +583,6 @@ void SlipMotion::elapse(double h)
     wet_down_.now = wet_down_.at(h / span_);
     wet_up_.now = wet_up_.at(h / span_);
     span_ -= h;
-}
-
-bool SlipMotion::stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
-{
-    if (!at_rest() || moving_ || !touching_) return false;
-    const BaseEquations& e = forms().equations;
-    const RigidBlock& block = stage().block;
-    const double mu = friction();
-    if (lags(stage().rate) && stage().rate.relaxation_time && ratio_ != 1.0) return false;
-    // Upper bound of a linear form over the box, with a margin for round-off so that a skipped sample is one that
-    // plainly does not slide.
-    const auto upper = [&](double constant, double per_a_h, double per_a_v) {
-        const double h = std::max(per_a_h * a_h_min, per_a_h * a_h_max);
-        const double v = std::max(per_a_v * a_v_min, per_a_v * a_v_max);
-        return constant + h + v + 1e-13 * (std::abs(constant) + std::abs(h) + std::abs(v));
-    };
-    if (slow_water() && !water_stays(a_h_min, a_h_max, a_v_min, a_v_max)) return false;
-    if (upper(-e.normal.constant, -e.normal.per_a_h, -e.normal.per_a_v) >= 0.0) return false;
-    const auto slides = [&](SlipDirection direction) {
-        const double d = sign(direction), change = block.opening ? block.opening->largest(direction, a_v_min, a_v_max) : 0.0;
-        const double c = block.cohesion_force + block.dowel_force - mu * change;
-        return upper(d * e.drive.constant - c - mu * e.normal.constant, d * e.drive.per_a_h - mu * e.normal.per_a_h,
-                     d * e.drive.per_a_v - mu * e.normal.per_a_v) >= 0.0;
-    };
-    return !slides(SlipDirection::downstream) && !(options_.two_way && slides(SlipDirection::upstream));
-}
-
-/// No water has come in, and none does while a_h and a_v stay within the ranges.
-bool SlipMotion::water_stays(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const
-{
-    const SlowWater& water = *slow_water();
-    for (const SlipDirection direction : {SlipDirection::downstream, SlipDirection::upstream}) {
-        const double first = water.first(direction);
-        if ((direction == SlipDirection::downstream ? wet_down_ : wet_up_).now != first) return false;
-        for (const double a_h : {a_h_min, a_h_max})
-            for (const double a_v : {a_v_min, a_v_max})
-                if (water.front(direction, a_h, a_v, first, water.length()) != first) return false;
-    }
-    return true;
 }
 
 } // namespace damslip::sliding

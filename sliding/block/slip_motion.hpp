@@ -1,11 +1,10 @@
 #pragma once
 
-#include "sliding/block/anchored_step.hpp"
-#include "sliding/block/base_equations.hpp"
-#include "sliding/block/line.hpp"
-#include "sliding/block/rated_slip.hpp"
+#include "sliding/block/contact_block.hpp"
+#include "sliding/block/rigid_block.hpp"
+#include "sliding/block/roots.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/block/slip_totals.hpp"
+#include "sliding/block/slip_steps.hpp"
 
 #include <array>
 #include <span>
@@ -22,18 +21,17 @@ public:
     /// Ground acceleration linear from (a_h.now, a_v.now) at time `start` to the ends at start + dt.
     void cross(double start, double dt, const Line& a_h, const Line& a_v);
 
-    /// Goes through whole intervals in which nothing happens: the block rests all along, or slides all along in one
-    /// direction; through starts and stops too where the blocks tell that the motion never lifts it (PressedSlip). What
-    /// cross() would do, bit by bit, at a fraction of the price.
+    /// Passes intervals in which the motion surely does not lift the block and its friction does not change
+    /// (PermanentContact): what cross() does, bit by bit, at a fraction of the cost.
     /// @param k, last  intervals k ... last - 1 of the motion  @param before  intervals so far, for the time
-    /// @param blocks  of the same motion; null: every sample is looked at
-    /// @returns the first interval that is cross()'s business
-    std::size_t pass(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last, std::size_t before,
-                     const SkippingMotion* blocks = nullptr);
+    /// @returns the first interval that needs cross()
+    std::size_t pass(const SkippingMotion& motion, double polarity, std::size_t k, std::size_t last,
+                     std::size_t before);
 
-    /// Carries four blocks, at rest at first, through a whole horizontal motion side by side, with the bits pass() gives for
-    /// each of them. @returns false where their case is another one; the blocks are unchanged then
-    static bool pass_together(const SkippingMotion& motion, double polarity, const std::array<SlipMotion*, 4>& blocks);
+    /// Carries blocks, at rest at first, through a whole motion in a batched run, with the bits that pass() gives for each of
+    /// them. @returns false where a block may be lifted or changes with its slip; the blocks are unchanged then
+    static bool pass_together(const SkippingMotion& motion, double polarity,
+                              const std::array<SlipMotion*, batch_size>& blocks);
 
     /// Other stages under the block at rest, from the same paths on: another static state. Its water is that of them.
     void stand_on(const SlipStages& stages);
@@ -51,16 +49,10 @@ public:
     void add_sample(double time, double a_h, double a_v, SlideHistory& history) const;
     void write(SlideResult& result) const;
 
-    /// True when stages, options and state let pass_together() take it, as far as it alone is concerned.
-    bool may_go_together() const;
-
     /// True when a block at rest on its base surely stays there while a_h and a_v stay within the given ranges.
     bool stays_at_rest(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
 
 private:
-    template <bool vertical>
-    friend class PressedSlip;
-
     /// What does not change within a stage.
     struct StageForms {
         BaseEquations equations;
@@ -82,7 +74,6 @@ private:
     double let_water_flow(double dt, const Line& a_h, const Line& a_v);
     bool water_stays(double a_h_min, double a_h_max, double a_v_min, double a_v_max) const;
     void wait();
-    void wait_pressed();
     void wait_lagging();
     void move();
     void move_sloped();
@@ -107,13 +98,10 @@ private:
     double time_of_stage(double h, const Line& accel) const;
 
     static StageForms forms_of(const RigidBlock& block);
-    template <bool vertical>
-    std::size_t pass_pressed(const SkippingMotion& motion, double polarity, std::size_t k, std::size_t last,
-                             std::size_t before);
-    bool stays_pressed() const;
-    std::size_t pass_resting(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last,
-                             const SkippingMotion* blocks) const;
-    std::size_t pass_sliding(const GroundMotion& motion, double polarity, std::size_t k, std::size_t last);
+    bool stays_in_contact(const AccelRange& range, const AccelRange& whole) const;
+    std::size_t contact_until(const SkippingMotion& motion, double polarity, std::size_t k, std::size_t last) const;
+    ContactBlock contact_block(const SkippingMotion& motion, double polarity) const;
+    void take(const ContactBlock& block);
     const SlipStage& stage() const { return anchors_.empty() ? stages_[stage_] : anchored_[stage_]; }
     const StageForms& forms() const { return forms_[stage_]; }
     double friction() const;
@@ -149,7 +137,6 @@ private:
     bool from_rest_ = false; ///< the start was located just now: s'' >= 0 whatever round-off says
     bool touching_ = true;   ///< N' > 0: there is resistance
     bool airborne_ = false;  ///< in ballistic flight
-    bool pressed_ = false;   ///< N' stays above zero over the whole interval: no contact to look after
     SlipDirection direction_ = SlipDirection::downstream;
     double rate_ = 0.0;                 ///< |slip rate| [m/s]
     double path_ = 0.0;                 ///< sum of |slip| [m]
@@ -166,7 +153,7 @@ private:
     bool unresolved_ = false, used_series_ = false;
 };
 
-/// What became of the block: results, status and the notes for people. `record_end` [s]: of the ground motion.
+/// What became of the block: results and status. `record_end` [s]: of the ground motion.
 void conclude(const SlipMotion& block, const SlipStages& stages, const SlideOptions& options, double record_end,
               SlideResult& result);
 

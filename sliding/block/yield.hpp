@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/status.hpp"
-#include "sliding/block/base_equations.hpp"
+#include "sliding/block/rigid_block.hpp"
 
 /// Ground accelerations at which the block starts to slide.
 ///

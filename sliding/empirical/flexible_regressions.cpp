@@ -1,5 +1,4 @@
-#include "sliding/empirical/regression_rows.hpp"
-#include "sliding/empirical/slip_distribution.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +100,7 @@ double travasarou_zero(const Inputs& x)
     const bool rigid = rigid_for_bray_travasarou(x);
     const double ky = std::log(x.yield_coefficient), sa = std::log(rigid ? x.pga_g : *x.sa_15_g);
     const double t = rigid ? 0.0 : period(x);
-    return normal_cdf(-(-1.76 - 3.22 * ky - 0.484 * t * ky + 3.52 * sa));
+    return standard_normal_cdf(-(-1.76 - 3.22 * ky - 0.484 * t * ky + 3.52 * sa));
 }
 
 double macedo_rigid(const Inputs& x)
@@ -115,7 +114,7 @@ double macedo_rigid(const Inputs& x)
 double macedo_rigid_zero(const Inputs& x)
 {
     const double ky = std::log(x.yield_coefficient);
-    return normal_cdf(-(-2.480 - 2.970 * ky - 0.120 * ky * ky + 2.780 * std::log(x.pga_g)));
+    return standard_normal_cdf(-(-2.480 - 2.970 * ky - 0.120 * ky * ky + 2.780 * std::log(x.pga_g)));
 }
 
 /// Coefficients of P(D = 0) = 1 - Phi(c1 + c2 ln ky + c3 ln^2 ky + c4 Ts ln ky + c5 Ts + c6 ln Sa).
@@ -127,7 +126,7 @@ double zero_by_period(const Inputs& x, double sa_g, const ZeroCoefficients& to_0
 {
     const double t = period(x), ky = std::log(x.yield_coefficient);
     const auto& [c1, c2, c3, c4, c5, c6] = t <= 0.7 ? to_07_s : above;
-    return normal_cdf(-(c1 + c2 * ky + c3 * ky * ky + c4 * t * ky + c5 * t + c6 * std::log(sa_g)));
+    return standard_normal_cdf(-(c1 + c2 * ky + c3 * ky * ky + c4 * t * ky + c5 * t + c6 * std::log(sa_g)));
 }
 
 /// P(D < 0.5 cm), eqs. (8a), (8b) of Bray & Macedo (2019), all motions.

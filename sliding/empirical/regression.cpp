@@ -1,14 +1,52 @@
 #include "sliding/empirical/regression.hpp"
 
 #include "core/status.hpp"
-#include "sliding/empirical/slip_distribution.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
 namespace damslip::sliding {
+
+double SlipDistribution::below(double d) const
+{
+    if (median <= 0.0) return 1.0;
+    const double z = std::log(d / median);
+    const double share = sigma > 0.0 ? standard_normal_cdf(z / sigma) : (z >= 0.0 ? 1.0 : 0.0);
+    return zero + (1.0 - zero) * share;
+}
+
+// Bisection on ln D between bounds outside of which no member has weight.
+double quantile(std::span<const SlipDistribution> mixture, double q)
+{
+    const auto below = [&](double d) {
+        double p = 0.0;
+        for (const SlipDistribution& m : mixture) p += m.weight * m.below(d);
+        return p;
+    };
+    double low = 1e300, high = 0.0;
+    for (const SlipDistribution& m : mixture)
+        if (m.median > 0.0) {
+            low = std::min(low, m.median * std::exp(-12.0 * m.sigma));
+            high = std::max(high, m.median * std::exp(12.0 * m.sigma));
+        }
+    if (high == 0.0 || below(0.999 * low) >= q) return 0.0;
+    double a = std::log(0.999 * low), b = std::log(high);
+    for (int k = 0; k < 100; ++k) {
+        const double middle = 0.5 * (a + b);
+        (below(std::exp(middle)) >= q ? b : a) = middle;
+    }
+    return std::exp(b);
+}
+
+double standard_normal_cdf(double z)
+{
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
 namespace {
 
 /// The first input that is needed and not there, or not positive (its logarithm is taken; the magnitude's is not).
@@ -51,9 +89,9 @@ void count_zero(const Regression& regression, RegressionResult& result)
     const double to_natural = regression.logarithm == Logarithm::decimal ? std::numbers::ln10 : 1.0;
     const SlipDistribution d[] = {
         {1.0, *result.zero_probability, *result.nonzero_median_cm, result.sigma * to_natural}};
-    result.minus_sd_cm = quantile(d, normal_cdf(-1.0));
+    result.minus_sd_cm = quantile(d, standard_normal_cdf(-1.0));
     result.median_cm = quantile(d, 0.5);
-    result.plus_sd_cm = quantile(d, normal_cdf(1.0));
+    result.plus_sd_cm = quantile(d, standard_normal_cdf(1.0));
 }
 
 /// @param demand  [g], which the yield acceleration reaches
@@ -196,6 +234,48 @@ std::vector<RegressionResult> evaluate_all(const RegressionInputs& inputs)
 double failure_probability_jibson_1998(double displacement_cm)
 {
     return displacement_cm > 0.0 ? 0.335 * -std::expm1(-0.048 * std::pow(displacement_cm, 1.565)) : 0.0;
+}
+
+namespace {
+
+double weight_of(const RegressionResult& result, std::span<const RegressionWeight> weights)
+{
+    if (weights.empty()) return result.regression->use == EnsembleUse::estimate ? 1.0 : 0.0;
+    double sum = 0.0;
+    for (const RegressionWeight& w : weights)
+        if (w.id == result.regression->id) sum += w.weight;
+    return sum;
+}
+
+} // namespace
+
+Ensemble weighted_ensemble(std::span<const RegressionResult> results, std::span<const RegressionWeight> weights)
+{
+    Ensemble ensemble;
+    std::vector<SlipDistribution> members;
+    double sum = 0.0, all = 0.0;
+    for (const RegressionResult& result : results) {
+        const double weight = weight_of(result, weights);
+        assert(weight >= 0.0 && std::isfinite(weight));
+        all += weight;
+        if (weight <= 0.0 || !valid(result)) continue;
+        sum += weight;
+        const double to_natural = result.regression->logarithm == Logarithm::decimal ? std::log(10.0) : 1.0;
+        members.push_back({weight, result.zero_probability.value_or(0.0), result.nonzero_median_cm.value_or(0.0),
+                           result.sigma * to_natural});
+        ensemble.members.push_back(result.regression->id);
+    }
+    if (all > 0.0) ensemble.weight_left_out = 1.0 - sum / all;
+    if (members.empty()) return ensemble;
+    for (SlipDistribution& m : members) {
+        m.weight /= sum;
+        ensemble.weights.push_back(m.weight);
+    }
+    ensemble.median_cm = quantile(members, 0.5);
+    if (members.size() == 1 && members[0].sigma == 0.0 && members[0].median > 0.0) return ensemble;
+    ensemble.low_cm = quantile(members, standard_normal_cdf(-1.0));
+    ensemble.high_cm = quantile(members, standard_normal_cdf(1.0));
+    return ensemble;
 }
 
 } // namespace damslip::sliding

@@ -139,4 +139,58 @@ std::vector<RegressionResult> evaluate_all(const RegressionInputs& inputs);
 /// Shallow slides in southern California only; no statement on dams.
 double failure_probability_jibson_1998(double displacement_cm);
 
+// What the files of rows share (regression_list.cpp puts them together).
+
+template <int per_mille>
+double constant_sigma(const RegressionInputs&)
+{
+    return per_mille / 1000.0;
+}
+
+/// c0 + c1 x + c2 x^2 + c3 x^3 + c4 x^4
+inline double quartic(double x, double c0, double c1, double c2, double c3, double c4)
+{
+    return c0 + x * (c1 + x * (c2 + x * (c3 + x * c4)));
+}
+
+/// Distribution of a slip D [cm]: D = 0 with a probability of its own, else log-normal. sigma = 0: a step at the median.
+struct SlipDistribution {
+    double weight; ///< in a mixture; the weights of one sum to 1
+    double zero;   ///< P(D = 0)
+    double median; ///< of D > 0 [cm]; 0: D = 0 surely
+    double sigma;  ///< of ln D
+
+    /// P(D <= d), d > 0 [cm].
+    double below(double d) const;
+};
+
+/// Smallest D [cm] with P(D' <= D) >= q of the mixture, 0 < q < 1: of one member the (q - P0)/(1 - P0) quantile of its
+/// log-normal part, and 0 for q <= P0.
+double quantile(std::span<const SlipDistribution> mixture, double q);
+
+/// Distribution function of the standard normal, to round-off in both tails.
+double standard_normal_cdf(double z);
+
+/// Weight of one regression, by its id.
+struct RegressionWeight {
+    std::string id;
+    double weight = 1.0; ///< >= 0, relative to the others
+};
+
+/// Several regressions as one: each a distribution of D (log-normal with its sigma; a step where none is published; the
+/// share P(D = 0) at zero), weighted.
+struct Ensemble {
+    std::vector<std::string_view> members; ///< ids of the valid ones, in table order
+    std::vector<double> weights;           ///< of the members, sum 1
+    std::optional<double> median_cm;       ///< of the weighted distribution [cm]; no member: none
+    std::optional<double> low_cm, high_cm; ///< its 16 and 84 % [cm]; none of one member alone that publishes no sigma
+    double weight_left_out = 0.0;          ///< share of the given weights on regressions that are not valid here [-]
+};
+
+/// Members are the valid results, see valid(). Without weights: all of EnsembleUse::estimate, equally; with weights:
+/// those named with a weight above zero. No valid one: no values.
+/// @param results  evaluate_all of one record
+/// Precondition: ids known (find_regression), weights finite and not negative.
+Ensemble weighted_ensemble(std::span<const RegressionResult> results, std::span<const RegressionWeight> weights = {});
+
 } // namespace damslip::sliding

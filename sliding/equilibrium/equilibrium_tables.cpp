@@ -1,4 +1,4 @@
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include "core/units.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/csv.hpp"
+#include "scene/findings.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <optional>
@@ -110,5 +112,74 @@ const char* word(ResultantZone zone);
 const char* word(CrackRule rule);
 const char* word(CrackStatus status);
 const char* word(Verdict verdict);
+
+/// The combination's own required values; what it leaves open from the scene's criteria document.
+/// Errors: InputError for an unknown document or resultant word.
+Requirements requirements(const Scene& scene, const Combination& combination);
+
+/// Largest ground accelerations of the records, which the shares pga_fraction and pga_v_fraction are of.
+struct PeakGround {
+    double a_h = 0.0; ///< [m/s^2], its absolute value drives downstream
+    double a_v = 0.0; ///< [m/s^2], its absolute value lightens the dam; 0: no vertical component
+};
+
+/// The scene's combinations; if it has none, made from it:
+/// 1. usual: the scene's levels, no ice; 2. unusual, drains ineffective (with drains); 3. unusual, ice (with ice);
+/// 4. extreme, seismic: k_h and k_v are the shares criteria.pga_fraction (1) and pga_v_fraction (0) of the peaks, with ice
+/// if there is any (as in the yield acceleration); left out for a_h = a_v = 0;
+/// 5. post-seismic: residual strength, damaged curtain, ineffective drains, ice.
+/// Shares given instead of k_h and k_v are replaced by their values.
+std::vector<Combination> combinations(const Scene& scene, const PeakGround& peak = {});
+
+/// The state after the earthquake: the scene's first post-seismic combination, else the fifth of the list above. What limit
+/// equilibrium and finite elements take of curtain, drains and crack after the earthquake.
+Combination after_earthquake(const Scene& scene);
+
+/// Evaluates all combinations in their order.
+/// One that names no crack rule is reported without crack and, where that leaves tension or the joint has been opened,
+/// also with a crack, as "NAME, cracked": by the scene's rule, `static` where the scene says none; seismic:
+/// `seismic-unchanged` where the scene has no seismic rule.
+///
+/// A post-seismic combination gets the joint that an extreme combination opened, filled with the full head: that of the
+/// one it names in `follows`; of the governing one where it names none. Governing is the extreme combination after which
+/// the sliding factor of this post-seismic combination (its own strength, with crack) is smallest; of equal ones that with
+/// the longer crack, then the first by name. The order in the scene does not matter. A joint cracked through counts as
+/// open from end to end.
+std::vector<Equilibrium> evaluate_combinations(const Scene& scene, const PeakGround& peak = {},
+                                               const SeepageProfile& seepage = {});
+
+/// Uplift of one model on the scene and the friction that just holds against it, no crack.
+struct UpliftComparison {
+    UpliftModel model = UpliftModel::none;
+    PressureProfile profile;
+    UpliftResultant uplift;
+    double critical_friction = 0.0; ///< [-]
+};
+
+/// Every model the scene has the data for: none, linear, curtain, drains, points, seepage (if a solver is given).
+std::vector<UpliftComparison> compare_uplift(const Scene& scene, const SeepageProfile& seepage = {});
+
+// Results of the limit equilibrium as tables for people and files.
+
+/// One row per load, sum and uplift of one combination: Fx, Fy [kN/m], moment about the heel [kN m/m].
+Table load_table(const Equilibrium& e);
+
+/// One row per combination: levels, seismic coefficients, N', T, U, factors, resultant, stresses, crack, accelerations.
+Table equilibrium_table(const std::vector<Equilibrium>& all);
+
+/// One row per check of each combination: value, required value, PASS / FAIL / no criterion, source.
+Table verdict_table(const std::vector<Equilibrium>& all);
+
+/// For people: a row for each combination that is judged, a column for each check: "FAIL 2.950 / 3".
+Table check_matrix(const std::vector<Equilibrium>& all);
+
+/// The checks that fail, the strongest answer of the combinations: "usual 2.95 < 3.0; post-MCE, cracked 1.01 < 1.1";
+/// empty: all hold, or none is required.
+std::string failed_checks(const std::vector<Equilibrium>& all);
+/// "2.95 < 3.0", with as many digits as tell the two apart. @param required  least value, or largest where `value` is above it
+std::string unmet_words(double value, double required);
+
+/// Uplift and critical friction of each model.
+Table uplift_comparison_table(const std::vector<UpliftComparison>& all);
 
 } // namespace damslip::sliding

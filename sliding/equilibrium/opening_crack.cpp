@@ -1,10 +1,8 @@
-#include "sliding/equilibrium/opening_crack.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 
 #include "core/units.hpp"
-#include "sliding/block/base_equations.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/roots.hpp"
-#include "sliding/block/slow_water.hpp"
-#include "sliding/equilibrium/shaken_base.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sliding/block/slide.hpp"
-#include "sliding/flexible/flexible_block.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 /// Sliding of a block with one mode of its own.
 ///

@@ -2,7 +2,7 @@
 
 #include "scene/scene.hpp"
 #include "sliding/loads/added_mass.hpp"
-#include "sliding/loads/face_pressure.hpp"
+#include "sliding/loads/static_loads.hpp"
 
 #include <optional>
 

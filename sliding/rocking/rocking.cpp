@@ -48,6 +48,43 @@ void add_notes(const RockingMotion& motion, const SlideOptions& options, Rocking
 
 } // namespace
 
+void RockingMotion::add_sample(double time, RockingResult& result) const
+{
+    SlideHistory& history = result.slide.history;
+    history.time.push_back(time);
+    history.slip.push_back(y_[slip]);
+    history.slip_rate.push_back(y_[slip_rate]);
+    history.normal_force.push_back(pressed_ ? std::max(0.0, instant(0.0, y_).normal) : 0.0);
+    result.rotation.push_back(y_[turn]);
+    result.uplift.push_back(stance_ == Stance::base ? block_.stages[stage_].slip.block.uplift
+                                                    : standing(0.0).force_n - block_.force_n);
+}
+
+void RockingMotion::write(RockingResult& result) const
+{
+    std::vector<double> rotation = std::move(result.rotation), uplift = std::move(result.uplift);
+    SlideHistory history = std::move(result.slide.history);
+    result = seen_;
+    result.rotation = std::move(rotation);
+    result.uplift = std::move(uplift);
+    SlideResult& r = result.slide;
+    r.history = std::move(history);
+    r.accuracy = SlideAccuracy::series;
+    r.slip = y_[slip];
+    slid_.write(r, time_, sliding_);
+    r.wet_length = longest_wet_;
+    r.max_gap = block_.length *
+                std::sin(std::min(0.5 * std::numbers::pi, std::max(seen_.max_toe_rotation, seen_.max_heel_rotation)));
+    RockingEnergy& e = result.energy;
+    e.ground = y_[work_ground];
+    e.loads = y_[work_loads];
+    e.friction = y_[work_friction];
+    e.landings = landing_loss_;
+    e.kinetic = kinetic_energy(standing(0.0), y_[turn], y_[slip_rate], y_[turn_rate]);
+    const double left = first_energy_ + e.ground + e.loads - e.kinetic - e.friction - e.landings;
+    e.imbalance = largest_work_ > 0.0 ? left / largest_work_ : 0.0;
+}
+
 RockingResult rock_and_slide(const GroundMotion& motion, const RockingBlock& block, const SlideOptions& options,
                              const RockingStart& start)
 {

@@ -1,6 +1,5 @@
-#include "sliding/uplift/crack.hpp"
+#include "sliding/uplift/uplift.hpp"
 
-#include "sliding/uplift/unchanged_uplift.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include "core/input_error.hpp"
 #include "scene/section.hpp"

@@ -2,7 +2,8 @@
 
 #include "core/geometry.hpp"
 #include "records/record.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
+#include "sliding/block/yield.hpp"
 
 #include <optional>
 
@@ -71,7 +72,7 @@ WedgeYield without_cohesion(const Wedge& wedge, WedgeYield yield);
 
 /// Newmark's slip along the direction of sliding at the yield, one way, by the integrator of the rigid block.
 /// @param motion  a_h is the ground acceleration opposite to `push`: positive drives the wedge; a_v is not used
-SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const FixedYieldOptions& options = {});
+SlipSummary slide_wedge(const GroundMotion& motion, const WedgeYield& yield, const ConstantYieldOptions& options = {});
 
 /// Yields of a wedge before and after its first slip, one way of sliding.
 struct WedgeYields {

@@ -24,6 +24,14 @@ VectorLevel vector_level();
 #if defined(__x86_64__) && defined(__GNUC__)
 #define DAMSLIP_HAS_AVX2 1
 #define DAMSLIP_AVX2 __attribute__((target("avx2")))
+/// All functions and templates defined between the two.
+#if defined(__clang__)
+#define DAMSLIP_AVX2_BEGIN _Pragma("clang attribute push(__attribute__((target(\"avx2\"))), apply_to = function)")
+#define DAMSLIP_AVX2_END _Pragma("clang attribute pop")
+#else
+#define DAMSLIP_AVX2_BEGIN _Pragma("GCC push_options") _Pragma("GCC target(\"avx2\")")
+#define DAMSLIP_AVX2_END _Pragma("GCC pop_options")
+#endif
 #else
 #define DAMSLIP_HAS_AVX2 0
 #endif

@@ -7,7 +7,7 @@
 #include "pages/screen/screen_pages.hpp"
 #include "scene/plausible.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 #include "analysis/prepare/records.hpp"
 #include "core/csv.hpp"
 #include "pages/report/chart.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 /// Uplift and yield acceleration of the rigid block (Goldgruber 2015, figs 4-2, 4-6, 4-7, 4-12).
 namespace damslip::study {

@@ -8,7 +8,7 @@
 #include "pages/sweep/sweep_pages.hpp"
 #include "program_answer.hpp"
 #include "scene/read.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

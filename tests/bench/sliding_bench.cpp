@@ -4,7 +4,7 @@
 // exact integrator of the same run. Without arguments the records are artificial: white noise through a ground filter under an envelope, seeded.
 //   sliding_bench [FILE DT]...   text files of samples, lines with # skipped; the unit does not matter, yields follow the peak
 #include "core/parallel.hpp"
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>
@@ -105,16 +105,14 @@ void print_speed(std::vector<SkippingMotion>& motions)
             for (const double ratio : ratios) sink += slip(m, ratio * pga);
         }
     };
-    const auto fixed = [&](Scan scan, bool two_way) {
+    const auto constant = [&](Scan scan) {
         return cost_per_call([&] {
             each([&](const SkippingMotion& m, double a_y) {
-                return slide_fixed_yield(m, fixed_yield(a_y, two_way ? a_y : FixedYield::never_slides),
-                                         {polarity, 60.0, scan})
-                    .slip;
+                return slide_constant_yield(m, {a_y}, {polarity, 60.0, scan}).slip;
             });
         });
     };
-    const Cost plain = fixed(Scan::every_sample, false);
+    const Cost plain = constant(Scan::every_sample);
     const auto print = [&](const char* name, const Cost& cost, double times = 1.0) {
         std::printf("%-44s %8.3f %8.3f %8.2f\n", name, 1e9 * cost.cpu / (runs * times),
                     1e9 * cost.wall / (runs * times), plain.wall / cost.wall * times);
@@ -122,10 +120,8 @@ void print_speed(std::vector<SkippingMotion>& motions)
     std::printf("%zu records, %zu samples, %zu yields of 0.05 to 0.95 of the peak; ns per sample and yield\n\n",
                 motions.size(), samples, std::size(ratios));
     std::printf("%-44s %8s %8s %8s\n", "integrator", "CPU", "wall", "x plain");
-    print("exact, every sample (plain)", plain);
-    print("exact, skipping blocks", fixed(Scan::skip_blocks, false));
-    print("exact, every sample, two-way", fixed(Scan::every_sample, true));
-    print("exact, skipping blocks, two-way", fixed(Scan::skip_blocks, true));
+    print("constant yield, every sample (plain)", plain);
+    print("constant yield, skipping blocks", constant(Scan::skip_blocks));
     print("SLAMMER's scheme", cost_per_call([&] {
               each([&](const SkippingMotion& m, double a_y) {
                   return slammer_slip(m.motion().accel_h, m.motion().dt, a_y);
@@ -144,18 +140,35 @@ void print_speed(std::vector<SkippingMotion>& motions)
             });
         });
     };
-    print("general integrator, every sample", general(false));
-    print("general integrator, skipping blocks", general(true));
-    std::vector<FixedYield> yields; // the batch has one list of yields for all records: of the mean peak
+    print("block, ranges of the motion made each time", general(false));
+    print("block, skipping blocks", general(true));
+    print("block, four side by side", cost_per_call([&] {
+              for (const SkippingMotion& m : motions) {
+                  const double pga = peak(m.motion());
+                  std::vector<SlipStages> stages;
+                  for (const double ratio : ratios) {
+                      RigidBlock block;
+                      block.mass = 1.0;
+                      block.friction = ratio * pga / block.gravity;
+                      stages.push_back({{0.0, block, 0.0}});
+                  }
+                  std::vector<const SlipStages*> blocks;
+                  for (const SlipStages& s : stages) blocks.push_back(&s);
+                  SlideOptions options;
+                  options.sliding.two_way = false;
+                  sink += slide_together(m, blocks, options)[0].slip;
+              }
+          }));
+    std::vector<ConstantYield> yields; // the batch has one list of yields for all records: of the mean peak
     double mean_peak = 0.0;
     for (const SkippingMotion& m : motions) mean_peak += peak(m.motion()) / static_cast<double>(motions.size());
-    for (const double ratio : ratios) yields.push_back(fixed_yield(ratio * mean_peak));
+    for (const double ratio : ratios) yields.push_back({ratio * mean_peak});
     std::vector<SkippingMotion> many; // enough work for starting threads not to count
     for (int i = 0; i < 50; ++i) many.insert(many.end(), motions.begin(), motions.end());
     for (const int jobs : {1, thread_count(0)}) {
         const std::string name = "batch, skipping blocks, threads: " + std::to_string(jobs);
         const auto batch = [&] {
-            sink += slide_batch(many, yields, std::span(&polarity, 1), FixedYieldOptions{}, jobs)[0].slip;
+            sink += slide_batch(many, yields, std::span(&polarity, 1), ConstantYieldOptions{}, jobs)[0].slip;
         };
         print(name.c_str(), cost_per_call(batch), 50.0);
     }

@@ -6,7 +6,7 @@
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "without_breaks.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Regressions outside their data are shown and never averaged; models that state a probability of no slip are counted
 // with it.
 #include "program_answer.hpp"
-#include "sliding/empirical/ensemble.hpp"
+#include "sliding/empirical/regression.hpp"
 #include "without_breaks.hpp"
 
 #include <algorithm>

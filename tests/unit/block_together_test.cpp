@@ -1,7 +1,6 @@
-// Blocks that go through a motion side by side slide to the bits of each one alone.
+// Blocks of a batched run slide to the bits of each one alone.
 #include "block_motions.hpp"
-#include "sliding/block/pressed_lanes.hpp"
-#include "sliding/block/slide.hpp"
+#include "sliding/block/slip_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -101,6 +100,11 @@ TEST(BlockTogether, random_motions_and_blocks)
         for (const int polarity : {1, -1})
             phases +=
                 expect_together_as_alone(motion, blocks, ways(run % 3 != 1, polarity), "run " + std::to_string(run));
+        if (run % 5 != 0) continue;
+        GroundMotion with_vertical = motion.motion();
+        for (const double a : motion.motion().accel_h) with_vertical.accel_v.push_back(0.3 * a + 0.1 * part(random));
+        phases += expect_together_as_alone(SkippingMotion(with_vertical), blocks, ways(run % 2 == 0, 1),
+                                           "vertical, run " + std::to_string(run));
     }
     EXPECT_GT(phases, 10000);
 }
@@ -128,9 +132,9 @@ TEST(BlockTogether, events_on_samples_and_at_the_end)
                 }
 }
 
-// Each in its own way: slides without an earthquake, floats, is lifted by the motion, changes with slip, has a second
-// component.
-TEST(BlockTogether, other_cases_go_alone)
+// Each in its own way: slides without an earthquake, floats, is lifted by the motion, changes with slip; and the motion has a
+// second component.
+TEST(BlockTogether, other_cases)
 {
     GroundMotion ground = wild_motion(6.0, 0.01, 2000);
     std::vector<RigidBlock> blocks(4, block_with_yields(1.0, 30.0));
@@ -165,6 +169,6 @@ TEST(BlockTogether, plain_blocks_do_go_together)
         std::vector<SlipMotion> blocks(4, SlipMotion(stages, options));
         return SlipMotion::pass_together(motion, 1.0, {&blocks[0], &blocks[1], &blocks[2], &blocks[3]});
     };
-    EXPECT_EQ(goes(30.0), has_pressed_lanes()); // on a processor without lanes they go alone
-    EXPECT_FALSE(goes(1.0)); // would slide upstream
+    EXPECT_EQ(goes(30.0), has_batched_runs()); // on a processor without them they go alone
+    EXPECT_EQ(goes(1.0), has_batched_runs());  // both ways
 }

@@ -1,5 +1,5 @@
 // Weighted regressions: median and band against closed forms and a numerical distribution.
-#include "sliding/empirical/ensemble.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The rigid block of a scene and the load combinations.
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include "core/input_error.hpp"
 #include "verification/exact/cracked_base.hpp"

@@ -3,7 +3,7 @@
 #include "program_answer.hpp"
 #include "records/read/read_record.hpp"
 #include "scene/read.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 #include "source_dir.hpp"
 
 #include <cmath>
@@ -34,12 +34,11 @@ TEST(GivenYield, OneNumberIsTheBlockOfConstantYield)
 {
     const GroundMotion motion = waves_of_yield();
     const std::vector<GivenYieldRow> rows = given_yield_runs({{{0.0, 0.9}}, {}, {}, false}, {motion}, {"rigid"});
-    sliding::FixedYieldOptions options;
+    sliding::ConstantYieldOptions options;
     for (const int polarity : {1, -1}) {
         options.polarity = polarity;
         const double slip =
-            sliding::slide_constant_yield(motion.accel_h, motion.dt, 0.9, sliding::FixedYield::never_slides, options)
-                .slip;
+            sliding::slide_constant_yield(motion.accel_h, motion.dt, 0.9, options).slip;
         EXPECT_GT(slip, 0.01);
         EXPECT_NEAR((polarity > 0 ? rows[0].normal : rows[0].inverse).slip, slip, 1e-14 * slip); // two summations
     }

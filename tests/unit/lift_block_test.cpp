@@ -2,7 +2,6 @@
 #include "scene/read.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/equilibrium/base_state.hpp"
-#include "sliding/equilibrium/lift_block.hpp"
 
 #include <gtest/gtest.h>
 

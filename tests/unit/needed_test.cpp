@@ -1,8 +1,7 @@
 // What an allowable slip asks for: the seismic coefficient and the friction, beside closed forms.
 #include "analysis/screen/screening.hpp"
 #include "scene/read.hpp"
-#include "sliding/block/fixed_yield.hpp"
-#include "sliding/block/yield_for_slip.hpp"
+#include "sliding/block/slide_batch.hpp"
 #include "sweep_scene.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "scene/read.hpp"
-#include "sliding/rocking/corner.hpp"
 #include "sliding/rocking/rocking.hpp"
+#include "sliding/rocking/rocking_motion.hpp"
 #include "verification/cases/flat_water.hpp"
 #include "verification/exact/sampled_ground.hpp"
 

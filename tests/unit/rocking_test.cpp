@@ -4,9 +4,9 @@
 #include "program_answer.hpp"
 #include "scene/read.hpp"
 #include "sliding/block/yield.hpp"
-#include "sliding/equilibrium/base_limits.hpp"
-#include "sliding/rocking/corner.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 #include "sliding/rocking/rocking.hpp"
+#include "sliding/rocking/rocking_motion.hpp"
 #include "verification/exact/rocking_block.hpp"
 #include "verification/exact/sampled_ground.hpp"
 

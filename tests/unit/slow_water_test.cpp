@@ -1,8 +1,7 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "scene/section.hpp"
-#include "sliding/block/slow_water.hpp"
-#include "sliding/equilibrium/base_limits.hpp"
-#include "sliding/equilibrium/opening_crack.hpp"
+#include "sliding/block/rigid_block.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The column that softens with its strain: closed forms, SLAMMER's iteration, and what `screen` says of it.
 #include "program_answer.hpp"
-#include "sliding/flexible/strain_column.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "verification/external/slammer_scheme.hpp"
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // Uplift profiles, their resultants and the cracked base.
-#include "sliding/uplift/crack.hpp"
-#include "sliding/uplift/unchanged_uplift.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include "core/input_error.hpp"
 #include "verification/exact/cracked_base.hpp"

@@ -1,5 +1,6 @@
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
+#include "sliding/block/yield.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/block_slip.hpp"
 
@@ -134,9 +135,9 @@ std::vector<Check> sines()
     const std::vector<double> train = samples([](double t) { return 4.0 * std::sin(5.0 * t); }, dt, 40000);
     checks.push_back({"sine train, 10 cycles, one-way", "m", 10.0 * exact::slip_per_sine_cycle(4.0, 5.0, 2.0),
                       slide_constant_yield(train, dt, 2.0).slip, 3e-6});
-    const SlipSummary two_way = slide_constant_yield(train, dt, 1.0, 1.5);
     checks.push_back({"sine train, two-way, yields 1 and 1.5: the interpolant in extended precision", "m",
-                      exact::slip_of_interpolant(train, dt, 1.0, 1.5), two_way.slip, 1e-12});
+                      exact::slip_of_interpolant(train, dt, 1.0, 1.5),
+                      slip(GroundMotion{"sine train", dt, train, {}, {}}, block_with_yields(1.0, 1.5)), 1e-12});
     return checks;
 }
 
@@ -176,10 +177,9 @@ std::vector<Check> broad_band_motion()
                               slide_constant_yield(refined(ground.accel_h, parts), 0.01 / parts, a_y).slip, 1e-12});
     }
     const SkippingMotion blocks(ground);
-    FixedYieldOptions every{1, 60.0, Scan::every_sample};
+    const ConstantYieldOptions every{1, 60.0, Scan::every_sample};
     checks.push_back({"skipping blocks changes", "m", 0.0,
-                      slide_fixed_yield(blocks, fixed_yield(1.7, 2.0)).slip -
-                          slide_fixed_yield(blocks, fixed_yield(1.7, 2.0), every).slip,
+                      slide_constant_yield(blocks, {1.7}).slip - slide_constant_yield(blocks, {1.7}, every).slip,
                       0.0, Measure::absolute});
     return checks;
 }

@@ -1,5 +1,5 @@
 #include "sliding/block/yield.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/cracked_base.hpp"
 #include "verification/exact/reference_scene.hpp"

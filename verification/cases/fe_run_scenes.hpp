@@ -2,7 +2,7 @@
 
 #include "fe2d/run/earthquake_run.hpp"
 #include "sliding/loads/added_mass.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 #include "verification/exact/reference_scene.hpp"
 
 #include <cmath>

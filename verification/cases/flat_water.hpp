@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sliding/block/slow_water.hpp"
+#include "sliding/block/rigid_block.hpp"
 
 namespace damslip::verification {
 

@@ -1,5 +1,5 @@
 #include "scene/section.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
 #include "sliding/loads/static_loads.hpp"
 #include "verification/cases/modules.hpp"

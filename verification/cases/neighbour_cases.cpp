@@ -2,7 +2,7 @@
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "sliding/block/yield.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
 #include "sliding/wedge/wedge.hpp"
 #include "verification/cases/modules.hpp"

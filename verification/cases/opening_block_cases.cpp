@@ -3,7 +3,7 @@
 #include "scene/section.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
-#include "sliding/equilibrium/opening_crack.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 #include "verification/exact/reference_scene.hpp"
 
 #include <cmath>

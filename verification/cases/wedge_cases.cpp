@@ -1,6 +1,6 @@
 #include "scene/scene.hpp"
 #include "scene/rock_wedge.hpp"
-#include "sliding/flexible/mode_shape.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "sliding/wedge/wedge.hpp"
 #include "verification/cases/modules.hpp"
 #include "verification/exact/wedge_short_solution.hpp"

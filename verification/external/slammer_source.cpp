@@ -1,9 +1,9 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "sliding/block/slammer.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/block/slide_batch.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
-#include "sliding/flexible/strain_column.hpp"
 #include "verification/external/slammer_set.hpp"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/water.hpp"
-#include "sliding/empirical/ensemble.hpp"
+#include "sliding/empirical/regression.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "analysis/assess/assess.hpp"
 #include "core/units.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "probability/copula.hpp"
 #include "probability/distribution.hpp"
 #include "probability/sampling.hpp"
-#include "sliding/block/fixed_yield.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 /// Slip of the one-way block of this yield under k times the motion [m].
 double slip_at_factor(const sliding::SkippingMotion& motion, double yield, double factor)
 {
-    return factor * sliding::slide_fixed_yield(motion, sliding::fixed_yield(yield / factor)).slip;
+    return factor * sliding::slide_constant_yield(motion, {yield / factor}).slip;
 }
 
 /// The factor with D = d in (low, high], D(high) > d. Bisection: D is continuous, but flat below the yield.
@@ -318,7 +318,7 @@ std::vector<NeededYield> needed_yield(const FragilityPlan& plan, const SceneText
                 const sliding::SkippingMotion shaking(std::move(motion));
                 for (int i = 0; i < 50; ++i) {
                     const double yield = 0.5 * (low + high);
-                    (sliding::slide_fixed_yield(shaking, sliding::fixed_yield(yield)).slip > slip ? low : high) = yield;
+                    (sliding::slide_constant_yield(shaking, {yield}).slip > slip ? low : high) = yield;
                 }
                 k.push_back(0.5 * (low + high) / units::standard_gravity);
             }

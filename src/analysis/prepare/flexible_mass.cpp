@@ -5,7 +5,7 @@
 #include "fe2d/modes/natural_modes.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/section.hpp"
-#include "sliding/flexible/mode_shape.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "sliding/loads/added_mass_integral.hpp"
 
 #include <algorithm>

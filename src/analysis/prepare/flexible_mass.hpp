@@ -2,8 +2,8 @@
 
 #include "analysis/prepare/rigid_model.hpp"
 #include "scene/scene.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
-#include "sliding/flexible/strain_column.hpp"
 
 #include <optional>
 #include <string>

@@ -13,7 +13,7 @@
 #include "scene/section.hpp"
 #include "scene/water.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

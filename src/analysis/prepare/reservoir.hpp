@@ -3,7 +3,7 @@
 #include "core/watch.hpp"
 #include "fe2d/assembly/surface_load.hpp"
 #include "scene/scene.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include <map>
 #include <memory>

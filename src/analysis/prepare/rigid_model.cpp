@@ -5,8 +5,7 @@
 #include "records/measure/measures.hpp"
 #include "records/measure/response_spectrum.hpp"
 #include "scene/section.hpp"
-#include "sliding/equilibrium/base_limits.hpp"
-#include "sliding/equilibrium/shaken_base.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>
 #include <cmath>

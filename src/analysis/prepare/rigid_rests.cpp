@@ -1,9 +1,8 @@
 #include "analysis/prepare/rigid_rests.hpp"
 
-#include "sliding/block/base_equations.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/yield.hpp"
-#include "sliding/equilibrium/opening_crack.hpp"
-#include "sliding/equilibrium/shaken_base.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

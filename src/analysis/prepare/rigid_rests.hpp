@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/scene.hpp"
-#include "sliding/block/slide_rests.hpp"
+#include "sliding/block/slide.hpp"
 #include "sliding/equilibrium/base_state.hpp"
 
 #include <memory>

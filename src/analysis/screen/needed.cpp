@@ -4,7 +4,7 @@
 #include "core/parallel.hpp"
 #include "core/status.hpp"
 #include "scene/scene_text.hpp"
-#include "sliding/block/yield_for_slip.hpp"
+#include "sliding/block/slide_batch.hpp"
 
 #include <cmath>
 #include <limits>

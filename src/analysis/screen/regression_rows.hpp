@@ -3,11 +3,10 @@
 #include "analysis/prepare/rigid_model.hpp"
 #include "records/record.hpp"
 #include "scene/scene.hpp"
-#include "sliding/block/given_yield.hpp"
+#include "sliding/block/rigid_block.hpp"
 #include "sliding/block/slide.hpp"
-#include "sliding/empirical/ensemble.hpp"
 #include "sliding/empirical/regression.hpp"
-#include "sliding/flexible/strain_column.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 
 #include <optional>
 #include <string>

@@ -8,7 +8,7 @@
 #include "core/units.hpp"
 #include "scene/keys.hpp"
 #include "scene/water.hpp"
-#include "sliding/equilibrium/lift_block.hpp"
+#include "sliding/equilibrium/base_state.hpp"
 
 #include <algorithm>
 #include <cmath>

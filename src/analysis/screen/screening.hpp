@@ -6,10 +6,10 @@
 #include "analysis/screen/needed.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "core/status.hpp"
-#include "sliding/equilibrium/base_limits.hpp"
-#include "sliding/equilibrium/combinations.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
+#include "sliding/flexible/flexible_mode.hpp"
 #include "sliding/flexible/flexible_slide.hpp"
-#include "sliding/flexible/strain_column.hpp"
 
 #include <string>
 #include <string_view>

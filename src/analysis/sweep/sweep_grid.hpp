@@ -5,7 +5,7 @@
 #include "analysis/sweep/sweep_tasks.hpp"
 #include "core/units.hpp"
 #include "scene/scene.hpp"
-#include "sliding/block/skipping_motion.hpp"
+#include "sliding/block/slide.hpp"
 
 namespace damslip {
 

@@ -9,7 +9,7 @@
 #include "pages/scene/scene_pages.hpp"
 #include "pages/spectrum/spectrum_tables.hpp"
 #include "scene/plausible.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <array>

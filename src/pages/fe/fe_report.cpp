@@ -12,9 +12,7 @@
 #include "scene/rock_mass.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/combinations.hpp"
-#include "sliding/equilibrium/criteria.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>

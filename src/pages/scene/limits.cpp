@@ -1,7 +1,7 @@
 #include "pages/scene/scene_pages.hpp"
 
 #include "scene/rock_mass.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 namespace damslip::pages {
 

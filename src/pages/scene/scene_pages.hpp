@@ -8,8 +8,8 @@
 #include "scene/anchor_bar.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
-#include "sliding/equilibrium/combinations.hpp"
-#include "sliding/uplift/uplift_profile.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
+#include "sliding/uplift/uplift.hpp"
 
 #include <filesystem>
 #include <optional>

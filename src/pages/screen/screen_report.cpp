@@ -13,7 +13,7 @@
 #include "scene/plausible.hpp"
 #include "scene/section.hpp"
 #include "scene/write.hpp"
-#include "sliding/equilibrium/equilibrium_tables.hpp"
+#include "sliding/equilibrium/limit_equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
