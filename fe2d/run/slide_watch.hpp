@@ -113,12 +113,11 @@ private:
     bool self_excited_ = false;
 };
 
-/// What is said of a dam that goes on sliding by itself.
-
-/// How far it walked, why, and the command that runs the scene on rock that radiates. @param slip  so far [m]
+/// The sentence for a run with self-excited sliding: how far the dam slid, why, and the command that runs the scene on rock that
+/// radiates. @param slip  so far [m]
 std::string self_excited_sentence(const Scene& scene, double slip, const RunOutFigures& figures);
 
-/// The warning for RunOutFigures::walked(). @param slip  at the end [m]
+/// The warning for a run in which the dam ratchets (RunOutFigures::walked()). @param slip  at the end [m]
 std::string walked_sentence(double slip, const RunOutFigures& figures);
 
 } // namespace damslip::fe2d

@@ -51,8 +51,9 @@ TargetSpectrum table_spectrum(std::span<const SpectrumRow> rows, std::string nam
 TargetSpectrum read_target_spectrum(const std::filesystem::path& path);
 TargetSpectrum parse_target_spectrum(std::string_view content, std::string_view file_name);
 
-/// The spectrum that a word names: rock, ec8-1, ec8-2, or the user's of `file`. @param ground, component  of ec8
-/// @returns nothing where the word is none of these and the file is not there @throws InputError as read_target_spectrum()
+/// The spectrum that a word names: rock, ec8-1 or ec8-2; for any other word, the spectrum in `file`.
+/// @param ground, component  of ec8 @returns nullopt where the word names no spectrum and `file` does not exist
+/// @throws InputError as read_target_spectrum()
 std::optional<TargetSpectrum> find_target_spectrum(std::string_view word, const std::filesystem::path& file,
                                                    GroundType ground, MotionComponent component);
 

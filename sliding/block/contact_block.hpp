@@ -96,7 +96,7 @@ bool has_batched_runs();
 /// A batched run, with the bits of run_in_contact() for each block: `batch_size` blocks go through intervals 0 ... last - 1
 /// side by side. Worth it for blocks that move at the same times.
 /// @pre has_batched_runs(); no block has a path_limit
-/// @returns false where one of them is not resolved: none of them is to be used then
+/// @returns false where one of the four slips is not resolved; the caller then uses none of them
 bool run_in_contact(std::span<ContactBlock, batch_size> blocks, const ContactMotion& motion, std::size_t last);
 
 /// A block of constant yield under samples 0 ... intervals, alone and in a batched run with the same bits: the first of the

@@ -182,8 +182,8 @@ struct RegressionWeight {
 struct Ensemble {
     std::vector<std::string_view> members; ///< ids of the valid ones, in table order
     std::vector<double> weights;           ///< of the members, sum 1
-    std::optional<double> median_cm;       ///< of the weighted distribution [cm]; no member: none
-    std::optional<double> low_cm, high_cm; ///< its 16 and 84 % [cm]; none of one member alone that publishes no sigma
+    std::optional<double> median_cm;       ///< of the weighted distribution [cm]; absent without members
+    std::optional<double> low_cm, high_cm; ///< its 16 and 84 % [cm]; absent where the only member publishes no sigma
     double weight_left_out = 0.0;          ///< share of the given weights on regressions that are not valid here [-]
 };
 

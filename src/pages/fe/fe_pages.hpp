@@ -204,7 +204,8 @@ void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, 
 /// Messages last; in the text as notes.
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
 
-/// Name of a file of one run, without its ending: "history_El_Centro_NS_+1"; records whose names would give the same file are told apart.
+/// Name of a file of one run, without its ending: "history_El_Centro_NS_+1". Records
+/// whose names would give the same file get a number.
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record,
                      const std::string& suffix = "");
 
@@ -300,12 +301,12 @@ FePageFrame contact_frame(const FeReport::Input& input);
 
 /// What has to be said of scene and runs beside the tables.
 /// @param of_rock  warnings on the rock
-/// What is to be known first, the rigid base before all; then what is unusual in the scene.
+/// Notes on the base: the rigid base first, then what is unusual in the scene.
 std::vector<std::string> base_notes(const Scene& scene);
-/// What each run has to say of itself, in their order. Why a dam goes on by itself, and what ends it, is said of one run, the
-/// worst where it is one of them, else the first; the others say how far they walked.
+/// A sentence for each run that needs one, in the order of the runs. One self-excited run (the worst, or else the first) explains the
+/// cause and the remedy; the sentences of the others give how far the dam slid.
 std::vector<std::string> run_sentences(const std::vector<ContactRun>& runs);
-/// What became of runs that did not come to rest, or only after they had walked.
+/// Adds a message for each run that did not come to rest, or came to rest after ratcheting.
 void add_run_messages(const std::vector<ContactRun>& runs, std::vector<std::string>& messages);
 
 std::vector<std::string> contact_messages(const Scene& scene, const std::vector<ContactRun>& runs,
