@@ -1,7 +1,7 @@
 #include "fe2d/run/contact_ledger.hpp"
 
 #include "fe2d/contact/joint_laws.hpp"
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "fe2d/run/contact_stepper.hpp"
 
 #include "core/watch.hpp"
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <cmath>

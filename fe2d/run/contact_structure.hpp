@@ -4,6 +4,7 @@
 #include "fe2d/run/contact_planes.hpp"
 #include "fe2d/run/interface_factor.hpp"
 #include "fe2d/run/node_products.hpp"
+#include "fe2d/run/water_body.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -1,6 +1,6 @@
 #include "fe2d/run/earthquake_pass.hpp"
 
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/base_water.hpp"
 
 #include <algorithm>
 #include <cmath>

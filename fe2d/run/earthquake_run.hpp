@@ -4,7 +4,7 @@
 #include "core/status.hpp"
 #include "core/watch.hpp"
 #include "fe2d/rock/radiating_rock.hpp"
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/base_water.hpp"
 #include "fe2d/run/dynamic_contact.hpp"
 #include "fe2d/run/explicit_contact.hpp"
 #include "fe2d/run/run_history.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/input_error.hpp"
 #include "fe2d/contact/anchor_law.hpp"
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/base_water.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "fe2d/run/step_parts.hpp"
 
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/step_passes.hpp"
 #include "fe2d/solver/dense_product.hpp"
 
 #include <cassert>

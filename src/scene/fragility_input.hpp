@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/input_error.hpp"
-#include "core/statistics.hpp"
+#include "core/intensity_measure.hpp"
 #include "scene/scene_text.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "scene/fragility_keys.hpp"
 
-#include "core/statistics.hpp"
+#include "core/intensity_measure.hpp"
 
 #include <algorithm>
 #include <stdexcept>

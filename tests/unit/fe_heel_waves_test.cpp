@@ -1,5 +1,5 @@
 // Pressure of the reservoir's waves at the heel by added mass: of a rigid wall that the ground moves, and of one that moves on ground at rest.
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/base_water.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "fe_scenes.hpp"
 #include "verification/cases/fe_run_scenes.hpp"

@@ -1,5 +1,5 @@
 // Passes of a step against the same formulas by Eigen's expressions: not a bit differs.
-#include "fe2d/run/contact_motion.hpp"
+#include "fe2d/run/step_passes.hpp"
 
 #include "core/version.hpp"
 

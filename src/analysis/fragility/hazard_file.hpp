@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/statistics.hpp"
+#include "core/intensity_measure.hpp"
 #include "probability/annual_rate.hpp"
 
 #include <array>

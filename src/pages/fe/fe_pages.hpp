@@ -205,7 +205,7 @@ void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, 
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer);
 
 /// Name of a file of one run, without its ending: "history_El_Centro_NS_+1". Records
-/// whose names would give the same file get a number.
+/// whose names would give the same file get a hash of the name.
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record,
                      const std::string& suffix = "");
 

@@ -1,0 +1,70 @@
+#include "core/intensity_measure.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+
+namespace damslip {
+
+namespace {
+
+/// "0.1, 0.2" -> numbers; nothing where one is no period, or not larger than the one before.
+std::optional<std::vector<double>> periods_of(std::string_view text)
+{
+    std::vector<double> periods;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        const std::optional<double> period = parse_whole_number_text(text.substr(from, comma - from));
+        if (!period || !(*period >= 0.01 && *period <= 20.0)) return std::nullopt;
+        if (!periods.empty() && *period <= periods.back()) return std::nullopt;
+        periods.push_back(*period);
+        from = comma + 1;
+    }
+    return periods;
+}
+
+} // namespace
+
+std::optional<IntensityName> parse_intensity(std::string_view text)
+{
+    if (text == "PGA") return IntensityName{IntensityMeasure::pga, false, {}};
+    if (text == "PGV") return IntensityName{IntensityMeasure::pgv, false, {}};
+    if (text == "IA") return IntensityName{IntensityMeasure::arias, false, {}};
+    if (text == "CAV") return IntensityName{IntensityMeasure::cav, false, {}};
+    if (text == "SA(T1)") return IntensityName{IntensityMeasure::sa, true, {}};
+    if (!text.ends_with(')')) return std::nullopt;
+    const bool average = text.starts_with("avgSA(");
+    if (!average && !text.starts_with("SA(")) return std::nullopt;
+    text.remove_prefix(average ? 6 : 3);
+    text.remove_suffix(1);
+    std::optional<std::vector<double>> periods = periods_of(text);
+    if (!periods || (average ? periods->size() < 2 : periods->size() != 1)) return std::nullopt;
+    return IntensityName{average ? IntensityMeasure::avg_sa : IntensityMeasure::sa, false, std::move(*periods)};
+}
+
+std::string text_of(const IntensityName& name)
+{
+    switch (name.measure) {
+    case IntensityMeasure::pga: return "PGA";
+    case IntensityMeasure::pgv: return "PGV";
+    case IntensityMeasure::arias: return "IA";
+    case IntensityMeasure::cav: return "CAV";
+    default: break;
+    }
+    if (name.first_period) return "SA(T1)";
+    std::string text = name.measure == IntensityMeasure::avg_sa ? "avgSA(" : "SA(";
+    for (std::size_t i = 0; i < name.periods.size(); ++i) text += (i ? "," : "") + shortest(name.periods[i]);
+    return text + ")";
+}
+
+bool is_acceleration(IntensityMeasure measure)
+{
+    return measure == IntensityMeasure::pga || measure == IntensityMeasure::sa || measure == IntensityMeasure::avg_sa;
+}
+
+int power_of_scale(IntensityMeasure measure)
+{
+    return measure == IntensityMeasure::arias ? 2 : 1;
+}
+
+} // namespace damslip
