@@ -62,7 +62,6 @@ double complementarity_residual(const ContactProblem& problem, const ContactSolu
     return largest;
 }
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -195,8 +194,6 @@ bool solve_by_lemke(const ContactProblem& problem, ContactSolution& solution, in
     }
     return true;
 }
-
-using Eigen::Index;
 
 namespace {
 

@@ -219,7 +219,6 @@ bool ContactSolver::land(const ContactLaw& law, const Eigen::VectorXd& held_jump
     return true;
 }
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 

@@ -311,10 +311,6 @@ double ExponentialPressure::clearance(double pressure) const
     return range_ * (1.0 - z);
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 ElasticStick::ElasticStick(MatrixXd& stiffness, const VectorXd& compliance) : compliance_(compliance)
 {
     const Index m = compliance.size();

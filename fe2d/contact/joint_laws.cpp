@@ -220,9 +220,6 @@ void JointLaws::restore(const JointLawState& state)
     for (const auto& law : laws_) law->restore(state);
 }
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 namespace {
 
 /// γ_e = F_f l, l the mean length of the contact elements (Goldgruber 2015, 4-10): m pairs are m - 1 elements.

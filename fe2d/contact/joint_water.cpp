@@ -270,9 +270,6 @@ std::unique_ptr<CrackWater> make_joint_water(const JointWaterLaw& law, std::shar
     return std::make_unique<WaterRule>(law, std::move(joint));
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 /// The middle part of a profile, and one pressure in the crack at either end.
@@ -393,9 +390,6 @@ void WaterRule::end(const ContactSolution& solution)
     if (dt_ > 0.0) shear_drains(dt_, solution);
     follow(states);
 }
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 namespace {
 

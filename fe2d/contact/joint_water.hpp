@@ -50,7 +50,6 @@ struct CrackLengths {
     double upstream = 0.0, downstream = 0.0;
 };
 /// Pressure under the base with cracks of these lengths from heel and toe [m]: full head in them.
-using CrackedUplift = std::function<PressureProfile(double heel, double toe)>;
 /// @param opening, states  of the joint's pairs
 CrackLengths crack_lengths(const WetJoint& joint, const Eigen::VectorXd& opening, const ContactStates& states);
 

@@ -167,8 +167,6 @@ std::vector<double> sign_changes(const Imbalance& f, double from, double to, int
     return roots;
 }
 
-using units::hertz;
-
 void warn_of_missing_mass(ModifiedRayleigh& result, const ModifiedRayleighOptions& options, std::size_t modes)
 {
     if (result.mass_share < options.required_mass)

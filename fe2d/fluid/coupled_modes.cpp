@@ -217,8 +217,6 @@ std::vector<Index> leading_modes(const CoupledModes& modes, int count)
     return leading;
 }
 
-using Eigen::Index;
-
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;

@@ -173,8 +173,6 @@ double reflection_of_bottom(double density, double sound_speed, double bottom_de
     return (impedance - water) / (impedance + water);
 }
 
-using Eigen::Index;
-
 namespace {
 
 /// An edge of one side, going up.

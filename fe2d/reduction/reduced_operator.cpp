@@ -136,10 +136,6 @@ const ReducedOperator& ReducedModel::at(double dt) const
     return *slot;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 CoarsePlane::CoarsePlane(const Plane& plane, int groups) : coarse_(plane)
 {
     const Index m = plane.pairs(), count = std::clamp<Index>(groups, 1, m);

@@ -72,8 +72,6 @@ ReducedRock ReducedRock::on_plane(const Eigen::Vector2d& normal, const Eigen::Ve
     return result;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 RockStep::RockStep(const ReducedRock& rock, double stiffness_damping, const StepConstants& constants)

@@ -217,9 +217,6 @@ void ContactLedger::add_landing(const LandingForces& forces, const StepState& st
     energy_.numerical += before_landing - energy_.kinetic - energy_.strain - landed_.impact;
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 /// Rows that hold something, of matrices of equal height.
@@ -374,9 +371,6 @@ void WaterLedger::add(const StepConstants& c, const Instant& before2, const Inst
     if (before.jolt_rate.size() > 0)
         energy.numerical += 0.5 * (1.0 + c.scheme.alpha) * volume.dot(on_floor(before.jolt_rate));
 }
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 namespace {
 

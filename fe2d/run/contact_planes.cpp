@@ -107,8 +107,6 @@ MatrixXd sliding_motions(const ContactPlanes& planes)
     return motions;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {

@@ -335,8 +335,6 @@ VectorXd ContactStructure::assemble(const VectorXd& dam, const VectorXd& rock, c
     return all;
 }
 
-using Eigen::Index;
-
 namespace {
 
 constexpr double round_off = 1e-13; ///< weights below are zero [-]
@@ -428,9 +426,7 @@ void FewRows::subtract_product(const Eigen::VectorXd& x, Eigen::VectorXd& y) con
     }
 }
 
-using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 namespace {
 

@@ -137,9 +137,6 @@ std::size_t ExplicitContact::bytes() const
            10 * static_cast<std::size_t>(state_.u.size()) * sizeof(double);
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 /// There is one solution for mu |nt| < nn; only a cohesive shear may lift its own pair where W couples the directions, and then acts
 /// with P_n = 0.
 ExplicitImpulse solve_pair(const ExplicitPair& w, double free_normal, double free_tangential, double target,

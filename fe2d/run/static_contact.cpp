@@ -160,9 +160,6 @@ StaticState StaticContact::displacements(const SplitLoad& load, const ContactMem
     return linear_->displacements(load, gap);
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 constexpr int most_events = 50000;

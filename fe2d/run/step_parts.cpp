@@ -146,7 +146,6 @@ void StepDam::instant(const DynamicState& state, Instant& now)
 }
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
 namespace {
 

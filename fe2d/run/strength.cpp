@@ -137,8 +137,6 @@ void Strength::restore(const RunState& state)
     }
 }
 
-using Eigen::Index;
-
 namespace {
 
 void add_bond(const Scene& scene, const Contact& base, const ContactPlanes& planes, JointLaws& laws)

@@ -100,9 +100,6 @@ InterfaceForces BaseCoupling::step(const FreeStep& free, const State& before)
     return forces;
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;

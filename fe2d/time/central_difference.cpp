@@ -139,9 +139,6 @@ void CentralDifference::step(const State& before, const VectorXd& load_after, St
 
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 [[noreturn]] void refuse_explicit(std::string problem, std::string expected, std::string fix)
 {
     Diagnostic diagnostic;

@@ -249,7 +249,6 @@ History integrate(const Model& model, const GroundMotion& motion, const TiedRunO
 }
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
 double step_of(const GroundMotion& motion, const TiedRunOptions& options)
 {

@@ -335,10 +335,6 @@ History integrate_modal(const Model& model, const GroundMotion& motion, const Ti
     return history;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 namespace {
 
 /// exp(A) by scaling to a norm below 1/4, Taylor's series of 14 terms ((1/4)^15/15! < 1e-21) and squaring.

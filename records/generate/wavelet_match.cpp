@@ -273,7 +273,6 @@ std::vector<double> RegularisedLeastSquares::solve(double regularisation) const
 
 namespace {
 
-using std::numbers::pi;
 constexpr double damping = 0.05;
 
 struct Line {

@@ -224,9 +224,6 @@ std::vector<Regression> rigid_block_rows()
 
 namespace {
 
-using Input = RegressionInput;
-using Inputs = RegressionInputs;
-
 constexpr std::string_view hynes_griffin =
     "Hynes-Griffin, M.E. & Franklin, A.G. (1984): Rationalizing the seismic coefficient method. U.S. Army Engineer "
     "Waterways Experiment Station, Misc. Paper GL-84-13; fits by Meehan, C.L. & Vahedifard, F. (2013), Engineering "

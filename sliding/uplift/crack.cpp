@@ -1,6 +1,5 @@
 #include "sliding/uplift/uplift.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -316,8 +316,6 @@ Command accuracy_command()
             with_flags<AccuracyArguments>(accuracy_flags, accuracy)};
 }
 
-using namespace pages;
-
 namespace {
 
 void check_probability_flags(const AccuracyArguments& a)

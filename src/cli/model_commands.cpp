@@ -67,8 +67,6 @@ Command modes_command()
             "damslip modes examples/reference_dam.toml --count 5", with_flags<ModesArguments>(modes_flags, modes)};
 }
 
-using namespace pages;
-
 namespace {
 
 fe2d::BaseNodes base_nodes(const MeshArguments& arguments, const fe2d::Mesh& mesh)

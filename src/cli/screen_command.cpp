@@ -116,8 +116,6 @@ Command screen_command()
             with_flags<ScreenArguments>(screen_flags, screen)};
 }
 
-using namespace pages;
-
 namespace {
 
 struct AssessArguments {

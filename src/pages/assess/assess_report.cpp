@@ -308,8 +308,6 @@ std::string assess_text(const Assessment& a, const Scene& given)
 
 namespace {
 
-using units::mm;
-
 std::string millimetres(double slip)
 {
     return fmt::format("{:.4g} mm", slip / mm);

@@ -539,8 +539,6 @@ Table statistics_table(const Screening& s)
 
 namespace {
 
-using units::standard_gravity;
-
 Cell slip_or_none(const GivenYieldRow& row, double slip)
 {
     return optional_cell(reported(row.status(), slip / units::mm));

@@ -1,6 +1,5 @@
 #include "pages/sweep/sweep_pages.hpp"
 
-
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
