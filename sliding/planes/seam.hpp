@@ -60,14 +60,16 @@ enum class ChainStatus {
     floats, ///< a block would have to pull on its segment
     opens   ///< an interface would have to pull: what is upstream of it stays behind
 };
-ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v);
+/// @param over  F, as of `law`
+ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over = 1.0);
 const char* word(ChainStatus status);
 
 /// One angle of the wedge.
 struct WedgeTrial {
     double angle = 0.0;          ///< α [rad]
-    std::vector<double> factors; ///< F of each ground state [-]
-    double yield = 0.0;          ///< a_y [m/s^2]
+    std::vector<double> factors;       ///< F of each ground state [-]
+    std::vector<ChainStatus> statuses; ///< at these factors
+    double yield = 0.0;                ///< a_y [m/s^2]
     ChainStatus status = ChainStatus::stands; ///< at the yield
 };
 
@@ -76,13 +78,14 @@ struct SeamFactor {
     double factor = 0.0;         ///< by the seam's interface.model [-]
     std::optional<double> angle; ///< α at which it is least [rad]; none: no wedge
     double smooth = 0.0, friction = 0.0; ///< at that angle, by the wedge method and by Sarma's with the interface's strength [-]
+    ChainStatus status = ChainStatus::stands; ///< at this factor
     double without_wedge = 0.0;          ///< nothing in front of the body: the slip that mobilises a wedge may be too much [-]
 };
 
 struct SeamPlane {
     std::string name;
     std::vector<SeamFactor> factors; ///< of each ground state
-    std::vector<WedgeTrial> trials;  ///< by ascending angle; of a search every 2.5 degrees and the two minima at least
+    std::vector<WedgeTrial> trials;  ///< by ascending angle: those given, or the scan of the search and its minima
     std::optional<double> angle;     ///< α of the least a_y [rad]
     bool at_end_of_range = false;    ///< the search found a least value at its end
     bool wedge_left_out = false;     ///< no angle lets the wedge stand: the seam as if nothing were in front of it
