@@ -243,6 +243,7 @@ struct SeamInterface {
     std::optional<double> angle; ///< from the horizontal, of the upward face [rad]; none: vertical
     double friction = 0.0;       ///< [-]
     double cohesion = 0.0;       ///< [Pa]
+    friend bool operator==(const SeamInterface&, const SeamInterface&) = default;
 };
 
 /// The wedge of rock that a dam on a seam pushes up in front of its toe.
