@@ -280,6 +280,8 @@ enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F o
 struct PlaneOptions {
     PlaneGeometry geometry = PlaneGeometry::small;
     PlaneJudgement governs = PlaneJudgement::slip;
+    /// Name of the seam or lift that the rigid block of the scene slides on; empty: the base. No key: `sweep --plane` sets it.
+    std::string slides_on;
 };
 
 struct RecordFiles {
