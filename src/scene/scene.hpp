@@ -243,6 +243,7 @@ struct SeamInterface {
     std::optional<double> angle; ///< from the horizontal, of the upward face [rad]; none: vertical
     double friction = 0.0;       ///< [-]
     double cohesion = 0.0;       ///< [Pa]
+    friend bool operator==(const SeamInterface&, const SeamInterface&) = default;
 };
 
 /// The wedge of rock that a dam on a seam pushes up in front of its toe.
@@ -279,6 +280,8 @@ enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F o
 struct PlaneOptions {
     PlaneGeometry geometry = PlaneGeometry::small;
     PlaneJudgement governs = PlaneJudgement::slip;
+    /// Name of the seam or lift that the rigid block of the scene slides on; empty: the base. No key: `sweep --plane` sets it.
+    std::string slides_on;
 };
 
 struct RecordFiles {
