@@ -45,7 +45,7 @@ struct Foundation {
     double width = 0.0;                              ///< of the box, centred on the base [m]
     double depth = 0.0;                              ///< below the heel [m]
     double permeability = 1e-4;                      ///< hydraulic conductivity [m/s]
-    Polyline ground; ///< surface of the rock, from upstream to downstream [m]; empty: level at heel and toe; sliding planes only
+    Polyline ground = {}; ///< surface of the rock, from upstream to downstream [m]; empty: level at heel and toe; sliding planes only
 
     // Of the box in which waves travel, with absorbing edges.
     double wave_box = 1.0;                     ///< its size over the automatic one [-]
