@@ -2,8 +2,9 @@
 #include "records/read/read_record.hpp"
 #include "scene/read.hpp"
 #include "sliding/block/slide.hpp"
+#include "sliding/block/yield.hpp"
 #include "sliding/planes/seam.hpp"
-#include "support/source.hpp"
+#include "support/source_dir.hpp"
 
 #include <array>
 #include <cmath>

@@ -18,11 +18,11 @@ namespace {
 using namespace damslip::sliding;
 using Checks = std::vector<damslip::verification::Check>;
 
-constexpr double deg = std::numbers::pi / 180.0;
+constexpr double degree = std::numbers::pi / 180.0;
 
 double tan_deg(double angle)
 {
-    return std::tan(angle * deg);
+    return std::tan(angle * degree);
 }
 
 // Passive thrust on a wall: the force T on a weightless block on ice, in front of which a wedge is pushed up, at a_y = a_h.
@@ -60,7 +60,7 @@ double thrust(const Wall& wall, double alpha)
 /// Least thrust over the angle: by parabolas through three points, closer and closer.
 std::array<double, 2> least_thrust(const Wall& wall)
 {
-    double middle = 25.0 * deg, step = 5.0 * deg;
+    double middle = 25.0 * degree, step = 5.0 * degree;
     for (int i = 0; i < 60; ++i) {
         const double left = thrust(wall, middle - step), here = thrust(wall, middle), right = thrust(wall, middle + step);
         if (left < here) middle -= step;
@@ -70,7 +70,7 @@ std::array<double, 2> least_thrust(const Wall& wall)
             if ((step *= 0.5) < 1e-4) break;
         }
     }
-    return {middle / deg, thrust(wall, middle)};
+    return {middle / degree, thrust(wall, middle)};
 }
 
 Checks passive_thrust()
@@ -84,23 +84,23 @@ Checks passive_thrust()
     // Rankine: γ h²/2 K_p + 2 c h √K_p; Coulomb and Mononobe & Okabe: closed coefficients for a vertical wall, level ground.
     const double kp = std::pow(tan_deg(45.0 + 17.5), 2.0);
     const auto coefficient = [](double phi, double delta, double psi) {
-        const double root = std::sqrt(std::sin((phi + delta) * deg) * std::sin((phi - psi) * deg) /
-                                      (std::cos(delta * deg + psi * deg)));
-        return std::pow(std::cos((phi - psi) * deg), 2.0) /
-               (std::cos(psi * deg) * std::cos((delta + psi) * deg) * std::pow(1.0 - root, 2.0));
+        const double root = std::sqrt(std::sin((phi + delta) * degree) * std::sin((phi - psi) * degree) /
+                                      (std::cos(delta * degree + psi * degree)));
+        return std::pow(std::cos((phi - psi) * degree), 2.0) /
+               (std::cos(psi * degree) * std::cos((delta + psi) * degree) * std::pow(1.0 - root, 2.0));
     };
-    const double psi = std::atan(0.2 / 0.9) / deg;
+    const double psi = std::atan(0.2 / 0.9) / degree;
     return {
         {"Rankine: angle", "deg", 27.5, rankine[0], 1e-6},
         {"Rankine: thrust", "N/m", 0.5 * 26e3 * 100.0 * kp + 2.0 * 20e3 * 10.0 * std::sqrt(kp), rankine[1], 1e-12},
         {"Coulomb: angle", "deg", 18.674252, coulomb[0], 1e-6},
-        {"Coulomb: thrust", "N/m", 0.5 * 26e3 * 100.0 * coefficient(35.0, 15.0, 0.0),
+        {"Coulomb: normal to the wall", "N/m", 0.5 * 26e3 * 100.0 * coefficient(35.0, 15.0, 0.0) * std::cos(15.0 * degree),
          coulomb[1], 1e-11},
         {"Mononobe & Okabe: angle", "deg", 24.664037, shaken[0], 1e-6},
         {"Mononobe & Okabe: thrust", "N/m", 0.5 * 26e3 * 0.9 * 100.0 * coefficient(35.0, 0.0, psi), shaken[1], 1e-11},
         {"still water, at 30 degrees", "N/m",
-         (own - 0.5 * gamma * 100.0 / tan_deg(30.0)) * tan_deg(65.0) + 0.5 * gamma * 100.0, thrust(wet, 30.0 * deg), 1e-12},
-        {"still water, printed", "kN/m", 3405.557152, 1e-3 * thrust(wet, 30.0 * deg), 1e-9},
+         (own - 0.5 * gamma * 100.0 / tan_deg(30.0)) * tan_deg(65.0) + 0.5 * gamma * 100.0, thrust(wet, 30.0 * degree), 1e-12},
+        {"still water, printed", "kN/m", 3405.557152, 1e-3 * thrust(wet, 30.0 * degree), 1e-9},
     };
 }
 
@@ -114,18 +114,18 @@ Chain two_blocks(double delta, double psi = 0.0, double psi_wedge = 0.0, double 
     body.force = {22e6, 0.0};
     body.uplift = 15e6;
     body.friction = 0.6;
-    body.dilation = psi * deg;
+    body.dilation = psi * degree;
     wedge.mass = 2e5;
-    wedge.dip = -25.0 * deg;
-    wedge.length = 8.0 / std::sin(25.0 * deg);
+    wedge.dip = -25.0 * degree;
+    wedge.length = 8.0 / std::sin(25.0 * degree);
     wedge.friction = tan_deg(40.0);
     wedge.cohesion = 100e3;
     wedge.uplift = 1e6;
-    wedge.dilation = psi_wedge * deg;
+    wedge.dilation = psi_wedge * degree;
     ChainInterface face;
     face.length = 8.0;
     face.friction = tan_deg(delta);
-    face.dilation = psi_face * deg;
+    face.dilation = psi_face * degree;
     chain.blocks = {body, wedge};
     chain.interfaces = {face};
     return chain;
@@ -134,7 +134,7 @@ Chain two_blocks(double delta, double psi = 0.0, double psi_wedge = 0.0, double 
 /// Closed form of the level seam with one smooth wedge: P_p(F), then T = [μ(W - U) + c L]/F + P_p(F).
 double closed_thrust(double factor)
 {
-    const double alpha = 25.0 * deg, phi = std::atan(tan_deg(40.0) / factor), length = 8.0 / std::sin(alpha);
+    const double alpha = 25.0 * degree, phi = std::atan(tan_deg(40.0) / factor), length = 8.0 / std::sin(alpha);
     return 2e5 * 9.81 * std::tan(phi + alpha) +
            (100e3 * length * std::cos(phi) / factor - 1e6 * std::sin(phi)) / std::cos(phi + alpha);
 }
@@ -143,13 +143,13 @@ double closed_thrust(double factor)
 /// zero is the upper bound of the yield.
 double power_balance_yield(double delta)
 {
-    Chain chain = two_blocks(delta, std::atan(0.6) / deg, 40.0, delta);
+    Chain chain = two_blocks(delta, std::atan(0.6) / degree, 40.0, delta);
     const auto movement = [](const ChainBlock& b) {
         return Point{std::cos(b.dip - b.dilation), -std::sin(b.dip - b.dilation)};
     };
     const Point v0 = movement(chain.blocks[0]), v1 = movement(chain.blocks[1]);
     // The jump at the vertical face leans up and away by δ.
-    const double q = (v0.x + std::tan(delta * deg) * -v0.y) / (v1.x - std::tan(delta * deg) * v1.y);
+    const double q = (v0.x + std::tan(delta * degree) * -v0.y) / (v1.x - std::tan(delta * degree) * v1.y);
     double power = 0.0, inertia = 0.0;
     const std::array<Point, 2> v{v0, Point{q * v1.x, q * v1.y}};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -208,7 +208,7 @@ Checks chain_in_equilibrium()
 {
     Chain chain = two_blocks(15.0, 4.0, 6.0, 3.0);
     ChainBlock middle = chain.blocks[0];
-    middle.dip = 4.0 * deg;
+    middle.dip = 4.0 * degree;
     middle.mass = 1e6;
     middle.force = {1e5, -2e5};
     middle.length = 12.0;
@@ -217,7 +217,7 @@ Checks chain_in_equilibrium()
     middle.added_mass = {2e5, -3e4, 1e4};
     chain.blocks.insert(chain.blocks.begin() + 1, middle);
     ChainInterface leaning;
-    leaning.angle = 75.0 * deg;
+    leaning.angle = 75.0 * degree;
     leaning.length = 9.0;
     leaning.friction = 0.3;
     leaning.cohesion = 2e4;
@@ -260,7 +260,7 @@ Checks strip_load()
         Chain chain;
         for (const double dip : dips) {
             ChainBlock block;
-            block.dip = dip * deg;
+            block.dip = dip * degree;
             block.length = 1.0;
             block.mass = 0.0;
             block.cohesion = 1.0;
@@ -268,7 +268,7 @@ Checks strip_load()
         }
         for (const double angle : faces) {
             ChainInterface face;
-            face.angle = angle * deg;
+            face.angle = angle * degree;
             face.length = 1.0;
             face.cohesion = 1.0;
             chain.interfaces.push_back(face);
@@ -305,7 +305,7 @@ Scene dam_on_seam(double delta = 0.0)
     seam.exit = SeamExit::wedge;
     seam.uplift = UpliftModel::drains;
     seam.wedge.emplace().friction = tan_deg(40.0);
-    seam.wedge->angles = {25.0 * deg};
+    seam.wedge->angles = {25.0 * degree};
     if (delta > 0.0) seam.interface = {InterfaceModel::friction, std::nullopt, tan_deg(delta), 0.0};
     scene.seams = {seam};
     return scene;
@@ -325,7 +325,7 @@ Checks seam_and_wedge()
     const SeamPlane best = plane_of(searched);
     Scene searched_rough = dam_on_seam(20.0);
     searched_rough.seams[0].wedge->angles.clear();
-    searched_rough.seams[0].wedge->search_from = 5.0 * deg;
+    searched_rough.seams[0].wedge->search_from = 5.0 * degree;
     const SeamPlane best_rough = plane_of(searched_rough);
     Scene bare = scene;
     bare.seams[0].wedge.reset();
@@ -334,7 +334,7 @@ Checks seam_and_wedge()
     Scene undrained = scene;
     undrained.seams[0].uplift = UpliftModel::linear;
     const auto status = [&](double angle) {
-        undrained.seams[0].wedge->angles = {angle * deg};
+        undrained.seams[0].wedge->angles = {angle * degree};
         return plane_of(undrained).trials[0].statuses[0] == ChainStatus::stands ? 1.0 : 0.0;
     };
     return {
@@ -346,9 +346,9 @@ Checks seam_and_wedge()
         {"free face: a_y", "m/s²", 0.638460430, open.yield, 1e-8},
         {"μ that just holds", "-", 0.554957019, given.holding_friction, 1e-8},
         {"searched: F", "-", 1.235701938, best.factors[0].factor, 1e-9},
-        {"searched: angle", "deg", 13.0894, best.factors[0].angle.value_or(0.0) / deg, 1e-4, Measure::absolute},
+        {"searched: angle", "deg", 13.0894, best.factors[0].angle.value_or(0.0) / degree, 1e-4, Measure::absolute},
         {"searched, δ 20°: F", "-", 1.246172901, best_rough.factors[0].factor, 1e-9},
-        {"searched, δ 20°: angle", "deg", 7.9802, best_rough.factors[0].angle.value_or(0.0) / deg, 1e-4, Measure::absolute},
+        {"searched, δ 20°: angle", "deg", 7.9802, best_rough.factors[0].angle.value_or(0.0) / degree, 1e-4, Measure::absolute},
         {"no drains: stands at 43.8°", "-", 0.0, status(43.8), 0.0, Measure::absolute},
         {"no drains: stands at 44°", "-", 1.0, status(44.0), 0.0, Measure::absolute},
         {"shares of the resistance", "-", 1.0, rough.shares[0] + rough.shares[1] + rough.shares[2], 1e-12},
@@ -429,7 +429,7 @@ Checks base_as_chain()
         chain.blocks.resize(1);
         chain.interfaces.clear();
         ChainBlock& b = chain.blocks[0];
-        b.dip = dip * deg;
+        b.dip = dip * degree;
         b.friction = 0.77;
         b.cohesion = 1e5;
         b.length = 40.0;
