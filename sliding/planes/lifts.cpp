@@ -13,8 +13,6 @@ namespace damslip::sliding {
 
 namespace {
 
-constexpr double same_level = 1e-6; // [m]
-
 /// What inertia and water of the part above a joint make of a horizontal or vertical acceleration of the ground.
 struct MovedPart {
     double mass = 0.0;       ///< Σ m A [kg/m]
@@ -144,28 +142,6 @@ LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart&
 }
 
 } // namespace
-
-std::vector<double> lift_elevations(const Scene& scene)
-{
-    std::vector<double> levels;
-    for (const LiftJoint& joint : scene.lift_joints) levels.push_back(joint.elevation);
-    if (scene.lifts) {
-        const Lifts& lifts = *scene.lifts;
-        std::vector<double> made = lifts.elevations;
-        const double base = std::max(heel(scene.section).y, toe(scene.section).y), crest = crest_level(scene.section);
-        if (lifts.spacing)
-            for (int k = 0;; ++k) {
-                const double y = lifts.from.value_or(base + *lifts.spacing) + k * *lifts.spacing;
-                if (y > lifts.to.value_or(crest) + same_level || y > crest - same_level) break;
-                made.push_back(y);
-            }
-        for (const double y : made)
-            if (std::none_of(levels.begin(), levels.end(), [y](double other) { return std::abs(y - other) < same_level; }))
-                levels.push_back(y);
-    }
-    std::sort(levels.begin(), levels.end());
-    return levels;
-}
 
 LiftJoint lift_at(const Scene& scene, double elevation)
 {

@@ -9,9 +9,6 @@
 /// Horizontal joints of the dam, each judged as a sliding plane under all that stands above it.
 namespace damslip::sliding {
 
-/// Elevations of [lifts] from the bottom up, those of [[lift_joint]] included [m].
-std::vector<double> lift_elevations(const Scene& scene);
-
 /// The joint of an elevation: the [[lift_joint]] that is there, else the one that [lifts] makes, named "lift at 30 m".
 LiftJoint lift_at(const Scene& scene, double elevation);
 

@@ -28,18 +28,6 @@ double distance(Point a, Point b)
     return std::hypot(b.x - a.x, b.y - a.y);
 }
 
-/// The surface goes on level beyond its ends.
-double height_at(const Polyline& surface, double x)
-{
-    if (x <= surface.front().x) return surface.front().y;
-    for (std::size_t i = 1; i < surface.size(); ++i)
-        if (x <= surface[i].x) {
-            const Point a = surface[i - 1], b = surface[i];
-            return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
-        }
-    return surface.back().y;
-}
-
 /// Where a ray that starts below the surface meets it; none: it does not rise to it within 100 km.
 std::optional<Point> meets(const Polyline& surface, Point from, double cosine, double sine)
 {
@@ -101,7 +89,7 @@ std::optional<double> drains_on(const Scene& scene, const Polyline& path)
         const Point a = path[i - 1], b = path[i];
         if (x >= a.x && x <= b.x) {
             const double share = (x - a.x) / (b.x - a.x), y = a.y + share * (b.y - a.y);
-            if (y < height_at(rock_surface(scene), x) - depth * (1.0 + 1e-12)) return std::nullopt;
+            if (y < ground_level(ground_line(scene), x) - depth * (1.0 + 1e-12)) return std::nullopt;
             return before + share * distance(a, b);
         }
         before += distance(a, b);
@@ -214,42 +202,13 @@ const char* word(ChainStatus status)
     return "";
 }
 
-Polyline rock_surface(const Scene& scene)
-{
-    const Point first = heel(scene.section), last = toe(scene.section);
-    Polyline surface;
-    if (scene.foundation)
-        for (const Point p : scene.foundation->ground)
-            if (p.x < first.x) surface.push_back(p);
-    surface.push_back(first);
-    surface.push_back(last);
-    if (scene.foundation)
-        for (const Point p : scene.foundation->ground)
-            if (p.x > last.x) surface.push_back(p);
-    return surface;
-}
-
-Polyline seam_path(const Scene& scene, const Seam& seam)
-{
-    if (!seam.points.empty()) return seam.points;
-    const double slope = std::tan(seam.dip);
-    const Point start{heel(scene.section).x, heel(scene.section).y - seam.depth.value_or(0.0)};
-    const auto at = [&](double x) { return Point{x, start.y - slope * (x - start.x)}; };
-    if (seam.exit == SeamExit::daylight) {
-        const std::optional<Point> exit = meets(rock_surface(scene), start, std::cos(seam.dip), -std::sin(seam.dip));
-        if (!exit) refuse(seam, "it ends in rock.", "a path that rises to the ground", "give it an exit: \"wedge\" or \"free-face\"");
-        return {start, *exit};
-    }
-    return {start, at(toe(scene.section).x + (seam.wedge ? seam.wedge->distance : 0.0))};
-}
-
 SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state,
                      std::optional<InterfaceModel> interface)
 {
     if (!scene.foundation || !(scene.foundation->material.density > 0.0))
         refuse(seam, "the rock above it has no density.", "foundation.density_kg_m3", "add  density_kg_m3 = 2650  to [foundation]");
     const double rock = scene.foundation->material.density, unit_weight = water_unit_weight(scene);
-    const Polyline surface = rock_surface(scene);
+    const Polyline surface = ground_line(scene);
     const Point first = heel(scene.section), last = toe(scene.section);
     const InterfaceModel kind = interface.value_or(seam.interface.model);
 
@@ -268,7 +227,7 @@ SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double>
 
     // Tops of the faces between the blocks; the first and the last are the ends of the body.
     const double up = seam.interface.angle.value_or(0.5 * std::numbers::pi);
-    Polyline tops{{model.path.front().x, height_at(surface, model.path.front().x)}};
+    Polyline tops{{model.path.front().x, ground_level(surface, model.path.front().x)}};
     for (std::size_t j = 1; j < segments; ++j) {
         const std::optional<Point> top = meets(surface, model.path[j], std::cos(up), std::sin(up));
         if (!top) refuse(seam, "an interface between its blocks does not reach the ground.", "a steeper angle", "write  angle_deg = 90");
@@ -277,7 +236,7 @@ SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double>
         tops.push_back(*top);
     }
     const Point exit = model.path.back();
-    tops.push_back(free_face ? Point{exit.x, height_at(surface, exit.x)} : exit);
+    tops.push_back(free_face ? Point{exit.x, ground_level(surface, exit.x)} : exit);
 
     Heads ends;
     ends.entry = scene.reservoir ? scene.reservoir->level : model.path.front().y;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/planes.hpp"
 #include "scene/scene.hpp"
 #include "scene/uplift_models.hpp"
 #include "scene/water.hpp"
@@ -28,13 +29,6 @@ struct SeamState {
     bool dilates = true;
     DrainState drains = DrainState::effective;
 };
-
-/// The surface on which the rock below and in front of the dam ends: the ground upstream, the base from heel to toe, the ground
-/// downstream. Level at heel and toe unless foundation.ground says more.
-Polyline rock_surface(const Scene& scene);
-
-/// Path of the seam itself, from upstream to downstream, without the plane of a wedge.
-Polyline seam_path(const Scene& scene, const Seam& seam);
 
 /// The chain of a seam and where its numbers come from.
 struct SeamModel {

@@ -117,7 +117,7 @@ void check_lift_places(const Scene& s, Findings& f)
     if (count > 1000.0)
         f.wrong("lifts.spacing", fmt::format("lifts.spacing_m = {} makes {:.0f} lifts.", shortest(*l.spacing), count),
                 "at most 1000", "check the unit, or give a larger spacing");
-    else if (lift_elevations(l, s.section).empty())
+    else if (made_lifts(l, s.section).empty())
         f.wrong("lifts.spacing",
                 fmt::format("lifts.spacing_m = {} leaves no lift inside the section.", shortest(*l.spacing)), inside,
                 "give a smaller spacing, or elevations_m");

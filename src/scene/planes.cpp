@@ -12,18 +12,26 @@ double lowest_lift(const Section& section)
     return std::max(heel(section).y, toe(section).y);
 }
 
-std::vector<double> lift_elevations(const Lifts& lifts, const Section& section)
+std::vector<double> made_lifts(const Lifts& lifts, const Section& section)
 {
     if (!lifts.spacing) return lifts.elevations;
     const double low = lowest_lift(section), high = crest_level(section), step = *lifts.spacing;
-    const double from = lifts.from.value_or(heel(section).y + step), to = lifts.to.value_or(high);
+    const double from = lifts.from.value_or(low + step), to = std::min(lifts.to.value_or(high) + same_level, high - same_level);
     std::vector<double> list;
-    for (int i = 0; list.size() < 1000; ++i) {
-        const double y = from + i * step;
-        if (!(y < high - 1e-9 * high) || y > to + 1e-9 * step) break;
-        if (y > low) list.push_back(y);
-    }
+    for (double y = from; y <= to; y = from + static_cast<double>(list.size()) * step) list.push_back(y);
     return list;
+}
+
+std::vector<double> lift_elevations(const Scene& scene)
+{
+    std::vector<double> all;
+    for (const LiftJoint& joint : scene.lift_joints) all.push_back(joint.elevation);
+    if (scene.lifts)
+        for (const double y : made_lifts(*scene.lifts, scene.section))
+            if (std::none_of(all.begin(), all.end(), [y](double other) { return std::abs(y - other) < same_level; }))
+                all.push_back(y);
+    std::sort(all.begin(), all.end());
+    return all;
 }
 
 double base_level(const Section& section, double x)
@@ -34,9 +42,16 @@ double base_level(const Section& section, double x)
 
 Polyline ground_line(const Scene& scene)
 {
-    if (scene.foundation && !scene.foundation->ground.empty()) return scene.foundation->ground;
-    const Point a = heel(scene.section), b = toe(scene.section);
-    return {{a.x - (b.x - a.x), a.y}, a, b, {b.x + (b.x - a.x), b.y}};
+    const Point first = heel(scene.section), last = toe(scene.section);
+    const Polyline given = scene.foundation ? scene.foundation->ground : Polyline{};
+    Polyline line{first, last};
+    for (const Point p : given)
+        if (p.x > last.x) line.push_back(p);
+    Polyline upstream;
+    for (const Point p : given)
+        if (p.x < first.x) upstream.push_back(p);
+    line.insert(line.begin(), upstream.begin(), upstream.end());
+    return line;
 }
 
 double ground_level(const Polyline& ground, double x)

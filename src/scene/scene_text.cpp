@@ -289,8 +289,34 @@ std::string SceneText::canonical(const std::string& key) const
     return label.empty() ? target->key->canonical() : label + "." + target->key->canonical();
 }
 
+namespace {
+
+/// The strength of the plane that the block slides on; null: that of the base.
+Contact* strength_of_plane(Scene& scene)
+{
+    const std::string& name = scene.planes.slides_on;
+    if (name.empty()) return nullptr;
+    for (Seam& seam : scene.seams)
+        if (seam.name == name) return &seam.strength;
+    for (LiftJoint& joint : scene.lift_joints)
+        if (joint.name == name) return &joint.strength;
+    return scene.lifts ? &scene.lifts->strength : nullptr;
+}
+
+} // namespace
+
 void set_friction(Scene& scene, double friction)
 {
+    if (Contact* strength = strength_of_plane(scene)) {
+        if (!strength->friction_table.empty())
+            refuse_usage(fmt::format("the friction of \"{}\" is given twice, by the command line and by its "
+                                     "friction_table_m.",
+                                     scene.planes.slides_on),
+                         "one of them", "take friction_table_m out of the scene to vary the friction");
+        strength->friction = friction;
+        if (strength->residual_friction) strength->residual_friction = std::min(*strength->residual_friction, friction);
+        return;
+    }
     if (!scene.contact.friction_table.empty())
         refuse_usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
                      "one of them", "take friction_table_m out of the scene to vary the friction");

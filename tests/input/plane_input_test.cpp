@@ -216,7 +216,7 @@ TEST(PlaneInput, LiftsStandAtTheirSpacing)
 {
     const Scene scene = plane_scene("[lifts]\nfriction = 0.8\nspacing_m = 7.5\nto_m = 45\n");
     const std::vector<double> expected{7.5, 15, 22.5, 30, 37.5, 45};
-    EXPECT_EQ(lift_elevations(*scene.lifts, scene.section), expected);
+    EXPECT_EQ(lift_elevations(scene), expected);
 }
 
 } // namespace

@@ -14,7 +14,7 @@ std::vector<std::string> plane_names(const Scene& scene)
 {
     std::vector<std::string> names{base_plane};
     if (scene.lifts)
-        for (const double y : sliding::lift_elevations(scene)) names.push_back(sliding::lift_at(scene, y).name);
+        for (const double y : lift_elevations(scene)) names.push_back(sliding::lift_at(scene, y).name);
     for (const Seam& seam : scene.seams) names.push_back(seam.name);
     return names;
 }
