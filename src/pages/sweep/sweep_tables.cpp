@@ -1,5 +1,6 @@
 #include "pages/sweep/sweep_pages.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
@@ -97,7 +98,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
     if (has_plane_axis(grid.axes))
         all.insert(all.begin() + 1, {{"plane", "plane"}, [](const L& l) {
                                          const std::string& plane = l.axes().plane[l.at.plane];
-                                         return plane.empty() ? base_plane : plane;
+                                         return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
                                      }});
     const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
     if (has_opening_axis(grid.axes))
