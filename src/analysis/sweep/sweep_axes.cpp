@@ -104,7 +104,11 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
 double plane_friction(const Scene& scene, const std::string& plane)
 {
     if (plane.empty() || plane == base_plane) return scene.contact.friction;
-    return plane_model(scene, plane).stages.front().block.friction;
+    for (const Seam& seam : scene.seams)
+        if (seam.name == plane) return seam.strength.friction;
+    for (const LiftJoint& joint : scene.lift_joints)
+        if (joint.name == plane) return joint.strength.friction;
+    return scene.lifts ? scene.lifts->strength.friction : scene.contact.friction;
 }
 
 Scene with_opening_water(Scene scene, const std::string& opening)

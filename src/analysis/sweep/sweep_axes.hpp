@@ -91,7 +91,7 @@ inline bool has_plane_axis(const Axes& axes)
     return axes.plane.size() != 1 || !axes.plane.front().empty();
 }
 
-/// Peak friction of a plane of the scene by its name; "base" is the base [-]. @throws UsageError for an unknown name
+/// Peak friction of a plane of the scene by its name; "base" is the base [-]. @pre one of plane_names()
 double plane_friction(const Scene& scene, const std::string& plane);
 
 /// The scene with another water level [m], uplift model and water model, words as typed, then another size.

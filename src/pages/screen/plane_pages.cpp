@@ -130,11 +130,14 @@ Table lift_plane_table(const Planes& planes)
         {{"heel_stress_kPa", "σ up", "kPa", 4}, [](const L& l) { return finite_cell(l.state.heel_stress, kPa); }},
         {{"toe_stress_kPa", "σ down", "kPa", 4}, [](const L& l) { return finite_cell(l.state.toe_stress, kPa); }},
         {{"crack_m", "crack", "m", 4}, [](const L& l) { return l.state.base.crack.length; }},
-        {{"length_m", "length", "m", 4}, [](const L& l) { return l.lift.length; }},
         {{"a_y_m_s2", "a_y", "m/s²", 4}, [](const L& l) { return finite_cell(l.row.yield); }},
         {{"amplification", "Ā", "–", 4}, [](const L& l) { return l.row.amplification; }},
         {{"slip_mm", "slip", "mm", 5}, [](const L& l) { return optional_cell(slip_of(l.row), mm); }}};
     columns.insert(columns.end(), rest.begin(), rest.end());
+    const bool weakens = std::any_of(lifts.begin(), lifts.end(), [](const L& l) {
+        return std::isfinite(l.state.factor) && l.state.factor_residual != l.state.factor;
+    });
+    std::erase_if(columns, [&](const ColumnOf<L>& c) { return c.column.key == "factor_residual" && !weakens; });
     std::erase_if(columns, [&](const ColumnOf<L>& c) { // the names say the elevation
         return c.column.key == "lift" && std::all_of(lifts.begin(), lifts.end(), [](const L& l) {
                    return l.row.name.starts_with("lift at ");
