@@ -224,7 +224,7 @@ void check_path(const SeamPlace& p)
             const bool under = q.x >= 0.0 && q.x <= p.toe_x();
             return p.wrong(p.where(),
                            fmt::format("{} lies above the {} at {}: that is at {:.6g} m there.", p.label,
-                                       under ? "base" : "ground", point_text(q), level),
+                                       under ? "base" : "ground", point_text(q), level + 0.0), // never -0
                            fmt::format("a path below the {}", under ? "base" : "ground"),
                            seam.depth ? "give a larger depth_m, or another dip_deg" : "lower the point");
         }

@@ -11,12 +11,12 @@ namespace {
 
 using namespace damslip;
 
-const std::string dam_text = "[section]\nheight_m = 60\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.77\n";
-const std::string rock_text = "[foundation]\nyoung_modulus_GPa = 20\ndensity_kg_m3 = 2650\n";
+const std::string plane_dam = "[section]\nheight_m = 60\nbase_m = 45\n[dam]\ndensity_kg_m3 = 2500\n[contact]\nfriction = 0.77\n";
+const std::string plane_rock = "[foundation]\nyoung_modulus_GPa = 20\ndensity_kg_m3 = 2650\n";
 
 Scene plane_scene(const std::string& more)
 {
-    return parse_scene(dam_text + more, "dam.toml", FileCheck::skip);
+    return parse_scene(plane_dam + more, "dam.toml", FileCheck::skip);
 }
 
 std::string plane_message(const std::string& more)
@@ -36,10 +36,10 @@ std::string lifts_message(const std::string& keys)
 
 std::string seam_message(const std::string& keys)
 {
-    return plane_message(rock_text + "[[seam]]\nfriction = 0.5\n" + keys);
+    return plane_message(plane_rock + "[[seam]]\nfriction = 0.5\n" + keys);
 }
 
-bool has(const std::string& text, const std::string& part)
+bool says(const std::string& text, const std::string& part)
 {
     return text.find(part) != std::string::npos;
 }
@@ -50,12 +50,12 @@ TEST(PlaneInput, LiftsLieInsideTheSection)
               "dam.toml:10:1: error: lifts.elevations_m: 61 m at place 2 is outside the section.\n"
               "  expected: above the base at 0 m and below the crest at 60 m\n"
               "  fix:      move the lift, or delete it");
-    EXPECT_TRUE(has(lifts_message("elevations_m = [0]\n"), "lifts.elevations_m: 0 m at place 1 is outside"));
-    EXPECT_TRUE(has(lifts_message("elevations_m = [6, 3]\n"), "has 3 at place 2, not above 6."));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\nto_m = 70\n"), "lifts.to_m = 70 is outside the section."));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 80\n"), "lifts.spacing_m = 80 leaves no lift inside the section."));
-    EXPECT_TRUE(has(lifts_message("spacing_mm = 3\n"), "makes 20000 lifts."));
-    EXPECT_TRUE(has(lifts_message("elevations_m = 3\n"), "a list of numbers [a, b, ...]"));
+    EXPECT_TRUE(says(lifts_message("elevations_m = [0]\n"), "lifts.elevations_m: 0 m at place 1 is outside"));
+    EXPECT_TRUE(says(lifts_message("elevations_m = [6, 3]\n"), "has 3 at place 2, not above 6."));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\nto_m = 70\n"), "lifts.to_m = 70 is outside the section."));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 80\n"), "lifts.spacing_m = 80 leaves no lift inside the section."));
+    EXPECT_TRUE(says(lifts_message("spacing_mm = 3\n"), "makes 20000 lifts."));
+    EXPECT_TRUE(says(lifts_message("elevations_m = 3\n"), "a list of numbers [a, b, ...]"));
     EXPECT_EQ(lifts_message("spacing_m = 3\n"), "(accepted)");
 }
 
@@ -65,8 +65,8 @@ TEST(PlaneInput, LiftsSayWhereTheyAreOnce)
               "dam.toml:8:1: error: [lifts] has neither spacing_m nor elevations_m.\n"
               "  expected: one of the two\n"
               "  fix:      add  spacing_m = 3  to [lifts]");
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\nelevations_m = [3]\n"), "spacing_m and lifts.elevations_m are both given."));
-    EXPECT_TRUE(has(plane_message("[lifts]\nspacing_m = 3\n"), "lifts.friction is missing."));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\nelevations_m = [3]\n"), "spacing_m and lifts.elevations_m are both given."));
+    EXPECT_TRUE(says(plane_message("[lifts]\nspacing_m = 3\n"), "lifts.friction is missing."));
 }
 
 TEST(PlaneInput, BondedLiftsHaveBothStrengths)
@@ -76,17 +76,17 @@ TEST(PlaneInput, BondedLiftsHaveBothStrengths)
               "= 0.\n"
               "  expected: both above 0 for bonded lifts\n"
               "  fix:      add  tensile_strength_kPa = 500  to [lifts], or write  bond = \"jointed\"");
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\ncohesion_MPa = 0.5\n"), "lifts.cohesion_kPa = 500 with lifts.bond = \"jointed\""));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\ncohesion_MPa = 0.5\n"), "lifts.cohesion_kPa = 500 with lifts.bond = \"jointed\""));
     EXPECT_EQ(lifts_message("spacing_m = 3\nbond = \"bonded\"\ncohesion_kPa = 500\ntensile_strength_kPa = 400\n"), "(accepted)");
 }
 
 TEST(PlaneInput, LiftWaterAndAmplificationHaveTheirKeys)
 {
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\nuplift = \"drains\"\n"), "fix:      add  drains_distance_m = 3  to [lifts]"));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\ndrains_distance_m = 3\n"), "lifts.uplift is not \"drains\""));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\namplification = \"power\"\n"), "without lifts.crest_amplification"));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\namplification = \"points\"\n"), "without lifts.amplification_points_m"));
-    EXPECT_TRUE(has(lifts_message("spacing_m = 3\namplification = \"points\"\namplification_points_m = [[0, 1], [0, 2]]\n"),
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\nuplift = \"drains\"\n"), "fix:      add  drains_distance_m = 3  to [lifts]"));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\ndrains_distance_m = 3\n"), "lifts.uplift is not \"drains\""));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\namplification = \"power\"\n"), "without lifts.crest_amplification"));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\namplification = \"points\"\n"), "without lifts.amplification_points_m"));
+    EXPECT_TRUE(says(lifts_message("spacing_m = 3\namplification = \"points\"\namplification_points_m = [[0, 1], [0, 2]]\n"),
                     "has the height 0 at place 2."));
 }
 
@@ -97,18 +97,18 @@ TEST(PlaneInput, SeamNeedsRockThatWeighs)
               "there.\n"
               "  expected: the density of saturated rock: 1900 ... 3100 kg/m3 is usual\n"
               "  fix:      add  [foundation]  with young_modulus_GPa = 20  and  density_kg_m3 = 2650");
-    EXPECT_TRUE(has(plane_message("[foundation]\nyoung_modulus_GPa = 20\n[[seam]]\nfriction = 0.5\ndepth_m = 8\nexit = \"free-face\"\n"),
+    EXPECT_TRUE(says(plane_message("[foundation]\nyoung_modulus_GPa = 20\n[[seam]]\nfriction = 0.5\ndepth_m = 8\nexit = \"free-face\"\n"),
                     "fix:      add  density_kg_m3 = 2650  to [foundation]"));
 }
 
 TEST(PlaneInput, SeamHasOnePath)
 {
-    EXPECT_TRUE(has(seam_message(""), "seam[1] has neither points_m nor depth_m."));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\npoints_m = [[0, -8], [45, -8]]\n"), "seam[1].points_m and seam[1].depth_m are both given."));
-    EXPECT_TRUE(has(seam_message("points_m = [[0, -8], [0, -9]]\n"), "has x = 0 at place 2, not downstream of 0."));
-    EXPECT_TRUE(has(seam_message("points_m = [[0, -8], [30, -8]]\n"), "ends at x = 30, under the dam."));
-    EXPECT_TRUE(has(seam_message("points_m = [[-3, -8], [45, -8]]\n"), "comes down at x = 0."));
-    EXPECT_TRUE(has(seam_message("heel = \"floor\"\npoints_m = [[-20, -1], [45, -8]]\n"), "the reservoir floor is at 0 m there."));
+    EXPECT_TRUE(says(seam_message(""), "seam[1] has neither points_m nor depth_m."));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\npoints_m = [[0, -8], [45, -8]]\n"), "seam[1].points_m and seam[1].depth_m are both given."));
+    EXPECT_TRUE(says(seam_message("points_m = [[0, -8], [0, -9]]\n"), "has x = 0 at place 2, not downstream of 0."));
+    EXPECT_TRUE(says(seam_message("points_m = [[0, -8], [30, -8]]\n"), "ends at x = 30, under the dam."));
+    EXPECT_TRUE(says(seam_message("points_m = [[-3, -8], [45, -8]]\n"), "comes down at x = 0."));
+    EXPECT_TRUE(says(seam_message("heel = \"floor\"\npoints_m = [[-20, -1], [45, -8]]\n"), "the reservoir floor is at 0 m there."));
 }
 
 TEST(PlaneInput, SeamLiesBelowBaseAndGround)
@@ -117,7 +117,7 @@ TEST(PlaneInput, SeamLiesBelowBaseAndGround)
               "dam.toml:13:1: error: seam[1] lies above the base at (40, 2): that is at 0 m there.\n"
               "  expected: a path below the base\n"
               "  fix:      lower the point");
-    EXPECT_TRUE(has(seam_message("points_m = [[0, -8], [60, 2]]\n"), "lies above the ground at (60, 2): that is at 0 m there."));
+    EXPECT_TRUE(says(seam_message("points_m = [[0, -8], [60, 2]]\n"), "lies above the ground at (60, 2): that is at 0 m there."));
 }
 
 TEST(PlaneInput, SeamDoesNotCutTheDam)
@@ -129,7 +129,7 @@ TEST(PlaneInput, SeamDoesNotCutTheDam)
               "most 17.7447\n"
               "  fix:      write  angle_deg = 17.7  in [seam.interface], or straighten the seam under the dam");
     EXPECT_EQ(seam_message("points_m = [[0, -8], [20, -8], [60, 0]]\n[seam.interface]\nangle_deg = 17.7\n"), "(accepted)");
-    EXPECT_TRUE(has(seam_message("depth_m = 8\n[seam.wedge]\nfriction_deg = 40\nangle_deg = 25\n[seam.interface]\nangle_deg = 120\n"),
+    EXPECT_TRUE(says(seam_message("depth_m = 8\n[seam.wedge]\nfriction_deg = 40\nangle_deg = 25\n[seam.interface]\nangle_deg = 120\n"),
                     "bends under the dam, at (45, -8)"));
 }
 
@@ -141,8 +141,8 @@ TEST(PlaneInput, SeamHasAnExit)
               "  fix:      add  [seam.wedge]  with its friction, write  exit = \"free-face\" , or extend points_m to the ground");
     EXPECT_EQ(seam_message("depth_m = 8\nexit = \"free-face\"\n"), "(accepted)");
     EXPECT_EQ(seam_message("depth_m = 8\ndip_deg = -5\n"), "(accepted)"); // it rises to the ground, 46 m below the toe
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"wedge\"\n"), "seam[1].exit = \"wedge\" without [seam.wedge]."));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.wedge]\nfriction = 0.8\n"),
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"wedge\"\n"), "seam[1].exit = \"wedge\" without [seam.wedge]."));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.wedge]\nfriction = 0.8\n"),
                     "seam[1].exit = \"free-face\" with [seam.wedge]."));
 }
 
@@ -154,32 +154,32 @@ TEST(PlaneInput, WedgeIsBelowItsLock)
               "  expected: an angle below 30 deg\n"
               "  fix:      write an angle below 30 deg, or less friction");
     const std::string wedge = "depth_m = 8\n[seam.wedge]\nfriction_deg = 40\n";
-    EXPECT_TRUE(has(seam_message(wedge + "search_deg = [50, 60]\n"), "is beyond the lock"));
-    EXPECT_TRUE(has(seam_message(wedge + "search_deg = [30, 20]\n"), "two angles between 0 and 90, the smaller first"));
-    EXPECT_TRUE(has(seam_message(wedge + "search_deg = [30]\n"), "a list of two numbers [a, b]"));
-    EXPECT_TRUE(has(seam_message(wedge + "angle_deg = 25\nangles_deg = [20, 25]\n"), "are both given"));
+    EXPECT_TRUE(says(seam_message(wedge + "search_deg = [50, 60]\n"), "is beyond the lock"));
+    EXPECT_TRUE(says(seam_message(wedge + "search_deg = [30, 20]\n"), "two angles between 0 and 90, the smaller first"));
+    EXPECT_TRUE(says(seam_message(wedge + "search_deg = [30]\n"), "a list of two numbers [a, b]"));
+    EXPECT_TRUE(says(seam_message(wedge + "angle_deg = 25\nangles_deg = [20, 25]\n"), "are both given"));
     EXPECT_EQ(seam_message(wedge), "(accepted)");
-    EXPECT_TRUE(has(seam_message(wedge + "dilation_deg = 45\n"),
+    EXPECT_TRUE(says(seam_message(wedge + "dilation_deg = 45\n"),
                     "seam[1].wedge.dilation_deg = 45 is above the friction angle, 40 degrees"));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\ndilation_deg = 30\n"), "at most 26.5651 deg"));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\ndilation_deg = 30\n"), "at most 26.5651 deg"));
 }
 
 TEST(PlaneInput, SeamTablesAgree)
 {
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.interface]\nfriction = 0.3\n"), "but its model is \"smooth\""));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.interface]\nmodel = \"friction\"\n"), "without interface.friction"));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\nuplift = \"points\"\n"), "without uplift_points_m"));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\nuplift = \"drains\"\n"), "without [drains]"));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\nname = \"base\"\n"), "two planes are named \"base\""));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\nexit = \"free-face\"\nwedge = 3\n"), "unknown key seam[1].wedge"));
-    EXPECT_TRUE(has(seam_message("depth_m = 8\n[seam.wedge]\nfrction = 0.8\n"), "unknown key seam[1].wedge.frction. Did you mean seam[1].wedge.friction?"));
-    EXPECT_TRUE(has(plane_message("[wedge]\n[[seam]]\nfriction = 0.5\n"), "[seam] has no place in a scene of a [wedge]."));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.interface]\nfriction = 0.3\n"), "but its model is \"smooth\""));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\n[seam.interface]\nmodel = \"friction\"\n"), "without interface.friction"));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\nuplift = \"points\"\n"), "without uplift_points_m"));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\nuplift = \"drains\"\n"), "without [drains]"));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\nname = \"base\"\n"), "two planes are named \"base\""));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\nexit = \"free-face\"\nwedge = 3\n"), "unknown key seam[1].wedge"));
+    EXPECT_TRUE(says(seam_message("depth_m = 8\n[seam.wedge]\nfrction = 0.8\n"), "unknown key seam[1].wedge.frction. Did you mean seam[1].wedge.friction?"));
+    EXPECT_TRUE(says(plane_message("[wedge]\n[[seam]]\nfriction = 0.5\n"), "[seam] has no place in a scene of a [wedge]."));
 }
 
 /// Resolved scenes and the keys of other programs know the tables inside a seam.
 TEST(PlaneInput, TablesInsideSeamsAreWrittenAndSet)
 {
-    const std::string text = dam_text + rock_text +
+    const std::string text = plane_dam + plane_rock +
                              "ground_m = [[-10, 0], [0, 0], [45, 0], [80, 3]]\n"
                              "[lifts]\nfriction = 0.8\nelevations_ft = [10, 20]\n"
                              "[[seam]]\nname = \"clay\"\nfriction = 0.5\ndepth_m = 8\n"
