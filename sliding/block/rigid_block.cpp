@@ -55,7 +55,7 @@ BaseEquations base_equations(const RigidBlock& block)
     e.drive = {c * block.horizontal_force + s * weight, tAx, -tAy};
     e.normal = {c * weight - s * block.horizontal_force - block.uplift, -nAx, nAy};
     // t.t = 1, t.n = 0 and n.n = 1 are put in by hand: the block's own mass leaves no round-off in the products.
-    e.mass_tt = block.mass + c * c * w.xx - 2.0 * c * s * w.xy + s * s * w.yy;
+    e.mass_tt = block.mass + c * c * w.xx - 2.0 * c * s * w.xy + s * s * w.yy + block.chain_mass;
     e.mass_tn = c * s * (w.xx - w.yy) + (c * c - s * s) * w.xy;
     e.mass_nn = block.mass + s * s * w.xx + 2.0 * c * s * w.xy + c * c * w.yy;
     return e;

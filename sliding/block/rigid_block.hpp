@@ -77,6 +77,7 @@ struct AddedMassTensor {
 struct RigidBlock {
     double mass = 0.0;          ///< m [kg/m]
     AddedMassTensor added_mass; ///< moves with the block [kg/m]
+    double chain_mass = 0.0;    ///< resists along the base but is not driven by the ground: M* - H of a chain of blocks [kg/m]
     double gravity = 9.81;      ///< of the site [m/s^2]; the weight is mass * gravity
     double vertical_force =
         0.0; ///< static, downward, besides the weight: water on sloping faces, silt, user forces, anchors [N/m]

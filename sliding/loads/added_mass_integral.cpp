@@ -50,11 +50,14 @@ Moments integrate(Function f)
 
 /// One straight piece, from its end nearer to the surface to the other.
 void add_piece(const AddedMass& method, const WaterColumn& water, Point upper, Point lower, Point normal, double phi,
-               AddedMassIntegral& sum)
+               const std::function<double(double)>& share, AddedMassIntegral& sum)
 {
     const double length = std::hypot(lower.x - upper.x, lower.y - upper.y);
     const double z0 = water.depth - upper.y, dz = upper.y - lower.y;
-    const Moments m = integrate([&](double w) { return added_mass_per_area(method, water, z0 + w * dz, phi); });
+    const Moments m = integrate([&](double w) {
+        const double own = added_mass_per_area(method, water, z0 + w * dz, phi);
+        return share ? own * share(upper.y - w * dz) : own;
+    });
     const double mass = length * m.zeroth;
     const double x = length * (upper.x * m.zeroth + (lower.x - upper.x) * m.first); // integral of m x dS
     const double y = length * (upper.y * m.zeroth + (lower.y - upper.y) * m.first);
@@ -90,7 +93,8 @@ Point at_height(Point a, Point b, double y)
 
 } // namespace
 
-AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColumn& water, const Polyline& upstream_face)
+AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColumn& water, const Polyline& upstream_face,
+                                       const std::function<double(double)>& share)
 {
     AddedMassIntegral sum;
     if (!(water.depth > 0.0)) return sum;
@@ -101,7 +105,7 @@ AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColum
         if (length == 0.0 || lower.y >= water.depth || upper.y < 0.0) continue;
         if (upper.y > water.depth) upper = at_height(a, b, water.depth);
         if (lower.y < 0.0) lower = at_height(a, b, 0.0);
-        add_piece(method, water, upper, lower, {dy / length, -dx / length}, std::atan2(dx, dy), sum);
+        add_piece(method, water, upper, lower, {dy / length, -dx / length}, std::atan2(dx, dy), share, sum);
     }
     return sum;
 }

@@ -4,6 +4,7 @@
 #include "sliding/loads/added_mass.hpp"
 #include "sliding/loads/static_loads.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace damslip::sliding {
@@ -26,8 +27,10 @@ struct AddedMassIntegral {
 /// Integrated to 1e-13 relative (tanh-sinh rule in depth on every straight piece, which takes the root at the surface).
 /// The upstream face only, between the reservoir bottom (the heel's level) and the surface or the crest; kinked faces
 /// use each piece's own angle. The tailwater has no added mass: the theory has none there, its depth is small.
+/// @param share  of the acceleration at a level y over that of the ground; null: the dam moves as one [-]
 AddedMassIntegral integrate_added_mass(const AddedMass& method, const WaterColumn& water,
-                                       const Polyline& upstream_face);
+                                       const Polyline& upstream_face,
+                                       const std::function<double(double)>& share = nullptr);
 
 /// The scene's added mass with the water at `level` above the heel; all zero without a reservoir, for level <= 0 and
 /// for reservoir.model = "hydrostatic".

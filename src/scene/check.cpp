@@ -24,6 +24,7 @@ void check_consistency(const Scene& scene, Findings& findings, FileCheck files)
     checks::check_strength(scene.contact, "contact", findings);
     checks::check_lift_joints(scene, findings);
     checks::check_joint(scene, findings);
+    checks::check_planes(scene, findings);
     checks::check_anchors(scene, findings);
     checks::check_water(scene, findings);
     checks::check_motion(scene, findings, files);

@@ -66,6 +66,9 @@ void check_mesh_file(const Scene& s, Findings& f, FileCheck files);
 /// Anchors in their joints, and what they cannot go with.
 void check_anchors(const Scene& s, Findings& f);
 
+/// Lifts through the dam and seams below it.
+void check_planes(const Scene& s, Findings& f);
+
 /// Mesh, damping and time integration.
 void check_fe(const Scene& s, Findings& f);
 

@@ -17,6 +17,7 @@ std::vector<EffectRow> joint_effects();
 std::vector<EffectRow> anchor_effects();
 std::vector<EffectRow> opening_water_effects();
 std::vector<EffectRow> rate_effects();
+std::vector<EffectRow> plane_effects();
 
 std::span<const EffectRow> effect_rows()
 {
@@ -34,6 +35,7 @@ std::span<const EffectRow> effect_rows()
                  anchor_effects,
                  opening_water_effects,
                  rate_effects,
+                 plane_effects,
              })
             for (EffectRow& row : topic()) {
                 assert(!row.named || *row.named == Effect(all.size()));

@@ -18,10 +18,11 @@ bool EffectPlan::on(Effect effect) const
 EffectPlan make_effect_plan(const Scene& scene, Method method)
 {
     EffectPlan plan{method, {}, {}};
-    for (const EffectRow& row : effect_rows()) {
-        const Decision d =
-            scene.wedge ? decide_of_wedge(Effect(plan.effects.size()), scene) : row.decide(scene, method);
-        plan.effects.push_back({Effect(plan.effects.size()), row.name, d.on, d.reason, d.on ? d.cost : ""});
+    const std::span<const EffectRow> rows = effect_rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].concerns && !rows[i].concerns(scene)) continue;
+        const Decision d = scene.wedge ? decide_of_wedge(Effect(i), scene) : rows[i].decide(scene, method);
+        plan.effects.push_back({Effect(i), rows[i].name, d.on, d.reason, d.on ? d.cost : ""});
     }
     return plan;
 }

@@ -65,7 +65,7 @@ struct PlannedEffect {
 /// assembled or stored.
 struct EffectPlan {
     Method method = Method::rigid_block;
-    std::vector<PlannedEffect> effects; ///< all effects, in the order of effect_rows()
+    std::vector<PlannedEffect> effects; ///< all that concern the scene, in the order of effect_rows()
     std::string scene_hash = {}; ///< of the scene that a command was given, before anything was chosen for it (prepare)
 
     bool on(Effect effect) const;
@@ -112,6 +112,8 @@ struct EffectRow {
     Effect (*part_of)(const EffectPlan&) = nullptr;
     /// The enumerator, for effects the program asks for by name.
     std::optional<Effect> named = {};
+    /// Has the scene what the effect belongs to? Plans of other scenes do not list it. null: every plan does.
+    bool (*concerns)(const Scene&) = nullptr;
 };
 
 /// All rows; the place of a row is the value of its Effect.

@@ -96,6 +96,11 @@ std::vector<std::string> Key::spellings() const
     return names;
 }
 
+std::string list_of(const KeyGroup& group)
+{
+    return group.inside ? group.name.substr(0, group.name.find('.')) : group.name;
+}
+
 bool belongs_to_wedge(const std::string& group)
 {
     static const std::set<std::string> tables{

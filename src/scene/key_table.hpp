@@ -69,10 +69,21 @@ struct NumberOrWord {
     std::string word;
 };
 
+/// A list of numbers, or the one number of a list.
+struct Numbers {
+    std::vector<double>* list;
+    bool one = false; ///< written as a number: angle_deg = 25 beside angles_deg = [20, 25]
+};
+
+/// The ends of a range: search_deg = [10, 60].
+struct Ends {
+    double *from, *to;
+};
+
 /// Where the value of a key lives in its struct.
 using Slot = std::variant<double*, std::optional<double>*, int*, std::optional<int>*, bool*, std::string*,
                           std::optional<std::string>*, std::filesystem::path*, std::optional<std::filesystem::path>*,
-                          std::vector<Point>*, std::vector<std::string>*, Choice, NumberOrWord>;
+                          std::vector<Point>*, std::vector<std::string>*, Choice, NumberOrWord, Numbers, Ends>;
 
 struct Key {
     std::string name;   ///< without unit suffix
@@ -103,7 +114,15 @@ struct KeyGroup {
     std::vector<Key> keys;
     std::function<void*(Scene&)> open; ///< makes the struct (a new item for lists) and returns it
     std::function<std::vector<const void*>(const Scene&)> items; ///< those present, for writing
+    /// Of a table in an entry of a list, as [seam.wedge]: the struct inside the entry, made where `make` says so; null:
+    /// it is not there.
+    std::function<void*(void* entry, bool make)> inside = {};
+
+    bool in_list() const { return presence == Presence::list || inside; }
 };
+
+/// The name of the list that a table with `inside` belongs to: "seam" of "seam.wedge"; of another table its own.
+std::string list_of(const KeyGroup& group);
 
 /// What [section] may say; turned into the polygon of Scene::section after reading.
 struct SectionInput {
@@ -148,6 +167,23 @@ template <class T, class Member>
 std::function<Slot(void*)> at(Member T::*member)
 {
     return [member](void* object) -> Slot { return &(static_cast<T*>(object)->*member); };
+}
+
+/// A member of a member of the object a table fills.
+template <class T, class Part, class Member>
+std::function<Slot(void*)> in(Part T::*part, Member Part::*member)
+{
+    return [part, member](void* object) -> Slot { return &(static_cast<T*>(object)->*part.*member); };
+}
+
+/// A key that resolved scenes hold only where its law is there.
+template <class T>
+Key only_where(std::function<bool(const T&)> applies, Key key)
+{
+    key.applies = [applies = std::move(applies)](const void* object) {
+        return applies(*static_cast<const T*>(object));
+    };
+    return key;
 }
 
 template <class T, class Enum>
@@ -232,6 +268,25 @@ KeyGroup list_group(std::string name, std::string meaning, List list, std::vecto
                 for (const T& item : list(const_cast<Scene&>(s))) items.push_back(&item);
                 return items;
             }};
+}
+
+/// A table inside each entry of a list. @param inside  as KeyGroup::inside
+template <class T, class List>
+KeyGroup inner_group(std::string name, std::string meaning, List list, std::function<void*(void*, bool)> inside,
+                     std::vector<Key> keys)
+{
+    return {std::move(name),
+            Presence::optional,
+            std::move(meaning),
+            std::move(keys),
+            [list, inside](Scene& s) { return inside(&list(s).emplace_back(), true); },
+            [list, inside](const Scene& s) {
+                std::vector<const void*> items;
+                for (T& item : list(const_cast<Scene&>(s)))
+                    if (const void* there = inside(&item, false)) items.push_back(there);
+                return items;
+            },
+            inside};
 }
 
 } // namespace damslip::keys

@@ -143,6 +143,8 @@ constexpr std::array rows{
     Row{"contact.relaxation_time", rigid | fe}, Row{"contact.relaxation_slip", rigid | fe},
     Row{"contact.restitution", rigid | fe},
     Row{"lift_joint", fe}, Row{"lift_joint.elevation", fe | tied},
+    Row{"lifts", rigid}, Row{"lifts.active", 0}, Row{"seam", rigid}, Row{"seam.wedge", rigid}, Row{"seam.interface", rigid},
+    Row{"planes", rigid},
     Row{"anchor", rigid | fe}, Row{"anchor.distance", equilibrium | spectrum | fe},
     Row{"anchor.prestress", rigid | equilibrium | regressions | spectrum | fe},
     Row{"anchor.inclination", rigid | equilibrium | regressions | spectrum | fe},
@@ -154,7 +156,7 @@ constexpr std::array rows{
     Row{"uplift.water_viscosity", fe}, Row{"uplift.cavitation_pressure", fe}, Row{"uplift.wet_end", fe},
     Row{"curtain", statics}, Row{"curtain.young_modulus", model}, Row{"curtain.poisson_ratio", model},
     Row{"drains", statics}, Row{"drains.lost_at_slip", blocks | fe},
-    Row{"foundation", model}, Row{"foundation.density", finite_elements}, Row{"foundation.mass", finite_elements},
+    Row{"foundation", model}, Row{"foundation.density", rigid | finite_elements}, Row{"foundation.ground", rigid}, Row{"foundation.mass", finite_elements},
     Row{"foundation.boundary", fe}, Row{"foundation.wave_box", finite_elements},
     Row{"foundation.wave_frequency", finite_elements}, Row{"foundation.permeability", statics},
     Row{"reservoir", fe | modes}, Row{"reservoir.level", all}, Row{"reservoir.density", all}, Row{"reservoir.model", all},
@@ -221,6 +223,11 @@ const std::array left_out{
                        s.added_mass.formula == AddedMassFormula::westergaard;
             },
             "it has no period; its water is incompressible"},
+    LeftOut{finite_elements, "[lifts]", [](const Scene& s) { return s.lifts.has_value(); },
+            "their dam is tied there; write each lift that may slide as a [[lift_joint]]"},
+    LeftOut{finite_elements, "[[seam]]", [](const Scene& s) { return !s.seams.empty(); },
+            "their rock has no joint in it; `screen` and `sweep --plane` follow the seam"},
+    LeftOut{regressions, "[[seam]]", [](const Scene& s) { return !s.seams.empty(); }, nullptr},
     LeftOut{finite_elements, "uplift.crack",
             [](const Scene& s) {
                 return s.uplift && s.uplift->crack != CrackRule::none &&

@@ -4,6 +4,7 @@
 #include "scene/scene.hpp"
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,26 @@ KeyGroup combination_group();
 
 /// Keys of [contact]; those of the strength are keys of every lift joint too.
 std::vector<Key> lift_joint_keys(const std::vector<Key>& contact);
+
+/// Keys of [contact] as keys of a table whose struct has a strength of its own.
+template <class T>
+std::vector<Key> strength_keys(const std::vector<Key>& contact, Contact T::*strength, const std::set<std::string>& names)
+{
+    std::vector<Key> keys;
+    for (Key key : contact) {
+        if (!names.contains(key.name)) continue;
+        key.slot = [slot = key.slot, strength](void* object) { return slot(&(static_cast<T*>(object)->*strength)); };
+        if (key.applies)
+            key.applies = [applies = key.applies, strength](const void* object) {
+                return applies(&(static_cast<const T*>(object)->*strength));
+            };
+        keys.push_back(std::move(key));
+    }
+    return keys;
+}
+
+/// [lifts], [[seam]] with the tables inside it, [planes]. @param contact  keys of [contact]
+std::vector<KeyGroup> plane_groups(const std::vector<Key>& contact);
 
 /// How the uplift in a base crack follows from the water: words of uplift.crack and combination.crack.
 const std::vector<std::pair<std::string, CrackRule>>& crack_rules();

@@ -229,7 +229,12 @@ std::vector<KeyGroup> base_groups()
          number("depth", length, Range::above(0), "2.2222 x base", "of the rock box below the heel", "100",
                 at(&Foundation::depth)),
          number("permeability", conductivity, Range::above(0), "1e-4", "hydraulic conductivity", "1e-4",
-                at(&Foundation::permeability))}));
+                at(&Foundation::permeability)),
+         pairs("ground", length, length, Range::any(), "level at heel and toe",
+               "surface of the rock up- and downstream of the dam, for the planes of [[seam]]: x downstream of the heel, y "
+               "above it, from upstream to downstream; between heel and toe the base takes its place",
+               "[[-100, 0], [0, 0], [45, 0], [80, 4]]", at(&Foundation::ground))}));
+    for (KeyGroup& planes : plane_groups(groups.front().keys)) groups.push_back(std::move(planes));
     return groups;
 }
 
@@ -241,13 +246,6 @@ const Units velocity{{"m_s", 1.0}, {"mm_s", 1e-3}};
 const Units viscosity{{"Pa_s", 1.0}, {"mPa_s", 1e-3}};
 const Units pressure{{"kPa", 1e3}, {"MPa", 1e6}, {"Pa", 1.0}};
 
-/// A member of a member of the object a table fills.
-template <class T, class Part, class Member>
-std::function<Slot(void*)> in(Part T::*part, Member Part::*member)
-{
-    return [part, member](void* object) -> Slot { return &(static_cast<T*>(object)->*part.*member); };
-}
-
 /// The same for an enumeration.
 template <class T, class Part, class Enum>
 std::function<Slot(void*)> choice_in(Part T::*part, Enum Part::*member, std::vector<std::pair<std::string, Enum>> words)
@@ -255,16 +253,6 @@ std::function<Slot(void*)> choice_in(Part T::*part, Enum Part::*member, std::vec
     return [part, slot = choice(member, std::move(words))](void* object) {
         return slot(&(static_cast<T*>(object)->*part));
     };
-}
-
-/// A key that resolved scenes hold only where its law is there.
-template <class T>
-Key only_where(std::function<bool(const T&)> applies, Key key)
-{
-    key.applies = [applies = std::move(applies)](const void* object) {
-        return applies(*static_cast<const T*>(object));
-    };
-    return key;
 }
 
 bool bonded(const Contact& c)
@@ -401,20 +389,6 @@ KeyGroup anchor_group()
                                                                           {"yield", AnchorForceRule::yield}}))});
 }
 
-namespace {
-
-/// A key of the contact strength as a key of the lift joint that has it.
-Key of_joint(Key key)
-{
-    const auto strength = [](const void* joint) { return &static_cast<const LiftJoint*>(joint)->strength; };
-    key.slot = [slot = key.slot, strength](void* joint) { return slot(const_cast<Contact*>(strength(joint))); };
-    if (key.applies)
-        key.applies = [applies = key.applies, strength](const void* joint) { return applies(strength(joint)); };
-    return key;
-}
-
-} // namespace
-
 std::vector<Key> lift_joint_keys(const std::vector<Key>& contact)
 {
     using J = LiftJoint;
@@ -437,8 +411,7 @@ std::vector<Key> lift_joint_keys(const std::vector<Key>& contact)
     std::vector<Key> keys{word("name", "lift joint and its number", "name in the tables", "\"neck\"", at(&J::name)),
                           number("elevation", length, Range::any(), "required", "of the joint above the heel", "51.5",
                                  at(&J::elevation))};
-    for (const Key& key : contact)
-        if (of_strength.contains(key.name)) keys.push_back(of_joint(key));
+    for (Key& key : strength_keys(contact, &J::strength, of_strength)) keys.push_back(std::move(key));
     keys.push_back(word(
         "water", "none",
         "water in the joint, open or not: none, or linear from the head of the reservoir at the upstream face to that "

@@ -232,6 +232,17 @@ private:
             read_pairs(key, unit, spelling, node, **points);
         } else if (auto* const* list = std::get_if<std::vector<std::string>*>(&slot)) {
             read_texts(key, spelling, node, **list);
+        } else if (const auto* numbers = std::get_if<Numbers>(&slot)) {
+            if (numbers->one) {
+                if (const auto v = number_of(key, unit, spelling, node)) *numbers->list = {*v};
+            } else if (auto values = read_numbers(key, unit, spelling, node)) {
+                *numbers->list = std::move(*values);
+            }
+        } else if (const auto* ends = std::get_if<Ends>(&slot)) {
+            if (const auto v = read_numbers(key, unit, spelling, node, 2)) {
+                *ends->from = v->front();
+                *ends->to = v->back();
+            }
         } else {
             read_text(key, slot, spelling, node);
         }
@@ -288,6 +299,27 @@ private:
         out = std::move(texts);
     }
 
+    /// @param count  of numbers there must be; 0: any
+    std::optional<std::vector<double>> read_numbers(const Key& key, const UnitSuffix& unit,
+                                                    const std::string& spelling, const toml::node& node,
+                                                    std::size_t count = 0)
+    {
+        const toml::array* list = node.as_array();
+        if (!list || list->empty() || list->size() > 1000 || (count > 0 && list->size() != count)) {
+            not_allowed(key, spelling, node,
+                        fmt::format("a list of {}numbers [a, b{}]: {}", count == 2 ? "two " : "",
+                                    count == 2 ? "" : ", ...", key.meaning));
+            return std::nullopt;
+        }
+        std::vector<double> values;
+        for (const toml::node& item : *list) {
+            const auto v = number_of(key, unit, spelling, item);
+            if (!v) return std::nullopt;
+            values.push_back(*v);
+        }
+        return values;
+    }
+
     void read_pairs(const Key& key, const UnitSuffix& unit, const std::string& spelling, const toml::node& node,
                     std::vector<Point>& out)
     {
@@ -317,10 +349,31 @@ private:
     std::set<std::string> subgroups_;
 };
 
+void wrong_shape_of(const KeyGroup& group, const std::string& label, const toml::node& node, const std::string& header,
+                    Findings& findings)
+{
+    findings.wrong_at(place_of(node.source()), fmt::format("{} = {} is not allowed.", label, value_text(node)),
+                      group.meaning, "write  " + header + "  and its keys below it");
+}
+
+/// A table in an entry of a list: [seam.wedge] of the [[seam]] above it. @param list_label  "seam[1]"
+void read_inside(const KeyGroup& group, const std::string& list_label, const toml::table& entry_table, void* entry,
+                 Findings& findings)
+{
+    const std::string name = group.name.substr(group.name.find('.') + 1), label = list_label + "." + name;
+    const toml::node* node = entry_table.get(name);
+    if (!node) return;
+    const toml::table* table = node->as_table();
+    if (!table) return wrong_shape_of(group, label, *node, "[" + group.name + "]", findings);
+    findings.saw(label, place_of(table->source()));
+    GroupReader(group, label, findings, {}).read(*table, group.inside(entry, true));
+}
+
 /// The nodes of a group: none, one table, or a list of tables.
 void read_group(const KeyGroup& group, const std::vector<KeyGroup>& all, const toml::table& root, Scene& scene,
                 Findings& findings)
 {
+    if (group.inside) return; // read with the entries of its list
     std::set<std::string> subgroups;
     for (const KeyGroup& other : all) {
         const std::string prefix = group.name.empty() ? "" : group.name + ".";
@@ -338,8 +391,7 @@ void read_group(const KeyGroup& group, const std::vector<KeyGroup>& all, const t
     }
     const toml::node_view<const toml::node> view = root.at_path(group.name);
     const auto wrong_shape = [&](const toml::node& node, const std::string& header) {
-        findings.wrong_at(place_of(node.source()), fmt::format("{} = {} is not allowed.", group.name, value_text(node)),
-                          group.meaning, "write  " + header + "  and its keys below it");
+        wrong_shape_of(group, group.name, node, header, findings);
     };
     if (group.presence == Presence::list) {
         if (!view) return;
@@ -355,7 +407,11 @@ void read_group(const KeyGroup& group, const std::vector<KeyGroup>& all, const t
         for (const toml::node& item : *list) {
             const std::string label = fmt::format("{}[{}]", group.name, ++index);
             findings.saw(label, place_of(item.source()));
-            GroupReader(group, label, findings, subgroups).read(*item.as_table(), group.open(scene));
+            void* const entry = group.open(scene);
+            GroupReader(group, label, findings, subgroups).read(*item.as_table(), entry);
+            for (const KeyGroup& inner : all)
+                if (inner.inside && list_of(inner) == group.name)
+                    read_inside(inner, label, *item.as_table(), entry, findings);
         }
         return;
     }

@@ -72,6 +72,16 @@ void fill_defaults(Scene& scene, const Findings& findings)
         if (force.name.empty()) force.name = "force";
     for (std::size_t i = 0; i < scene.lift_joints.size(); ++i)
         if (scene.lift_joints[i].name.empty()) scene.lift_joints[i].name = fmt::format("lift joint {}", i + 1);
+    for (std::size_t i = 0; i < scene.seams.size(); ++i) {
+        Seam& seam = scene.seams[i];
+        const std::string label = fmt::format("seam[{}]", i + 1);
+        if (seam.name.empty()) seam.name = fmt::format("seam {}", i + 1);
+        if (!findings.given(label + ".exit") && seam.wedge) seam.exit = SeamExit::wedge;
+        if (!findings.given(label + ".uplift"))
+            seam.uplift = !seam.uplift_points.empty() ? UpliftModel::points
+                          : scene.drains              ? UpliftModel::drains
+                                                      : UpliftModel::linear;
+    }
     for (std::size_t i = 0; i < scene.anchors.size(); ++i) {
         Anchor& anchor = scene.anchors[i];
         if (anchor.name.empty()) anchor.name = fmt::format("anchor {}", i + 1);

@@ -45,6 +45,7 @@ struct Foundation {
     double width = 0.0;                              ///< of the box, centred on the base [m]
     double depth = 0.0;                              ///< below the heel [m]
     double permeability = 1e-4;                      ///< hydraulic conductivity [m/s]
+    Polyline ground = {}; ///< surface of the rock, from upstream to downstream [m]; empty: level at heel and toe; sliding planes only
 
     // Of the box in which waves travel, with absorbing edges.
     double wave_box = 1.0;                     ///< its size over the automatic one [-]
@@ -199,6 +200,88 @@ struct LiftJoint {
     Contact strength; ///< friction, cohesion, bond, residual values and table only; the members for FE runs keep their
                       ///< defaults, [contact] says them for all planes
     JointWater water = JointWater::none;
+};
+
+enum class LiftUplift { none, linear, drains };
+enum class Amplification {
+    constant, ///< the dam moves as the ground
+    power,    ///< A = 1 + (A_c - 1) (y/H)^n over the height
+    points,   ///< as given
+    modes     ///< natural modes of the tied FE model and the spectrum of each record
+};
+enum class ActiveLifts { adaptive, all, none }; ///< FE: where the strength is nearly reached; all; all tied
+
+/// Horizontal joints through the dam at regular heights, each judged as a sliding plane.
+struct Lifts {
+    std::optional<double> spacing;  ///< from `from` up [m]; in place of `elevations`
+    std::vector<double> elevations; ///< above the heel, from the bottom up [m]
+    std::optional<double> from, to; ///< of the spacing [m]; none: one spacing above the heel, the crest
+    bool bonded = false;            ///< with cohesion and tensile strength; else c = f_t = 0
+    Contact strength;               ///< friction, cohesion, bond and residual values; the rest is that of [contact]
+    LiftUplift uplift = LiftUplift::linear;
+    std::optional<double> drains_distance; ///< from the upstream face [m]
+    double drains_efficiency = 2.0 / 3.0;  ///< E [-]
+    std::optional<double> gallery_level;   ///< above the heel, takes the place of the tailwater when higher [m]
+    double uplift_share = 1.0;             ///< of the area on which the pressure acts [-]
+    Amplification amplification = Amplification::constant;
+    double crest_amplification = 1.0; ///< A_c [-]
+    double exponent = 1.5;            ///< n [-]
+    std::vector<Point> points;        ///< x = above the heel [m], y = A [-]
+    ActiveLifts active = ActiveLifts::adaptive;
+};
+
+enum class SeamHeel {
+    crack, ///< vertical, from the heel down to the seam: full water, no strength
+    floor  ///< the seam itself starts on the reservoir floor
+};
+enum class SeamExit { daylight, wedge, free_face };
+enum class InterfaceModel { smooth, friction };
+
+/// The face between two blocks of a seam, at a kink.
+struct SeamInterface {
+    InterfaceModel model = InterfaceModel::smooth;
+    std::optional<double> angle; ///< from the horizontal, of the upward face [rad]; none: vertical
+    double friction = 0.0;       ///< [-]
+    double cohesion = 0.0;       ///< [Pa]
+    friend bool operator==(const SeamInterface&, const SeamInterface&) = default;
+};
+
+/// The wedge of rock that a dam on a seam pushes up in front of its toe.
+struct SeamWedge {
+    std::vector<double> angles; ///< α, that of its plane above the horizontal: one, or the joint sets to try [rad]; none: searched
+    double search_from = 0.17453292519943295, search_to = 1.0471975511965976; ///< range of the search [rad]
+    double distance = 0.0; ///< of the kink beyond the toe [m]
+    double friction = 0.0; ///< of its plane [-]
+    double cohesion = 0.0; ///< of its plane [Pa]
+    double dilation = 0.0; ///< ψ of its plane [rad]
+};
+
+/// A weak seam in the rock below the dam: its path, and the body of dam and rock that slides on it.
+struct Seam {
+    std::string name;
+    Polyline points;             ///< path from upstream to downstream [m]; empty: `depth` and `dip`
+    std::optional<double> depth; ///< below the heel [m]
+    double dip = 0.0;            ///< downstream [rad]
+    Contact strength;            ///< friction, cohesion, residual values and table; the rest is that of [contact]
+    SeamHeel heel = SeamHeel::crack;
+    SeamExit exit = SeamExit::daylight;
+    UpliftModel uplift = UpliftModel::linear; ///< none, linear, drains, points or seepage: along the path
+    std::vector<Point> uplift_points;         ///< x = distance along the path [m], y = p / p at its entry [-]
+    double dilation = 0.0;                    ///< ψ [rad]
+    std::optional<double> dilation_slip;      ///< slip at which dilation ends [m]; none: never
+    std::optional<SeamWedge> wedge;
+    SeamInterface interface;
+};
+
+enum class PlaneGeometry { small, linear }; ///< linear: the yield grows with the slip as the wedge is pushed up
+enum class PlaneJudgement { factor, slip };  ///< which plane governs: least F over required, or largest slip
+
+/// Of all planes.
+struct PlaneOptions {
+    PlaneGeometry geometry = PlaneGeometry::small;
+    PlaneJudgement governs = PlaneJudgement::slip;
+    /// Name of the seam or lift that the rigid block of the scene slides on; empty: the base. No key: `sweep --plane` sets it.
+    std::string slides_on;
 };
 
 struct RecordFiles {
@@ -403,6 +486,9 @@ struct Scene {
     Material dam;
     Contact contact;
     std::vector<LiftJoint> lift_joints; ///< from the bottom up
+    std::optional<Lifts> lifts;
+    std::vector<Seam> seams;
+    PlaneOptions planes;
     std::vector<Anchor> anchors;
     std::optional<Foundation> foundation;
     std::optional<Curtain> curtain;

@@ -38,7 +38,8 @@ bool settable(const Slot& slot)
     return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot) ||
            std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot) ||
            std::holds_alternative<bool*>(slot) || std::holds_alternative<Choice>(slot) ||
-           std::holds_alternative<NumberOrWord>(slot);
+           std::holds_alternative<NumberOrWord>(slot) ||
+           (std::holds_alternative<Numbers>(slot) && std::get<Numbers>(slot).one);
 }
 
 bool whole(const Slot& slot)
@@ -53,7 +54,7 @@ Slot slot_of(const KeyGroup& group, const Key& key)
     return key.slot(group.open(probe));
 }
 
-/// "lift_joint[crown].friction" -> group "lift_joint", entry "crown", key "friction".
+/// "lift_joint[crown].friction" -> group "lift_joint", entry "crown", key "friction"; "seam[A].wedge.friction" -> "seam.wedge", "A", "friction".
 struct KeyPath {
     std::string group, entry, key;
 };
@@ -64,7 +65,12 @@ KeyPath path_of(const std::string& text)
     const std::size_t dot = listed ? text.find('.', close) : text.rfind('.');
     if (dot == std::string::npos) return {"", "", text};
     KeyPath path{text.substr(0, listed ? open : dot), "", text.substr(dot + 1)};
-    if (listed) path.entry = text.substr(open + 1, close - open - 1);
+    if (!listed) return path;
+    path.entry = text.substr(open + 1, close - open - 1);
+    if (const std::size_t inner = path.key.rfind('.'); inner != std::string::npos) {
+        path.group += "." + path.key.substr(0, inner);
+        path.key.erase(0, inner + 1);
+    }
     return path;
 }
 
@@ -78,7 +84,7 @@ std::optional<Target> find(const std::vector<KeyGroup>& groups, const std::strin
 {
     const KeyPath path = path_of(text);
     for (const KeyGroup& group : groups) {
-        if (group.name != path.group || (group.presence == Presence::list) == path.entry.empty()) continue;
+        if (group.name != path.group || group.in_list() == path.entry.empty()) continue;
         for (const Key& key : group.keys) {
             const std::vector<std::string> names = key.spellings();
             if (std::find(names.begin(), names.end(), path.key) != names.end() && settable(slot_of(group, key)))
@@ -110,11 +116,12 @@ std::string entry_name(const toml::table& entry, std::size_t i)
 toml::table* table_of(toml::table& root, const Target& target)
 {
     const std::string& name = target.group->name;
-    if (target.group->presence == Presence::list) {
-        toml::array* list = root.at_path(name).as_array();
+    if (target.group->in_list()) {
+        toml::array* list = root.at_path(list_of(*target.group)).as_array();
         for (std::size_t i = 0; list && i < list->size(); ++i) {
             toml::table* entry = (*list)[i].as_table();
-            if (entry && (entry_name(*entry, i) == target.entry || std::to_string(i + 1) == target.entry)) return entry;
+            if (entry && (entry_name(*entry, i) == target.entry || std::to_string(i + 1) == target.entry))
+                return target.group->inside ? (*entry)[name.substr(name.find('.') + 1)].as_table() : entry;
         }
         return nullptr;
     }
@@ -239,11 +246,12 @@ std::vector<std::string> SceneText::keys() const
     const bool wedge = tables_->root.contains("wedge");
     for (const KeyGroup& group : tables_->groups) {
         if (wedge && !belongs_to_wedge(group.name)) continue;
-        if (group.presence == Presence::list) {
-            const toml::array* list = tables_->root.at_path(group.name).as_array();
+        if (group.in_list()) {
+            const std::string name = list_of(group), inner = group.inside ? group.name.substr(name.size() + 1) : "";
+            const toml::array* list = tables_->root.at_path(name).as_array();
             for (std::size_t i = 0; list && i < list->size(); ++i)
-                if (const toml::table* entry = (*list)[i].as_table())
-                    add(group, fmt::format("{}[{}]", group.name, entry_name(*entry, i)));
+                if (const toml::table* entry = (*list)[i].as_table(); entry && (inner.empty() || entry->contains(inner)))
+                    add(group, fmt::format("{}[{}]{}{}", name, entry_name(*entry, i), inner.empty() ? "" : ".", inner));
         } else if (group.presence == Presence::always || tables_->root.at_path(group.name)) {
             add(group, group.name);
         }
@@ -267,17 +275,48 @@ std::string SceneText::canonical(const std::string& key) const
     std::string label = target->group->name;
     if (!target->entry.empty()) {
         toml::table root = tables_->root;
-        const toml::table* entry = table_of(root, *target);
-        if (!entry) refuse_key(tables_->file, key, keys());
-        const toml::array* list = root.at_path(target->group->name).as_array();
-        for (std::size_t i = 0; i < list->size(); ++i)
-            if ((*list)[i].as_table() == entry) label += "[" + entry_name(*entry, i) + "]";
+        if (!table_of(root, *target)) refuse_key(tables_->file, key, keys());
+        const std::string name = list_of(*target->group), inner = label.substr(name.size());
+        const toml::array* list = root.at_path(name).as_array();
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            const std::string entry = entry_name(*(*list)[i].as_table(), i);
+            if (entry == target->entry || std::to_string(i + 1) == target->entry) {
+                label = name + "[" + entry + "]" + inner;
+                break;
+            }
+        }
     }
     return label.empty() ? target->key->canonical() : label + "." + target->key->canonical();
 }
 
+namespace {
+
+/// The strength of the plane that the block slides on; null: that of the base.
+Contact* strength_of_plane(Scene& scene)
+{
+    const std::string& name = scene.planes.slides_on;
+    if (name.empty()) return nullptr;
+    for (Seam& seam : scene.seams)
+        if (seam.name == name) return &seam.strength;
+    for (LiftJoint& joint : scene.lift_joints)
+        if (joint.name == name) return &joint.strength;
+    return scene.lifts ? &scene.lifts->strength : nullptr;
+}
+
+} // namespace
+
 void set_friction(Scene& scene, double friction)
 {
+    if (Contact* strength = strength_of_plane(scene)) {
+        if (!strength->friction_table.empty())
+            refuse_usage(fmt::format("the friction of \"{}\" is given twice, by the command line and by its "
+                                     "friction_table_m.",
+                                     scene.planes.slides_on),
+                         "one of them", "take friction_table_m out of the scene to vary the friction");
+        strength->friction = friction;
+        if (strength->residual_friction) strength->residual_friction = std::min(*strength->residual_friction, friction);
+        return;
+    }
     if (!scene.contact.friction_table.empty())
         refuse_usage("the friction is given twice, by the command line and by contact.friction_table_m of the scene.",
                      "one of them", "take friction_table_m out of the scene to vary the friction");
@@ -305,7 +344,8 @@ using Json = nlohmann::ordered_json;
 bool is_number(const Slot& slot)
 {
     return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot) ||
-           std::holds_alternative<NumberOrWord>(slot);
+           std::holds_alternative<NumberOrWord>(slot) ||
+           (std::holds_alternative<Numbers>(slot) && std::get<Numbers>(slot).one);
 }
 
 Json number_schema(const Range& range, double canonical_to_unit)
@@ -332,6 +372,13 @@ Json value_schema(const Key& key, const UnitSuffix& unit, const Slot& slot)
         Json j = unit.tangent ? number_schema(degrees, 1.0)
                               : number_schema(key.range, key.units.front().factor / unit.factor);
         if (const auto* either = std::get_if<NumberOrWord>(&slot)) return {{"anyOf", {j, {{"const", either->word}}}}};
+        return j;
+    }
+    if (std::holds_alternative<Numbers>(slot) || std::holds_alternative<Ends>(slot)) {
+        Json j{{"type", "array"},
+               {"minItems", std::holds_alternative<Ends>(slot) ? 2 : 1},
+               {"items", number_schema(key.range, key.units.front().factor / unit.factor)}};
+        if (std::holds_alternative<Ends>(slot)) j["maxItems"] = 2;
         return j;
     }
     if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::optional<int>*>(slot))
@@ -403,6 +450,8 @@ std::string allowed(const Key& key, const Slot& slot)
     if (is_number(slot)) return key.range.text();
     if (std::holds_alternative<std::vector<Point>*>(slot)) return "list of pairs, second entry " + key.range.text();
     if (std::holds_alternative<std::vector<std::string>*>(slot)) return "list of texts";
+    if (std::holds_alternative<Numbers>(slot)) return "list of numbers, each " + key.range.text();
+    if (std::holds_alternative<Ends>(slot)) return "two numbers, each " + key.range.text();
     return "text";
 }
 
@@ -555,7 +604,8 @@ std::string scene_schema()
         }
         const std::size_t dot = group.name.find('.');
         if (dot != std::string::npos) {
-            properties[group.name.substr(0, dot)]["properties"][group.name.substr(dot + 1)] = schema;
+            Json& outer = properties[group.name.substr(0, dot)];
+            (group.inside ? outer["items"] : outer)["properties"][group.name.substr(dot + 1)] = schema;
             continue;
         }
         if (group.presence == Presence::always && (schema.contains("required") || schema.contains("allOf")))

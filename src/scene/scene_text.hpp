@@ -56,7 +56,7 @@ private:
     std::shared_ptr<const Tables> tables_;
 };
 
-/// The scene with another peak friction; a residual value above it is lowered to it. Of a wedge it is the friction of the first
+/// The scene with another peak friction of what its block slides on (planes.slides_on); a residual value above it is lowered to it. Of a wedge it is the friction of the first
 /// plane, and the second keeps its share of it (without friction on the first plane: both get it). @throws UsageError for a
 /// scene with a friction table
 Scene with_friction(Scene scene, double friction);

@@ -79,6 +79,24 @@ std::string pairs_line(const Key& key, const std::vector<Point>& points)
     return "";
 }
 
+/// @param one  the first as a number, not as a list
+std::string numbers_line(const Key& key, const std::vector<double>& values, bool one = false)
+{
+    if (one) return number_line(key, values.front());
+    std::string list;
+    for (const UnitSuffix& unit : key.units) { // the first unit that is exact for every one of them
+        bool exact = true;
+        list.clear();
+        for (const double si : values) {
+            const Written w = in_unit(si, {unit});
+            exact = exact && to_si(w.value, unit) == si;
+            list += (list.empty() ? "" : ", ") + toml_number(w.value);
+        }
+        if (exact || &unit == &key.units.back()) return spelled(key, unit.suffix) + " = [" + list + "]\n";
+    }
+    return "";
+}
+
 std::string path_text(const std::filesystem::path& path, RecordPaths style)
 {
     return style == RecordPaths::file_names ? path.filename().string()
@@ -121,6 +139,8 @@ std::string line(const Key& key, const Slot& slot, RecordPaths paths)
             for (const std::string& word : *v) list += (list.empty() ? "" : ", ") + toml_text(word);
             return v->empty() ? "" : key.name + " = [" + list + "]\n";
         }
+        std::string operator()(const Numbers& v) const { return v.list->empty() ? "" : numbers_line(key, *v.list, v.one); }
+        std::string operator()(const Ends& v) const { return numbers_line(key, {*v.from, *v.to}); }
         std::string operator()(const Choice& c) const
         {
             const int i = c.get();
@@ -142,16 +162,23 @@ std::string resolved_toml(const Scene& given, RecordPaths paths)
     const Scene scene = with_own_choices(given);
     SectionInput section;
     std::string out;
-    for (const KeyGroup& group : key_groups(section)) {
-        if (scene.wedge && !belongs_to_wedge(group.name)) continue;
+    const std::vector<KeyGroup> groups = key_groups(section);
+    const auto write = [&](const KeyGroup& group, const void* item) {
+        std::string lines;
+        for (const Key& key : group.keys)
+            if (!key.applies || key.applies(item)) lines += line(key, key.slot(const_cast<void*>(item)), paths);
+        if (lines.empty() && group.presence == Presence::always) return;
+        if (!group.name.empty())
+            out += group.presence == Presence::list ? "\n[[" + group.name + "]]\n" : "\n[" + group.name + "]\n";
+        out += lines;
+    };
+    for (const KeyGroup& group : groups) {
+        if (group.inside || (scene.wedge && !belongs_to_wedge(group.name))) continue;
         for (const void* item : group.items(scene)) {
-            std::string lines;
-            for (const Key& key : group.keys)
-                if (!key.applies || key.applies(item)) lines += line(key, key.slot(const_cast<void*>(item)), paths);
-            if (lines.empty() && group.presence == Presence::always) continue;
-            if (!group.name.empty())
-                out += group.presence == Presence::list ? "\n[[" + group.name + "]]\n" : "\n[" + group.name + "]\n";
-            out += lines;
+            write(group, item);
+            for (const KeyGroup& inner : groups)
+                if (inner.inside && list_of(inner) == group.name)
+                    if (const void* there = inner.inside(const_cast<void*>(item), false)) write(inner, there);
         }
     }
     if (!scene.expectations.empty()) out += "\n[expect]\n";

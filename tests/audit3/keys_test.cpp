@@ -88,7 +88,15 @@ drains.gallery_level_m : none | 5 : uplift.model="drains"; drains.distance_m=3
 drains.lost_at_slip_m : none | 0.002 : uplift.model="drains"; drains.distance_m=3
 foundation.young_modulus_GPa : 20 | 10
 foundation.poisson_ratio : 0.2 | 0.3 : foundation.young_modulus_GPa=10
-foundation.density_kg_m3 : 2400 | 2700 : foundation.young_modulus_GPa=10
+foundation.density_kg_m3 : 2400 | 2700 : foundation.young_modulus_GPa=10; seam[].depth_m=4; seam[].friction=0.6; seam[].exit="free-face"
+lifts.spacing_m : 6 | 10 : lifts.friction=0.7
+lifts.friction : 0.8 | 0.7 : lifts.spacing_m=6
+lifts.uplift_share : 1 | 0.5 : lifts.friction=0.7; lifts.spacing_m=6
+seam[].depth_m : 4 | 6 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].friction=0.6; seam[].exit="free-face"
+seam[].friction : 0.6 | 0.5 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].exit="free-face"
+seam.wedge.friction : 0.8 | 0.6 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.angle_deg=20; seam[].uplift="none"
+seam.wedge.angle_deg : 20 | 30 : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.friction=0.7
+foundation.ground_m : [[-10,0],[24,0],[60,0]] | [[-10,0],[24,0],[40,3]] : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600; seam[].depth_m=4; seam[].friction=0.6; seam.wedge.friction=0.7; seam.wedge.angle_deg=20; seam[].uplift="none"
 foundation.mass : "with-mass" | "massless" : foundation.young_modulus_GPa=10
 foundation.boundary : "absorbing" | "fixed" : foundation.young_modulus_GPa=10; foundation.density_kg_m3=2600
 foundation.wave_box : 1 | 1.5 : foundation.young_modulus_GPa=10
@@ -265,7 +273,7 @@ protected:
                 for (const char* key : keys) found[method] += j.contains(key) ? j[key].dump() : "";
         };
         ask({"screen", "--response-spectrum"}, tables,
-            {{methods::rigid, {"displacements"}},
+            {{methods::rigid, {"displacements", "planes"}},
              {methods::equilibrium, {"limit_equilibrium", "verdicts"}},
              {methods::regressions, {"regressions"}},
              {methods::spectrum, {"response_spectrum"}}});

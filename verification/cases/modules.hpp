@@ -14,6 +14,7 @@ void add_equilibrium_cases(Registry& registry);
 void add_rocking_cases(Registry& registry);
 void add_neighbour_cases(Registry& registry);
 void add_wedge_cases(Registry& registry);
+void add_plane_cases(Registry& registry);
 void add_anchor_cases(Registry& registry);
 void add_probability_cases(Registry& registry);
 void add_probability_sampling_cases(Registry& registry);

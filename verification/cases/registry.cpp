@@ -37,6 +37,7 @@ Registry all_cases()
     add_rocking_cases(registry);
     add_neighbour_cases(registry);
     add_wedge_cases(registry);
+    add_plane_cases(registry);
     add_anchor_cases(registry);
     add_probability_cases(registry);
     add_probability_sampling_cases(registry);

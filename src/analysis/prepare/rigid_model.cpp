@@ -1,5 +1,6 @@
 #include "analysis/prepare/rigid_model.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/rigid_rests.hpp"
 #include "core/units.hpp"
 #include "records/measure/measures.hpp"
@@ -48,6 +49,7 @@ RigidModel make_rigid_model(const Scene& scene, const sliding::SeepageProfile& s
                             KeptStatics* kept)
 {
     if (scene.wedge) return make_wedge_model(scene);
+    if (!scene.planes.slides_on.empty()) return plane_model(scene, scene.planes.slides_on);
     sliding::BlockOptions options;
     options.crack = crack;
     options.seepage = seepage;
@@ -95,7 +97,17 @@ namespace {
 sliding::SlideOptions slide_options(const Scene& scene, const RigidModel& model, int polarity,
                                     sliding::HistoryOutput history)
 {
-    return {scene.sliding, polarity, history, model.anchors};
+    sliding::SlideOptions options{scene.sliding, polarity, history, model.anchors};
+    options.sliding.two_way &= !model.one_way;
+    return options;
+}
+
+/// The ground's motion as the block's foot has it.
+GroundMotion amplified(GroundMotion motion, double by)
+{
+    for (auto* component : {&motion.accel_h, &motion.accel_v})
+        for (double& a : *component) a *= by;
+    return motion;
 }
 
 } // namespace
@@ -153,7 +165,7 @@ sliding::RockingResult rock_model(const Scene& scene, const RigidModel& model, c
 sliding::SlideResult slide_model(const Scene& scene, const RigidModel& model, const sliding::SkippingMotion& motion,
                                  int polarity, sliding::HistoryOutput history)
 {
-    if (model.wedge) return slide_model(scene, model, motion.motion(), polarity, history);
+    if (model.wedge || model.amplification != 1.0) return slide_model(scene, model, motion.motion(), polarity, history);
     if (model.rests && motion.motion().is_sequence())
         return slide_model(scene, model, motion.motion(), polarity, history);
     sliding::SlideResult result = sliding::slide(motion, model.stages, slide_options(scene, model, polarity, history));
@@ -167,7 +179,7 @@ std::vector<sliding::SlideResult> slide_models(const Scene& scene, std::span<con
 {
     std::vector<sliding::SlideResult> results;
     const RigidModel& first = *models.front();
-    if (first.wedge || !first.anchors.empty() || motion.motion().is_sequence()) {
+    if (first.wedge || !first.anchors.empty() || first.amplification != 1.0 || motion.motion().is_sequence()) {
         for (const RigidModel* model : models)
             results.push_back(slide_model(scene, *model, motion, polarity, sliding::HistoryOutput::none));
         return results;

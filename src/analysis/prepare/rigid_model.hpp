@@ -33,6 +33,8 @@ struct RigidModel {
     /// The static state between the records of a sequence (uplift.after); null: none
     std::shared_ptr<const sliding::RestBetweenEvents> rests;
     std::optional<double> length; ///< of what it slides on [m]; none: a wedge whose surfaces are not given
+    double amplification = 1.0;   ///< of the ground's motion where the block stands: of a lift [-]
+    bool one_way = false;         ///< followed downstream only, whatever sliding.two_way says
 
     /// Why it is not at rest before the earthquake: "friction 0.5 is below the 0.645 that would hold it".
     std::string why_it_fails() const;
@@ -53,6 +55,7 @@ private:
     std::optional<RigidStatics> found_;
 };
 
+/// On the base, or on the plane that scene.planes.slides_on names.
 /// @param seepage  gives the profile of uplift.model = "seepage"; not asked for other models
 /// @param crack    in place of the scene's uplift.crack, if given
 /// @param kept     of scenes that differ in friction only; null: found for this one

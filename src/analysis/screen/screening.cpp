@@ -380,6 +380,9 @@ StatusCount statuses_of(const Screening& screening)
     StatusCount count;
     for (const SlipRow& row : screening.slips)
         for (const sliding::SlideResult* slide : all_slides(row)) count.add(slide->status);
+    for (const PlaneRow& row : screening.planes.rows)
+        if (row.kind != PlaneKind::base)
+            for (const PlaneSlip& slip : row.slips) count.add(slip.slide.status);
     return count;
 }
 
@@ -446,6 +449,15 @@ void add_slips_without_bond(const Scene& given, const sliding::SeepageProfile& s
     const BaseRow base{"without bond", make_rigid_model(scene, seepage), sliding::base_limits(scene, seepage)};
     std::vector<std::string> told_already;
     s.slips_without_bond = slip_rows({scene, base, of.flexible, of.rocking, of.jobs}, records, told_already);
+}
+
+/// Base, lifts and seams side by side.
+void add_planes(const Ready& ready, int jobs, Screening& s)
+{
+    std::vector<PlaneSlip> of_base;
+    for (const SlipRow& row : s.slips) of_base.push_back({row.record, row.polarity, row.judged()});
+    s.planes = find_planes(ready, s.combinations, s.bases.front().model, std::move(of_base), jobs);
+    s.warnings.insert(s.warnings.end(), s.planes.warnings.begin(), s.planes.warnings.end());
 }
 
 /// The block under all records, without limit equilibrium.
@@ -543,6 +555,7 @@ Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking, Flexi
     for (std::vector<SlipRow>* slips : {&s.slips, &s.slips_without_bond})
         for (SlipRow& row : *slips) row.leaves_out = leaves_out;
     add_equilibrium(ready, seepage, s);
+    add_planes(ready, jobs, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);
     s.statistics = statistics_rows(s.slips, scene.criteria.allowable_slip);
     if (s.bases.front().model.state == sliding::StaticState::at_rest) s.needed = needed_rows(ready, jobs);

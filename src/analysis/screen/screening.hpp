@@ -4,6 +4,7 @@
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
 #include "analysis/screen/needed.hpp"
+#include "analysis/screen/planes.hpp"
 #include "analysis/screen/regression_rows.hpp"
 #include "core/status.hpp"
 #include "sliding/equilibrium/base_state.hpp"
@@ -104,6 +105,7 @@ struct Screening {
     double bond_share = 0.0; ///< c A' over c A' + mu N' before the earthquake [-]
     std::vector<SlipRow>
         slips_without_bond; ///< the rows once more with c = 0, where bond_share is above judged_bond_share
+    Planes planes; ///< of scenes with [lifts] or [[seam]]; else without rows
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
     std::vector<NeededRow> needed;     ///< against criteria.allowable_slip; see needed_rows()

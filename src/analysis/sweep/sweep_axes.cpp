@@ -1,5 +1,6 @@
 #include "analysis/sweep/sweep_axes.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/records.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
 #include "core/text.hpp"
@@ -100,6 +101,16 @@ Scene variant(Scene scene, double level, const std::string& uplift, const std::s
     return sized(std::move(scene), size);
 }
 
+double plane_friction(const Scene& scene, const std::string& plane)
+{
+    if (plane.empty() || plane == base_plane) return scene.contact.friction;
+    for (const Seam& seam : scene.seams)
+        if (seam.name == plane) return seam.strength.friction;
+    for (const LiftJoint& joint : scene.lift_joints)
+        if (joint.name == plane) return joint.strength.friction;
+    return scene.lifts ? scene.lifts->strength.friction : scene.contact.friction;
+}
+
 Scene with_opening_water(Scene scene, const std::string& opening)
 {
     if (opening.empty() || !scene.uplift) return scene;
@@ -129,6 +140,8 @@ std::string text_of(const Axes& axes)
     std::string mode;
     if (!axes.period.empty()) mode += fmt::format("period {}; ", joined(axes.period));
     if (!axes.damping.empty()) mode += fmt::format("damping {}; ", joined(axes.damping));
+    if (has_plane_axis(axes))
+        mode += fmt::format("plane {}; own friction {}; ", fmt::join(axes.plane, ","), joined(axes.plane_friction));
     return opening + mode +
            fmt::format("friction {}; level {}; uplift {}; reservoir {}; size {}; scale {}; polarity {}; method {}",
                        joined(axes.friction), joined(axes.level), fmt::join(axes.uplift, ","),

@@ -63,6 +63,8 @@ struct Axes {
     std::vector<int> polarity;                  ///< signs on the horizontal component as filed: 1, -1
     std::vector<std::string> uplift, reservoir; ///< words as typed
     std::vector<std::string> opening{""};       ///< words of uplift.opening as typed; empty: the scene's
+    std::vector<std::string> plane{""};         ///< what the rigid block slides on; empty: the base
+    std::vector<double> plane_friction;         ///< of each plane, where `friction` does not vary it; empty: it does [-]
     std::vector<double> period, damping;        ///< T_s [s] and zeta [-] of the flexible block; empty: the scene's
     std::vector<SweepMethod> method;
     std::vector<Diagnostic> notes; ///< of values that are allowed but unusual
@@ -82,6 +84,15 @@ inline bool has_opening_axis(const Axes& axes)
 {
     return axes.opening.size() != 1 || !axes.opening.front().empty();
 }
+
+/// Are there planes to slide on other than the base?
+inline bool has_plane_axis(const Axes& axes)
+{
+    return axes.plane.size() != 1 || !axes.plane.front().empty();
+}
+
+/// Peak friction of a plane of the scene by its name; "base" is the base [-]. @pre one of plane_names()
+double plane_friction(const Scene& scene, const std::string& plane);
 
 /// The scene with another water level [m], uplift model and water model, words as typed, then another size.
 Scene variant(Scene scene, double level, const std::string& uplift, const std::string& reservoir, double size);

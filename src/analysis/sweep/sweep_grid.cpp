@@ -31,8 +31,9 @@ void find_modes(Grid& grid, const Scene& scene)
 /// Rigid models of one variant, friction after friction: what does not depend on it is made once.
 class VariantModels {
 public:
-    VariantModels(Scene given, const Records& records, const PrepareOptions& options)
-        : ready_(prepare(std::move(given), Method::rigid_block, records, options)),
+    /// @param vary_friction  of what the block slides on
+    VariantModels(Scene given, const Records& records, const PrepareOptions& options, bool vary_friction)
+        : vary_friction_(vary_friction), ready_(prepare(std::move(given), Method::rigid_block, records, options)),
           profile_(ready_.seepage->profile_of(ready_.scene)), here_(ready_.scene)
     {
     }
@@ -41,14 +42,21 @@ public:
     {
         here_.contact = ready_.scene.contact;
         here_.wedge = ready_.scene.wedge;
-        if (friction != ready_.given.contact.friction) {
-            if (!ready_.given.contact.friction_table.empty()) set_friction(ready_.given, friction); // refuses
+        const bool on_plane = !here_.planes.slides_on.empty();
+        if (on_plane) {
+            here_.seams = ready_.scene.seams;
+            here_.lifts = ready_.scene.lifts;
+            here_.lift_joints = ready_.given.lift_joints; // they replace lifts
+        }
+        if (vary_friction_ && (on_plane || friction != ready_.given.contact.friction)) {
+            if (!on_plane && !ready_.given.contact.friction_table.empty()) set_friction(ready_.given, friction); // refuses
             set_friction(here_, friction);
         }
         return make_rigid_model(here_, profile_, std::nullopt, ready_.statics.get());
     }
 
 private:
+    bool vary_friction_;
     Ready ready_;
     sliding::SeepageProfile profile_;
     Scene here_;
@@ -64,6 +72,7 @@ Scene variant_of(const Scene& scene, const Axes& axes, const GridIndex& at)
     const auto value = [](const std::vector<double>& axis, std::size_t i) {
         return axis.empty() ? std::nullopt : std::optional(axis[i]);
     };
+    here.planes.slides_on = axes.plane[at.plane];
     return with_mode(std::move(here), value(axes.period, at.period), value(axes.damping, at.damping));
 }
 
@@ -110,7 +119,7 @@ void hold_models(Grid& grid, const Scene& scene, const Records& records, std::si
         PrepareOptions options;
         options.seepage = grid.seepage[at.size];
         options.statics = grid.statics[v];
-        VariantModels models(variant_of(scene, axes, at), records, options);
+        VariantModels models(variant_of(scene, axes, at), records, options, axes.plane_friction.empty());
         for (std::size_t k = part * frictions / parts; k < (part + 1) * frictions / parts; ++k)
             grid.models[k * variants + v] = models.at(axes.friction[first + k]);
     });

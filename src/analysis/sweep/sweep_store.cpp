@@ -36,6 +36,8 @@ void for_each_list(AnyGrid& grid, const Call& call)
     };
     call("friction", grid.axes.friction, every(&GridIndex::friction));
     call("level_at_size_1_m", grid.axes.level, every(&GridIndex::level));
+    call("plane", grid.axes.plane, every(&GridIndex::plane));
+    call("plane_friction", grid.axes.plane_friction, std::size_t{0});
     call("uplift", grid.axes.uplift, every(&GridIndex::uplift));
     call("opening_water", grid.axes.opening, every(&GridIndex::opening));
     call("reservoir", grid.axes.reservoir, every(&GridIndex::reservoir));
@@ -100,6 +102,7 @@ std::string axes_json(const Grid& grid)
 {
     nlohmann::ordered_json axes;
     for_each_list(grid, [&](const char* name, const auto& values, std::size_t every) {
+        if (std::string_view(name).starts_with("plane") && !has_plane_axis(grid.axes)) return;
         axes[name] = {{"every", every}, {"values", values}};
     });
     return axes.dump();
@@ -109,7 +112,9 @@ Grid stored_grid(const std::string& axes)
 {
     const auto json = nlohmann::ordered_json::parse(axes);
     Grid grid;
-    for_each_list(grid, [&](const char* name, auto& values, std::size_t) { json[name]["values"].get_to(values); });
+    for_each_list(grid, [&](const char* name, auto& values, std::size_t) {
+        if (json.contains(name)) json[name]["values"].get_to(values);
+    });
     grid.tasks = make_tasks(grid.axes, grid.records.size());
     return grid;
 }

@@ -41,6 +41,7 @@ GridIndex running_order(const TaskList& tasks, std::size_t place)
     at.opening = take(tasks.opening);
     at.uplift = take(tasks.uplift);
     at.level = take(tasks.level);
+    at.plane = take(tasks.plane);
     return at;
 }
 
@@ -65,6 +66,7 @@ GridIndex TaskList::index(std::size_t id) const
     at.opening = take(opening);
     at.uplift = take(uplift);
     at.level = take(level);
+    at.plane = take(plane);
     at.friction = take(friction);
     return at;
 }
@@ -79,7 +81,9 @@ std::size_t TaskList::id(const GridIndex& at) const
 std::size_t TaskList::variant(const GridIndex& at) const
 {
     const std::size_t base =
-        (((at.level * uplift + at.uplift) * opening + at.opening) * reservoir + at.reservoir) * size + at.size;
+        ((((at.plane * level + at.level) * uplift + at.uplift) * opening + at.opening) * reservoir + at.reservoir) *
+            size +
+        at.size;
     return (base * period + at.period) * damping + at.damping;
 }
 
@@ -88,11 +92,17 @@ std::size_t TaskList::motion(const GridIndex& at) const
     return (at.record * scale + at.scale) * polarity + at.polarity;
 }
 
+double friction_of(const Axes& axes, const GridIndex& at)
+{
+    return axes.plane_friction.empty() ? axes.friction[at.friction] : axes.plane_friction[at.plane];
+}
+
 TaskList make_tasks(const Axes& axes, std::size_t records)
 {
     TaskList tasks;
     tasks.friction = axes.friction.size();
     tasks.level = axes.level.size();
+    tasks.plane = axes.plane.size();
     tasks.uplift = axes.uplift.size();
     tasks.opening = axes.opening.size();
     tasks.reservoir = axes.reservoir.size();

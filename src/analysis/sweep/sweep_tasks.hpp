@@ -9,19 +9,19 @@ namespace damslip {
 /// Positions of one row on the axes.
 struct GridIndex {
     std::size_t friction, level, uplift, reservoir, size, scale, polarity, record, method;
-    std::size_t opening = 0, period = 0, damping = 0;
+    std::size_t opening = 0, period = 0, damping = 0, plane = 0;
 };
 
-/// The rows of a sweep: the Cartesian product friction x level x uplift x opening water x reservoir x size x period x
+/// The rows of a sweep: the Cartesian product friction x plane x level x uplift x opening water x reservoir x size x period x
 /// damping x scale x polarity x record x method, numbered from 0 in this order, the last axis fastest.
 struct TaskList {
     std::size_t friction = 1, level = 1, uplift = 1, reservoir = 1, size = 1, scale = 1, polarity = 1, record = 1,
-                method = 1, opening = 1, period = 1, damping = 1; ///< values on each axis
+                method = 1, opening = 1, period = 1, damping = 1, plane = 1; ///< values on each axis
 
     std::size_t rows() const { return friction * variants() * motions() * method; }
     std::size_t variants() const
     {
-        return level * uplift * opening * reservoir * size * period * damping;
+        return plane * level * uplift * opening * reservoir * size * period * damping;
     } ///< scenes but for the friction
     std::size_t motions() const { return record * scale * polarity; }
     std::size_t rows_of_model() const { return motions() * method; } ///< ids of one friction and variant follow each other
@@ -31,6 +31,9 @@ struct TaskList {
     std::size_t variant(const GridIndex& at) const; ///< 0 ... variants() - 1
     std::size_t motion(const GridIndex& at) const;  ///< 0 ... motions() - 1, polarity fastest, record slowest
 };
+
+/// Friction of the plane that a row slides on [-].
+double friction_of(const Axes& axes, const GridIndex& at);
 
 TaskList make_tasks(const Axes& axes, std::size_t records);
 

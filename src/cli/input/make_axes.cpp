@@ -1,6 +1,7 @@
 #include "cli/input/make_axes.hpp"
 
 #include "analysis/prepare/flexible_mass.hpp"
+#include "analysis/prepare/plane_model.hpp"
 #include "cli/input/run_inputs.hpp"
 #include "core/input_error.hpp"
 #include "core/text.hpp"
@@ -239,8 +240,31 @@ void add_mode_axes(const SweepArguments& a, const Scene& scene, Axes& axes)
         axes.damping = checked_numbers(a.damping, "--damping", 0, 0, 0.5, "damping ratio, 0 ... 0.5");
 }
 
+/// What the rigid block slides on. Each plane keeps its own friction unless --friction gives one for all.
+void add_plane_axis(const SweepArguments& a, const Scene& scene, Axes& axes)
+{
+    if (a.plane.empty()) return;
+    for (const auto& [flag, text] :
+         {std::pair{"--uplift", a.uplift}, {"--opening-water", a.opening_water}, {"--size", a.size}})
+        if (!text.empty())
+            refuse_usage(fmt::format("--plane with {}.", flag),
+                         "--friction, --level, --reservoir, --scale, --polarity: water and size of a plane are its keys",
+                         fmt::format("delete {}", flag));
+    for (const SweepMethod& m : axes.method)
+        if (m.kind != SweepKind::rigid && m.kind != SweepKind::rigid_vertical)
+            refuse_usage(fmt::format("--plane with --method {}.", m.id), "rigid and rigid-v on planes beside the base",
+                         "write  --method rigid,rigid-v");
+    axes.plane = word_list(a.plane, "--plane", plane_names(scene));
+    const bool own = a.friction.empty() && a.friction_deg.empty();
+    for (std::string& plane : axes.plane) {
+        if (own) axes.plane_friction.push_back(plane_friction(scene, plane));
+        if (plane == base_plane) plane.clear();
+    }
+}
+
 void check_repeats(const Axes& axes)
 {
+    refuse_repeats("--plane", axes.plane);
     refuse_repeats("--friction", axes.friction);
     refuse_repeats("--level", axes.level);
     refuse_repeats("--uplift", axes.uplift);
@@ -263,6 +287,7 @@ void check_wedge_axes(const SweepArguments& a, const std::vector<SweepMethod>& m
                                      {"--uplift", a.uplift},
                                      {"--opening-water", a.opening_water},
                                      {"--reservoir", a.reservoir},
+                                     {"--plane", a.plane},
                                      {"--size", a.size}})
         if (!text.empty())
             refuse_usage(fmt::format("{} is given, but the scene is a [wedge].", flag),
@@ -297,6 +322,7 @@ Axes make_axes(const SweepArguments& a, const Scene& scene)
     if (!a.reservoir.empty()) axes.reservoir = reservoir_axis(a, scene);
     axes.method = method_axis(a, scene);
     add_mode_axes(a, scene, axes);
+    add_plane_axis(a, scene, axes);
     if (scene.wedge) check_wedge_axes(a, axes.method);
     check_repeats(axes);
     look_at_axes(a, scene, axes);

@@ -13,7 +13,7 @@ namespace damslip::cli {
 /// Lists as typed ("0.65:1.0:0.05"); empty: the scene's own value.
 struct SweepArguments {
     RunInputs inputs;
-    std::string friction, friction_deg, level, uplift, opening_water, reservoir, size, period, damping, scale, polarity;
+    std::string friction, friction_deg, level, uplift, opening_water, reservoir, size, period, damping, scale, polarity, plane;
     std::string method;                      ///< empty: rigid, and rigid-v where a record has a vertical component
     std::optional<int> modes;                ///< elastic modes of fe-reduced, 1 ... 1000; none: its own choice
     bool truncation_error = false;           ///< of fe-reduced: estimated for every row
@@ -38,6 +38,7 @@ struct GridFlag {
 };
 inline constexpr GridFlag grid_flags[] = {{"--friction", &SweepArguments::friction},
                                           {"--friction-deg", &SweepArguments::friction_deg},
+                                          {"--plane", &SweepArguments::plane},
                                           {"--level", &SweepArguments::level},
                                           {"--uplift", &SweepArguments::uplift},
                                           {"--opening-water", &SweepArguments::opening_water},

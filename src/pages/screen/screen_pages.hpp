@@ -102,6 +102,15 @@ Table event_table(const Screening& s);
 /// Slip of the flexible block beside the rigid one, with its verdict.
 Table flexible_table(const Screening& s, const std::optional<double>& allowable);
 
+/// Which rows of the table of planes: terminals show of the lifts those that govern.
+enum class PlaneRows { all, governing };
+/// Base, lifts and seams side by side; then each lift, each seam, and the blocks of each seam. Empty: the scene has neither.
+std::vector<Table> plane_tables(const Planes& planes, const Scene& scene, PlaneRows which);
+/// The tables, a drawing of each seam with its blocks, water and forces, and charts over elevation and wedge angle.
+Section plane_section(const Planes& planes, const Scene& scene);
+/// The headline of the base joined with what the other planes say: the worst of them counts.
+Headline with_planes(Headline headline, const Planes& planes, const Scene& scene);
+
 /// Yield and friction that keep the slip within the allowable one; without rows where there is none.
 Table needed_table(const std::vector<NeededRow>& rows, const Scene& scene);
 

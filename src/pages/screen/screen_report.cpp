@@ -330,7 +330,7 @@ Headline slip_headline(const Scene& scene, const Screening& s)
 
 Headline screen_headline(const Scene& scene, const Screening& s)
 {
-    const Headline slip = slip_headline(scene, s);
+    const Headline slip = with_planes(slip_headline(scene, s), s.planes, scene);
     return s.slips.empty() ? slip : with_failed_checks(slip, sliding::failed_checks(s.combinations));
 }
 
@@ -349,6 +349,7 @@ Page screen_page(const ScreenReportInput& in)
     const bool slides = worst && worst->judged().max_slip > 0.0;
     if (!in.scene.wedge && !slides) page.sections.push_back(equilibrium_section(in.screening.combinations));
     if (!motions.empty()) page.sections.push_back(slip_section(in, motions));
+    if (!in.screening.planes.rows.empty()) page.sections.push_back(plane_section(in.screening.planes, in.scene));
     page.sections.push_back(yield_section(in.scene, in.screening));
     if (!in.scene.wedge && slides) page.sections.push_back(equilibrium_section(in.screening.combinations));
     if (in.spectrum) page.sections.push_back(spectrum_section(*in.spectrum));
@@ -398,6 +399,14 @@ std::string effects_line(const EffectPlan& plan)
     return broken_lines("effects on: " + (on.empty() ? "none" : on), "");
 }
 
+/// "Planes" -> "planes": key of a JSON object and name of a file.
+std::string plane_key(const Table& table)
+{
+    std::string key = table.title;
+    key[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(key[0])));
+    return key;
+}
+
 } // namespace
 
 std::vector<std::string> screen_notes(const Ready& ready)
@@ -435,6 +444,7 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     const Table events = event_table(s);
     if (!events.rows.empty()) j["events"] = json_of(events);
     if (s.flexible) j["flexible_block"] = json_of(flexible_table(s, allowable));
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::all)) j[plane_key(table)] = json_of(table);
     if (!s.needed.empty()) j["needed"] = json_of(needed_table(s.needed, in.scene));
     j["statistics"] = json_of(statistics_table(s));
     j["regressions"] = json_of(regression_table(s.regressions));
@@ -482,6 +492,7 @@ std::string screen_text(const ScreenReportInput& in)
     show(screened_anchor_table(s));
     if (const Table events = event_table(s); !events.rows.empty()) show(events);
     if (s.flexible) show(flexible_table(s, allowable));
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing)) show(table);
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
     const Headline headline = screen_headline(in.scene, s);
@@ -507,6 +518,8 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
         write_file(folder / "events.csv", csv(events, comments));
     if (in.screening.flexible)
         write_file(folder / "flexible_block.csv", csv(flexible_table(in.screening, allowable), comments));
+    for (const Table& table : plane_tables(in.screening.planes, in.scene, PlaneRows::all))
+        write_file(folder / (plane_key(table) + ".csv"), csv(table, comments));
     if (!in.screening.needed.empty())
         write_file(folder / "needed.csv", csv(needed_table(in.screening.needed, in.scene), comments));
     write_file(folder / "scene.resolved.toml", resolved_toml(in.given));

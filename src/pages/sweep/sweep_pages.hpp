@@ -30,6 +30,7 @@ struct SweepVariant {
     double size = 1.0, scale = 1.0;                  ///< [-]
     std::string opening = {};                        ///< uplift.opening; empty: the scene's
     std::optional<double> period = {}, damping = {}; ///< of the flexible block [s], [-]; none: the scene's
+    std::string plane = {};                          ///< what the block slides on; empty: the base
 
     friend auto operator<=>(const SweepVariant&, const SweepVariant&) = default;
 };

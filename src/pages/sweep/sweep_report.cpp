@@ -104,6 +104,8 @@ Table variant_table(const SweepView& view)
                                      {{"critical_friction", "needs statically μ ≥", "–", 5}, stands_from}};
     if (!view.variants.empty() && !view.variants.front().opening.empty())
         columns.insert(columns.begin() + 2, {{"opening_water", "opening water"}, &V::opening});
+    if (!view.variants.empty() && !view.variants.front().plane.empty())
+        columns.insert(columns.begin(), {{"plane", "plane"}, &V::plane});
     const auto any = [&](auto V::*member) {
         return std::any_of(view.variants.begin(), view.variants.end(),
                            [=](const V& v) { return (v.*member).has_value(); });

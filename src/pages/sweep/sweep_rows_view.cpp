@@ -86,6 +86,7 @@ std::vector<std::string> names_of(const std::vector<SweepVariant>& variants)
     std::vector<std::string> names;
     for (const SweepVariant& v : variants) {
         std::vector<std::string> parts;
+        if (differs(&SweepVariant::plane)) parts.push_back(v.plane);
         if (differs(&SweepVariant::size)) parts.push_back(fmt::format("size {:g}", v.size));
         if (differs(&SweepVariant::level)) parts.push_back(fmt::format("level {:g} m", v.level));
         if (differs(&SweepVariant::uplift)) parts.push_back("uplift " + v.uplift);
@@ -112,7 +113,7 @@ struct SweepViewMaker::Parts {
           pga(columns, "pga_m_s2"), slip(columns, "slip_m"), max_slip(columns, "max_slip_m"),
           low(columns, "slip_low_m"), high(columns, "slip_high_m"), error(columns, "slip_error_m"),
           critical(columns, "critical_friction"), remark(columns, "remark"), uplift(columns, "uplift", *words),
-          opening(columns, "opening_water", *words), reservoir(columns, "reservoir", *words),
+          opening(columns, "opening_water", *words), plane(columns, "plane", *words), reservoir(columns, "reservoir", *words),
           record(columns, "record", *words), method(columns, "method", *words), status(columns, "status", *words),
           methods(view.methods), records(view.records)
     {
@@ -121,12 +122,12 @@ struct SweepViewMaker::Parts {
     std::shared_ptr<SweepView::Words> words;
     Place id, friction, level, size, scale, period, damping, polarity, yield, pga, slip, max_slip, low, high, error,
         critical, remark;
-    WordColumn uplift, opening, reservoir, record, method, status;
+    WordColumn uplift, opening, plane, reservoir, record, method, status;
     WordList methods, records;
     std::set<double> frictions;
 
     using Variant = std::tuple<double, double, double, std::optional<double>, std::optional<double>, const char*,
-                               const char*, const char*>; ///< numbers, and words by their place
+                               const char*, const char*, const char*>; ///< numbers, and words by their place
     std::map<Variant, std::size_t> variants;
     std::optional<std::pair<Variant, std::size_t>> last_variant;
     std::string_view last_status;
@@ -147,13 +148,16 @@ std::size_t SweepViewMaker::variant_of(const std::vector<Cell>& row)
     const double level = p.level.number(row).value_or(0.0), size = p.size.number(row).value_or(1.0),
                  scale = p.scale.number(row).value_or(1.0);
     const std::optional<double> period = p.period.number(row), damping = p.damping.number(row);
-    const std::string_view uplift = p.uplift.of(row), reservoir = p.reservoir.of(row), opening = p.opening.of(row);
-    const Parts::Variant key{level, size, scale, period, damping, uplift.data(), reservoir.data(), opening.data()};
+    const std::string_view uplift = p.uplift.of(row), reservoir = p.reservoir.of(row), opening = p.opening.of(row),
+                           plane = p.plane.of(row);
+    const Parts::Variant key{level, size, scale, period, damping, uplift.data(), reservoir.data(), opening.data(),
+                             plane.data()};
     if (p.last_variant && p.last_variant->first == key) return p.last_variant->second;
     const auto [at, fresh] = p.variants.try_emplace(key, view_.variants.size());
     if (fresh)
         view_.variants.push_back(
-            {level, std::string(uplift), std::string(reservoir), size, scale, std::string(opening), period, damping});
+            {level, std::string(uplift), std::string(reservoir), size, scale, std::string(opening), period, damping,
+             std::string(plane)});
     p.last_variant = {key, at->second};
     return at->second;
 }

@@ -1,5 +1,6 @@
 #include "pages/sweep/sweep_pages.hpp"
 
+#include "analysis/prepare/plane_model.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/records.hpp"
 #include "pages/report/table_text.hpp"
@@ -60,7 +61,7 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
     using R = RowResults;
     std::vector<ColumnOf<L>> all{
         {{"id", "id"}, [](const L& l) { return count_cell(l.id); }},
-        {{"friction", "μ", "–", 4}, [](const L& l) { return l.axes().friction[l.at.friction]; }},
+        {{"friction", "μ", "–", 4}, [](const L& l) { return friction_of(l.axes(), l.at); }},
         {{"level_m", "level", "m", 4},
          [](const L& l) { return l.axes().level[l.at.level] * l.axes().size[l.at.size]; }},
         {{"uplift", "uplift"}, [](const L& l) { return l.axes().uplift[l.at.uplift]; }},
@@ -94,6 +95,11 @@ std::vector<ColumnOf<SweepLine>> columns(const Grid& grid, bool mean)
         {{"shaking_slip_m", "while shaken", "m", 5}, given(&R::slip_shaking)},
         {{"run_out_slip_m", "at rest", "m", 5}, given(&R::slip_at_rest)},
         {{"rock", "rock"}, [](const L& l) { return rock(l.grid, l.at); }}};
+    if (has_plane_axis(grid.axes))
+        all.insert(all.begin() + 1, {{"plane", "plane"}, [](const L& l) {
+                                         const std::string& plane = l.axes().plane[l.at.plane];
+                                         return plane.empty() ? Cell(std::string(base_plane)) : Cell(plane);
+                                     }});
     const auto after = std::find_if(all.begin(), all.end(), [](const auto& c) { return c.column.key == "uplift"; }) + 1;
     if (has_opening_axis(grid.axes))
         all.insert(after,
@@ -193,7 +199,7 @@ Table comparison_table(const Grid& grid, const std::vector<SweepComparison>& com
     };
     const auto error = [](const C& c) { return c.largest_error && c.motions ? Cell(1e3 * *c.largest_error) : Cell(); };
     std::vector<ColumnOf<C>> all{
-        {{"friction", "μ", "–", 4}, [&](const C& c) { return axes.friction[c.at.friction]; }},
+        {{"friction", "μ", "–", 4}, [&](const C& c) { return friction_of(axes, c.at); }},
         {{"level_m", "level", "m", 4}, [&](const C& c) { return axes.level[c.at.level] * axes.size[c.at.size]; }},
         {{"uplift", "uplift"}, [&](const C& c) { return axes.uplift[c.at.uplift]; }},
         {{"reservoir", "reservoir"}, [&](const C& c) { return axes.reservoir[c.at.reservoir]; }},

@@ -1,0 +1,258 @@
+#include "sliding/planes/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace damslip::sliding {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double dot(Point a, Point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+Point scaled(double factor, Point a)
+{
+    return {factor * a.x, factor * a.y};
+}
+Point sum(Point a, double factor, Point b)
+{
+    return {a.x + factor * b.x, a.y + factor * b.y};
+}
+
+Point along(const ChainBlock& b)
+{
+    return {std::cos(b.dip), -std::sin(b.dip)};
+}
+Point normal(const ChainBlock& b)
+{
+    return {std::sin(b.dip), std::cos(b.dip)};
+}
+/// Direction in which the block moves: t, turned up by the dilation.
+Point movement(const ChainBlock& b)
+{
+    return sum(scaled(std::cos(b.dilation), along(b)), std::sin(b.dilation), normal(b));
+}
+Point up(const ChainInterface& i)
+{
+    return {std::cos(i.angle), std::sin(i.angle)};
+}
+Point downstream(const ChainInterface& i)
+{
+    return {std::sin(i.angle), -std::cos(i.angle)};
+}
+/// A v with A = m I + M^w.
+Point moved(const ChainBlock& b, Point v)
+{
+    const AddedMassTensor& w = b.added_mass;
+    return {(b.mass + w.xx) * v.x + w.xy * v.y, w.xy * v.x + (b.mass + w.yy) * v.y};
+}
+
+/// Rates q, the first 1, and senses of the interfaces for given tangents of dilation.
+void set_rates(const Chain& chain, ChainLaw& law)
+{
+    law.rates.assign(chain.blocks.size(), 1.0);
+    law.senses.assign(chain.interfaces.size(), 0);
+    double rate = 1.0; // without dilation, for the senses
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+        const ChainInterface& face = chain.interfaces[j];
+        const ChainBlock &before = chain.blocks[j], &after = chain.blocks[j + 1];
+        const Point out = downstream(face);
+        const double next = rate * dot(along(before), out) / dot(along(after), out);
+        const double rises = dot(sum(scaled(next, along(after)), -rate, along(before)), up(face));
+        law.senses[j] = std::abs(rises) < 1e-12 ? 0 : rises > 0.0 ? 1 : -1;
+        rate = next;
+        const Point shut = sum(out, -law.senses[j] * std::tan(face.dilation), up(face));
+        law.rates[j + 1] = law.rates[j] * dot(movement(before), shut) / dot(movement(after), shut);
+        if (!(law.rates[j + 1] > 0.0)) law.locked = true;
+    }
+    const double dam = law.rates[chain.dam];
+    for (double& q : law.rates) q /= dam;
+}
+
+/// z = ν - σ μ e of an interface.
+Point transfer(const ChainInterface& face, int sense, double over)
+{
+    return sum(downstream(face), -sense * face.friction / over, up(face));
+}
+
+void set_weights(const Chain& chain, double over, ChainLaw& law)
+{
+    law.weights.clear();
+    double scale = 1.0;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& block = chain.blocks[i];
+        const Point w = sum(along(block), block.friction / over, normal(block));
+        if (i > 0) {
+            const Point z = transfer(chain.interfaces[i - 1], law.senses[i - 1], over);
+            const double here = dot(w, z), before = dot(law.weights.back(), z);
+            if (!(here > 0.0) || !(before > 0.0)) {
+                law.locked = true;
+                return;
+            }
+            scale = before / here;
+        }
+        law.weights.push_back(scaled(scale, w));
+    }
+    // The scale of the dam's block is 1.
+    const ChainBlock& dam = chain.blocks[chain.dam];
+    const double unit = dot(law.weights[chain.dam], along(dam));
+    for (Point& w : law.weights) w = scaled(1.0 / unit, w);
+}
+
+/// What of the chain does not depend on F.
+ChainLaw law_with_rates(const Chain& chain)
+{
+    ChainLaw law;
+    set_rates(chain, law);
+    return law;
+}
+
+void complete(const Chain& chain, double over, ChainLaw& law)
+{
+    law.drive = law.mass = law.constant = law.per_a_v = 0.0;
+    set_weights(chain, over, law);
+    if (law.locked) return;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& b = chain.blocks[i];
+        const Point w = law.weights[i], weight{0.0, -b.mass * chain.gravity};
+        law.drive += dot(w, moved(b, {1.0, 0.0}));
+        law.mass += law.rates[i] * dot(w, moved(b, movement(b)));
+        law.per_a_v -= dot(w, moved(b, {0.0, 1.0}));
+        law.constant += dot(w, sum(sum(sum(b.force, 1.0, weight), b.uplift, normal(b)),
+                                   -b.cohesion / over * b.length, along(b)));
+    }
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+        const ChainInterface& face = chain.interfaces[j];
+        const Point force = sum(scaled(face.water, downstream(face)),
+                                -law.senses[j] * face.cohesion / over * face.length, up(face));
+        law.constant += dot(sum(law.weights[j + 1], -1.0, law.weights[j]), force);
+    }
+}
+
+} // namespace
+
+ChainLaw chain_law(const Chain& chain, double over)
+{
+    ChainLaw law = law_with_rates(chain);
+    if (!law.locked) complete(chain, over, law);
+    return law;
+}
+
+bool ChainForces::stands() const
+{
+    const auto holds = [](double force) { return force >= 0.0; };
+    return std::all_of(normal.begin(), normal.end(), holds) && std::all_of(thrust.begin(), thrust.end(), holds);
+}
+
+ChainForces chain_forces(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double slip_accel, double over)
+{
+    // Equilibrium of one block after the other, with the thrust of the one before:
+    // N (n - μ t) - E z = A a - F - W - U n + c L t - incoming + water and cohesion of the next interface.
+    ChainForces forces;
+    Point incoming;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& b = chain.blocks[i];
+        const Point t = along(b), n = normal(b);
+        const double friction = b.friction / over, cohesion = b.cohesion / over * b.length;
+        Point right = sum(sum(moved(b, sum({-a_h, a_v}, law.rates[i] * slip_accel, movement(b))), -1.0, b.force), -1.0,
+                          {0.0, -b.mass * chain.gravity});
+        right = sum(sum(sum(right, -b.uplift, n), cohesion, t), -1.0, incoming);
+        const Point base = sum(n, -friction, t);
+        double normal_force = dot(right, n);
+        if (i < chain.interfaces.size()) {
+            const ChainInterface& face = chain.interfaces[i];
+            const Point z = transfer(face, law.senses[i], over);
+            const Point fixed = sum(scaled(face.water, downstream(face)),
+                                    -law.senses[i] * face.cohesion / over * face.length, up(face));
+            right = sum(right, 1.0, fixed);
+            // right = N base - E z
+            const double determinant = -base.x * z.y + base.y * z.x;
+            normal_force = (-right.x * z.y + right.y * z.x) / determinant;
+            const double thrust = (base.x * right.y - base.y * right.x) / determinant;
+            forces.thrust.push_back(thrust);
+            forces.shear.push_back(law.senses[i] *
+                                   (face.cohesion / over * face.length + face.friction / over * thrust));
+            incoming = sum(scaled(thrust, z), 1.0, fixed);
+        }
+        forces.normal.push_back(normal_force);
+        forces.resistance.push_back(cohesion + friction * normal_force);
+    }
+    return forces;
+}
+
+double chain_factor(const Chain& chain, double a_h, double a_v)
+{
+    const ChainLaw rates = law_with_rates(chain);
+    if (rates.locked) return infinite;
+    ChainLaw law = rates;
+    const auto missing = [&](double factor) { // to sliding at this F; falls as F grows
+        law.locked = false;
+        complete(chain, factor, law);
+        return law.yield(a_v) - a_h;
+    };
+    double high = 1.0;
+    while (missing(high) > 0.0)
+        if ((high *= 2.0) > 1e9) return infinite;
+    double low = 0.5 * high;
+    while (!(missing(low) > 0.0))
+        if ((low *= 0.5) < 1e-9) return 0.0;
+    // A locked chain has an infinite yield, so the lock is above zero: halved until the secant has a finite end.
+    double at_low = missing(low);
+    while (!std::isfinite(at_low) && high - low > 1e-15 * high) {
+        const double middle = 0.5 * (low + high), value = missing(middle);
+        (value > 0.0 ? low : high) = middle;
+        if (value > 0.0) at_low = value;
+    }
+    return high - low > 1e-15 * high ? bracketed_root(missing, low, high) : high;
+}
+
+std::vector<double> resistance_shares(const Chain& chain, const ChainLaw& law, const ChainForces& forces)
+{
+    std::vector<double> power;
+    double all = 0.0;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i)
+        power.push_back(std::max(0.0, forces.resistance[i] * law.rates[i] * std::cos(chain.blocks[i].dilation)));
+    for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+        const Point apart = sum(scaled(law.rates[j + 1], movement(chain.blocks[j + 1])), -law.rates[j],
+                                movement(chain.blocks[j]));
+        power.push_back(std::max(0.0, forces.shear[j] * dot(apart, up(chain.interfaces[j]))));
+    }
+    for (const double p : power) all += p;
+    for (double& p : power) p = all > 0.0 ? p / all : 0.0;
+    return power;
+}
+
+RigidBlock chain_block(const Chain& chain, const ChainLaw& law)
+{
+    RigidBlock block;
+    block.mass = law.drive;
+    block.chain_mass = law.mass - law.drive;
+    block.gravity = chain.gravity;
+    block.friction = std::max(0.0, -law.per_a_v / law.drive);
+    block.horizontal_force = law.constant + block.friction * law.drive * chain.gravity;
+    return block;
+}
+
+double yield_growth(const Chain& chain, double density)
+{
+    if (chain.interfaces.empty()) return 0.0;
+    const ChainLaw law = chain_law(chain);
+    const auto shifted = [&](double slip) { // masses once the dam's block has slipped so far
+        Chain after = chain;
+        for (std::size_t j = 0; j < chain.interfaces.size(); ++j) {
+            const ChainInterface& face = chain.interfaces[j];
+            const double crossed =
+                density * face.length * slip * law.rates[j] * dot(movement(chain.blocks[j]), downstream(face));
+            after.blocks[j].mass -= crossed;
+            after.blocks[j + 1].mass += crossed;
+        }
+        return chain_law(after).yield();
+    };
+    constexpr double step = 1e-2;
+    return (shifted(step) - shifted(-step)) / (2.0 * step);
+}
+
+} // namespace damslip::sliding

@@ -1,0 +1,229 @@
+#include "sliding/planes/lifts.hpp"
+
+#include "scene/joint_bond.hpp"
+#include "scene/section.hpp"
+#include "sliding/block/yield.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::sliding {
+
+namespace {
+
+/// What inertia and water of the part above a joint make of a horizontal or vertical acceleration of the ground.
+struct MovedPart {
+    double mass = 0.0;       ///< Σ m A [kg/m]
+    Point centre;            ///< where it acts [m]
+    AddedMassIntegral water; ///< weighted alike
+};
+
+MovedPart moved_part(const Scene& scene, const Scene& part, double elevation, const std::function<double(double)>& share)
+{
+    MovedPart moved;
+    // Five points of Gauss on parts of each piece between two corners of the section, whose width is linear there.
+    constexpr std::array<std::array<double, 2>, 5> gauss{{{-0.9061798459386640, 0.2369268850561891},
+                                                          {-0.5384693101056831, 0.4786286704993665},
+                                                          {0.0, 0.5688888888888889},
+                                                          {0.5384693101056831, 0.4786286704993665},
+                                                          {0.9061798459386640, 0.2369268850561891}}};
+    const Polyline& polygon = part.section.polygon;
+    if (!share) {
+        moved.mass = dam_mass(part);
+        moved.centre = centroid(part.section);
+    } else {
+        std::vector<double> levels;
+        for (const Point p : polygon) levels.push_back(p.y);
+        if (scene.lifts)
+            for (const Point p : scene.lifts->points) levels.push_back(p.x - elevation);
+        std::sort(levels.begin(), levels.end());
+        constexpr int parts = 8;
+        double x = 0.0, y = 0.0;
+        for (std::size_t i = 1; i < levels.size(); ++i)
+            for (int k = 0; k < parts; ++k) {
+                const double low = std::max(0.0, levels[i - 1]), step = (levels[i] - low) / parts;
+                if (!(step > 0.0)) continue;
+                for (const auto& [place, weight] : gauss) {
+                    const double level = low + step * (k + 0.5 + 0.5 * place);
+                    double left = std::numeric_limits<double>::infinity(), right = -left;
+                    for (std::size_t c = 0; c < polygon.size(); ++c) {
+                        const Point a = polygon[c], b = polygon[(c + 1) % polygon.size()];
+                        if ((a.y < level) == (b.y < level)) continue;
+                        const double at = a.x + (level - a.y) / (b.y - a.y) * (b.x - a.x);
+                        left = std::min(left, at), right = std::max(right, at);
+                    }
+                    if (!(right > left)) continue;
+                    const double mass =
+                        0.5 * weight * step * scene.dam.density * (right - left) * share(level + elevation);
+                    moved.mass += mass;
+                    x += mass * 0.5 * (left + right);
+                    y += mass * level;
+                }
+            }
+        moved.centre = {x / moved.mass, y / moved.mass};
+    }
+    if (scene.reservoir && part.reservoir && scene.reservoir->model != ReservoirModel::hydrostatic) {
+        Polyline face = upstream_face(part.section);
+        const Point origin = {face.front().x - part.section.polygon.front().x, elevation};
+        for (Point& p : face) p = {p.x, p.y + elevation};
+        moved.water = integrate_added_mass(
+            scene.added_mass, {scene.reservoir->level, scene.reservoir->density, scene.reservoir->bulk_modulus}, face, share);
+        // Moments about the upstream end of the joint.
+        AddedMassIntegral& w = moved.water;
+        w.horizontal_moment = {w.horizontal_moment.x + origin.y * w.xx, w.horizontal_moment.y + origin.y * w.xy};
+    }
+    return moved;
+}
+
+/// Tangent of the angle of a face from the vertical, at the joint.
+double tangent(const Polyline& face)
+{
+    const Point a = face[0], b = face[1];
+    return b.y != a.y ? (b.x - a.x) / (b.y - a.y) : 0.0;
+}
+
+CrackRule crack_rule(const Scene& scene, bool shaken)
+{
+    const CrackRule rule = scene.uplift ? scene.uplift->crack : CrackRule::none;
+    if (!shaken) return CrackRule::fixed_static;
+    return rule == CrackRule::none || rule == CrackRule::fixed_static ? CrackRule::seismic_unchanged : rule;
+}
+
+LiftState lift_state(const Scene& part, const LiftJoint& joint, const MovedPart& moved, double uplift_share,
+                     CrackRule rule, const GroundState& ground)
+{
+    StaticCase static_case = scene_static_case(part);
+    static_case.uplift_factor = uplift_share;
+    static_case.crack = CrackRule::none;
+    const BaseState before = base_state(part, static_case);
+    Force load = before.load + force_at(moved.centre, moved.mass * ground.a_h, -moved.mass * ground.a_v);
+    if (moved.water.xx > 0.0) load += hydrodynamic_force(moved.water, -ground.a_h, ground.a_v).total();
+
+    LiftState state;
+    const double length = before.frame.length;
+    state.base = uncracked_base(base_load(before.frame, load), length, before.base.profile);
+    const double mean = state.base.effective_normal / length;
+    const double bending = 6.0 * mean * (0.5 - state.base.resultant_distance / length);
+    state.heel_stress = mean + bending;
+    state.toe_stress = mean - bending;
+    if (std::min(state.heel_stress, state.toe_stress) < -joint.strength.bond.tensile_strength) {
+        static_case.crack = rule;
+        const bool shaken = ground.a_h != 0.0 || ground.a_v != 0.0;
+        StaticCase no_tension = static_case;
+        no_tension.crack = shaken ? CrackRule::none : CrackRule::fixed_static;
+        const BaseState rest = base_state(part, no_tension);
+        state.base = shaken ? shaken_base(part, static_case, rest, load, {}) : rest.base;
+    }
+    state.normal = state.base.effective_normal;
+    state.shear = shear(before.frame, load);
+    const FrictionOverSlip friction(joint.strength);
+    const bool through = state.base.status == CrackStatus::through || state.base.status == CrackStatus::open;
+    const double bonded = through ? 0.0 : length - state.base.crack.length;
+    const auto over_shear = [&](double mu, double cohesion) {
+        return (cohesion * bonded + mu * std::max(0.0, state.normal)) / std::abs(state.shear);
+    };
+    state.factor = over_shear(friction.peak(), joint.strength.cohesion);
+    state.factor_residual =
+        over_shear(friction.residual(), joint.strength.cohesion_lost_at_slip ? 0.0 : joint.strength.cohesion);
+
+    // Along the faces: σ sec²φ - p tan²φ with the total stress of the beam and the water on the face.
+    const auto along_face = [&](double effective, double level, double tangent, double end) {
+        const double water = std::max(0.0, level) * water_unit_weight(part);
+        const double total = effective + pressure_at(before.base.profile, end), square = tangent * tangent;
+        return total * (1.0 + square) - water * square;
+    };
+    state.upstream_face_stress = along_face(state.heel_stress, part.reservoir ? part.reservoir->level : 0.0,
+                                            tangent(upstream_face(part.section)), 0.0);
+    state.downstream_face_stress = along_face(state.toe_stress, part.tailwater ? part.tailwater->level : 0.0,
+                                              tangent(downstream_face(part.section)), length);
+    return state;
+}
+
+} // namespace
+
+LiftJoint lift_at(const Scene& scene, double elevation)
+{
+    for (const LiftJoint& joint : scene.lift_joints)
+        if (std::abs(joint.elevation - elevation) < same_level) return joint;
+    const Lifts& lifts = scene.lifts.value();
+    return {fmt::format("lift at {:.10g} m", elevation), elevation, lifts.strength,
+            lifts.uplift == LiftUplift::none ? JointWater::none : JointWater::linear};
+}
+
+double amplification_at(const Scene& scene, double elevation)
+{
+    if (!scene.lifts) return 1.0;
+    const Lifts& lifts = *scene.lifts;
+    switch (lifts.amplification) {
+    case Amplification::constant:
+    case Amplification::modes:
+        return 1.0;
+    case Amplification::power: {
+        const double share = std::clamp(elevation / crest_level(scene.section), 0.0, 1.0);
+        return 1.0 + (lifts.crest_amplification - 1.0) * std::pow(share, lifts.exponent);
+    }
+    case Amplification::points:
+        break;
+    }
+    const std::vector<Point>& points = lifts.points;
+    if (points.empty() || elevation <= points.front().x) return points.empty() ? 1.0 : points.front().y;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (elevation <= points[i].x)
+            return points[i - 1].y + (points[i].y - points[i - 1].y) * (elevation - points[i - 1].x) /
+                                         (points[i].x - points[i - 1].x);
+    return points.back().y;
+}
+
+std::vector<LiftPlane> lift_planes(const Scene& scene, const std::vector<GroundState>& states)
+{
+    const bool uniform = !scene.lifts || scene.lifts->amplification == Amplification::constant ||
+                         scene.lifts->amplification == Amplification::modes;
+    const std::function<double(double)> share = [&scene](double y) { return amplification_at(scene, y); };
+    std::vector<LiftPlane> planes;
+    for (const double elevation : lift_elevations(scene)) {
+        LiftPlane plane;
+        plane.joint = lift_at(scene, elevation);
+        plane.name = plane.joint.name;
+        plane.elevation = elevation;
+        const bool made = std::none_of(scene.lift_joints.begin(), scene.lift_joints.end(),
+                                       [&](const LiftJoint& j) { return j.name == plane.name && j.elevation == elevation; });
+        Scene part = scene_above(scene, plane.joint);
+        double uplift_share = 1.0;
+        if (made && scene.lifts->uplift != LiftUplift::none) {
+            uplift_share = scene.lifts->uplift_share;
+            if (scene.lifts->uplift == LiftUplift::drains) {
+                part.uplift->model = UpliftModel::drains;
+                Drains& drains = part.drains.emplace();
+                drains.distance = scene.lifts->drains_distance.value_or(0.0);
+                drains.efficiency = scene.lifts->drains_efficiency;
+                if (scene.lifts->gallery_level) drains.gallery_level = *scene.lifts->gallery_level - elevation;
+            }
+        }
+        plane.length = base_length(part.section);
+        const MovedPart alone = moved_part(scene, part, elevation, nullptr);
+        const MovedPart moved = uniform ? alone : moved_part(scene, part, elevation, share);
+        for (const GroundState& state : states)
+            plane.states.push_back(lift_state(part, plane.joint, moved, uplift_share,
+                                              crack_rule(scene, state.a_h != 0.0 || state.a_v != 0.0), state));
+
+        StaticCase static_case = scene_static_case(part);
+        static_case.uplift_factor = uplift_share;
+        static_case.crack = CrackRule::none;
+        BaseState state = base_state(part, static_case);
+        state.base.crack = plane.states.front().base.crack;
+        state.base.uplift = plane.states.front().base.uplift;
+        RigidBlock block = make_rigid_block(part, state, std::nullopt);
+        block.added_mass = {alone.water.xx, alone.water.xy, alone.water.yy};
+        plane.stages = strength_stages(block, plane.joint.strength);
+        plane.yield = yield_acceleration(plane.stages.front().block);
+        plane.joint_amplification = amplification_at(scene, elevation);
+        plane.mean_amplification = (moved.mass + moved.water.xx) / (alone.mass + alone.water.xx);
+        plane.yield_of_ground = plane.yield / plane.mean_amplification;
+        planes.push_back(std::move(plane));
+    }
+    return planes;
+}
+
+} // namespace damslip::sliding

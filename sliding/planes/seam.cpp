@@ -1,0 +1,603 @@
+#include "sliding/planes/seam.hpp"
+
+#include "core/input_error.hpp"
+#include "scene/joint_bond.hpp"
+#include "scene/section.hpp"
+#include "sliding/block/yield.hpp"
+#include "sliding/equilibrium/base_state.hpp"
+#include "sliding/loads/added_mass_integral.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace damslip::sliding {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double degree = std::numbers::pi / 180.0;
+
+[[noreturn]] void refuse(const Seam& seam, const std::string& problem, const std::string& expected, const std::string& fix)
+{
+    throw InputError(Diagnostic{"", 0, 0, fmt::format("seam \"{}\": {}", seam.name, problem), expected, fix});
+}
+
+double distance(Point a, Point b)
+{
+    return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// Where a ray that starts below the surface meets it; none: it does not rise to it within 100 km.
+std::optional<Point> meets(const Polyline& surface, Point from, double cosine, double sine)
+{
+    constexpr double far = 1e5;
+    Polyline all = surface;
+    all.insert(all.begin(), {std::min(surface.front().x, from.x) - far, surface.front().y});
+    all.push_back({std::max(surface.back().x, from.x) + far, surface.back().y});
+    std::optional<double> nearest;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const Point a = all[i - 1], along{all[i].x - a.x, all[i].y - a.y}, to{a.x - from.x, a.y - from.y};
+        const double determinant = cosine * along.y - sine * along.x;
+        if (determinant == 0.0) continue;
+        const double reach = (to.x * along.y - to.y * along.x) / determinant;
+        const double share = (to.x * sine - to.y * cosine) / determinant;
+        if (reach > 1e-9 && share >= -1e-12 && share <= 1.0 + 1e-12 && (!nearest || reach < *nearest)) nearest = reach;
+    }
+    if (!nearest) return std::nullopt;
+    return Point{from.x + *nearest * cosine, from.y + *nearest * sine};
+}
+
+/// Points of the surface from one to the other of its points, in the order of x.
+Polyline surface_between(const Polyline& surface, Point from, Point to)
+{
+    Polyline part{from};
+    for (const Point p : surface)
+        if (p.x > from.x && p.x < to.x) part.push_back(p);
+    if (part.back() != to) part.push_back(to);
+    return part;
+}
+
+/// The surface without the base of the dam: upstream and downstream of it.
+void add_ground_water(const Scene& scene, const Polyline& top, Force& load)
+{
+    const Point first = heel(scene.section), last = toe(scene.section);
+    const auto press = [&](Polyline face, double level) {
+        if (face.size() > 1)
+            load += hydrostatic_load(face, DamSide::right, level, water_unit_weight(scene)).total();
+    };
+    if (scene.reservoir && top.front().x < first.x)
+        press(surface_between(top, top.front(), top.back().x > first.x ? first : top.back()), scene.reservoir->level);
+    if (scene.tailwater && top.back().x > last.x)
+        press(surface_between(top, top.front().x < last.x ? last : top.front(), top.back()), scene.tailwater->level);
+}
+
+struct Heads {
+    double entry = 0.0, exit = 0.0; ///< water levels at both ends of the path [m]
+};
+
+/// Path distance at which the drains meet the seam; none: no drains there.
+std::optional<double> drains_on(const Scene& scene, const Polyline& path)
+{
+    if (!scene.drains) return std::nullopt;
+    const double x = scene.drains->distance;
+    const double depth = scene.drains->depth ? *scene.drains->depth
+                         : scene.curtain     ? 0.5 * scene.curtain->depth
+                                             : 0.25 * base_length(scene.section);
+    double before = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const Point a = path[i - 1], b = path[i];
+        if (x >= a.x && x <= b.x) {
+            const double share = (x - a.x) / (b.x - a.x), y = a.y + share * (b.y - a.y);
+            if (y < ground_level(ground_line(scene), x) - depth * (1.0 + 1e-12)) return std::nullopt;
+            return before + share * distance(a, b);
+        }
+        before += distance(a, b);
+    }
+    return std::nullopt;
+}
+
+/// Pressure along the path: heads linear between the distances `at` [m], never below zero.
+PressureProfile pressure_along(const Polyline& path, const std::vector<Point>& heads, double unit_weight)
+{
+    const auto head_at = [&](double s) {
+        for (std::size_t i = 1; i < heads.size(); ++i)
+            if (s <= heads[i].x)
+                return heads[i - 1].y + (heads[i].y - heads[i - 1].y) * (s - heads[i - 1].x) / (heads[i].x - heads[i - 1].x);
+        return heads.back().y;
+    };
+    PressureProfile profile;
+    const auto add = [&](double s, double y) {
+        profile.points.push_back({s, unit_weight * (head_at(s) - y)});
+    };
+    double start = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const Point a = path[i - 1], b = path[i];
+        const double length = distance(a, b);
+        std::vector<double> at{start, start + length};
+        for (const Point& h : heads)
+            if (h.x > start && h.x < start + length) at.push_back(h.x);
+        std::sort(at.begin(), at.end());
+        for (const double s : at) {
+            if (!profile.points.empty() && s <= profile.points.back().distance) continue;
+            add(s, a.y + (b.y - a.y) * (s - start) / length);
+        }
+        start += length;
+    }
+    // Suction is no pressure: corners where the line passes zero.
+    PressureProfile wet;
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+        const ProfilePoint p = profile.points[i];
+        if (i > 0) {
+            const ProfilePoint q = profile.points[i - 1];
+            if ((q.pressure < 0.0) != (p.pressure < 0.0) && q.pressure != 0.0 && p.pressure != 0.0)
+                wet.points.push_back(
+                    {q.distance + (p.distance - q.distance) * q.pressure / (q.pressure - p.pressure), 0.0});
+        }
+        wet.points.push_back({p.distance, std::max(0.0, p.pressure)});
+    }
+    return wet;
+}
+
+PressureProfile seam_pressure(const Scene& scene, const Seam& seam, const Polyline& path, Heads ends, DrainState drains)
+{
+    if (seam.uplift == UpliftModel::none) return {};
+    double length = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
+    const double unit_weight = water_unit_weight(scene);
+    if (seam.uplift == UpliftModel::points) {
+        PressureProfile profile;
+        for (const Point& p : seam.uplift_points)
+            profile.points.push_back({p.x, p.y * unit_weight * std::max(0.0, ends.entry - path.front().y)});
+        return profile;
+    }
+    std::vector<Point> heads{{0.0, ends.entry}};
+    const std::optional<double> at = seam.uplift == UpliftModel::drains ? drains_on(scene, path) : std::nullopt;
+    if (at && *at > 0.0 && *at < length && drains == DrainState::effective) {
+        // EM 1110-2-2200: H3 = H2 + (1 - E)(H1 - H2)(L - X)/L; a gallery above H2 takes its place.
+        const bool downstream = ends.entry >= ends.exit;
+        const double high = std::max(ends.entry, ends.exit), low = std::min(ends.entry, ends.exit);
+        const double far = downstream ? (length - *at) / length : *at / length;
+        const double outlet = std::max(low, scene.drains->gallery_level.value_or(low));
+        const double head = outlet + (1.0 - scene.drains->efficiency) * (high - outlet) * far;
+        heads.push_back({*at, std::min(head, low + (high - low) * far)});
+    }
+    heads.push_back({length, ends.exit});
+    return pressure_along(path, heads, unit_weight);
+}
+
+double force_on(const PressureProfile& pressure, double from, double to)
+{
+    return pressure.empty() ? 0.0 : resultant(PressureProfile{part(pressure, from, to)}).force;
+}
+
+/// Water pressure along an interface from its foot up, hydrostatic above it [N/m]; its first moment about the foot [N].
+struct FaceWater {
+    double force = 0.0, moment = 0.0;
+};
+FaceWater water_in(double foot_pressure, double unit_weight, double length, double rise)
+{
+    if (!(foot_pressure > 0.0)) return {};
+    const double fall = unit_weight * rise / length; // of the pressure over the length
+    const double wet = fall > 0.0 ? std::min(length, foot_pressure / fall) : length;
+    const double top = foot_pressure - fall * wet;
+    return {0.5 * (foot_pressure + top) * wet, wet * wet * (foot_pressure + 2.0 * top) / 6.0};
+}
+
+double area_of(const Polyline& polygon)
+{
+    return polygon.size() < 3 ? 0.0 : area(Section{polygon});
+}
+
+} // namespace
+
+const char* word(ChainStatus status)
+{
+    switch (status) {
+    case ChainStatus::stands: return "stands";
+    case ChainStatus::locked: return "locked";
+    case ChainStatus::floats: return "floats";
+    case ChainStatus::opens: return "opens";
+    }
+    return "";
+}
+
+SeamModel seam_model(const Scene& scene, const Seam& seam, std::optional<double> angle, const SeamState& state,
+                     std::optional<InterfaceModel> interface)
+{
+    if (!scene.foundation || !(scene.foundation->material.density > 0.0))
+        refuse(seam, "the rock above it has no density.", "foundation.density_kg_m3", "add  density_kg_m3 = 2650  to [foundation]");
+    const double rock = scene.foundation->material.density, unit_weight = water_unit_weight(scene);
+    const Polyline surface = ground_line(scene);
+    const Point first = heel(scene.section), last = toe(scene.section);
+    const InterfaceModel kind = interface.value_or(seam.interface.model);
+
+    SeamModel model;
+    model.path = seam_path(scene, seam);
+    const std::size_t segments_of_seam = model.path.size() - 1;
+    const bool free_face = !angle && seam.exit != SeamExit::daylight;
+    if (angle) {
+        const std::optional<Point> exit = meets(surface, model.path.back(), std::cos(*angle), std::sin(*angle));
+        if (!exit)
+            refuse(seam, fmt::format("the plane of its wedge at {:.4g} deg does not reach the ground.", *angle / degree),
+                   "a steeper angle", "raise seam.wedge.angle_deg");
+        model.path.push_back(*exit);
+    }
+    const std::size_t segments = model.path.size() - 1;
+
+    // Tops of the faces between the blocks; the first and the last are the ends of the body.
+    const double up = seam.interface.angle.value_or(0.5 * std::numbers::pi);
+    Polyline tops{{model.path.front().x, ground_level(surface, model.path.front().x)}};
+    for (std::size_t j = 1; j < segments; ++j) {
+        const std::optional<Point> top = meets(surface, model.path[j], std::cos(up), std::sin(up));
+        if (!top) refuse(seam, "an interface between its blocks does not reach the ground.", "a steeper angle", "write  angle_deg = 90");
+        model.feet.push_back(model.path[j]);
+        model.tops.push_back(*top);
+        tops.push_back(*top);
+    }
+    const Point exit = model.path.back();
+    tops.push_back(free_face ? Point{exit.x, ground_level(surface, exit.x)} : exit);
+
+    Heads ends;
+    ends.entry = scene.reservoir ? scene.reservoir->level : model.path.front().y;
+    ends.exit = std::max(tops.back().y, scene.tailwater ? scene.tailwater->level : -unbounded);
+    model.pressure = seam_pressure(scene, seam, model.path, ends, state.drains);
+
+    model.chain.gravity = scene.gravity;
+    std::optional<std::size_t> dam;
+    double start = 0.0;
+    for (std::size_t i = 0; i < segments; ++i) {
+        const Point a = model.path[i], b = model.path[i + 1];
+        ChainBlock block;
+        block.length = distance(a, b);
+        block.dip = std::atan2(a.y - b.y, b.x - a.x);
+        block.uplift = force_on(model.pressure, start, start + block.length);
+        const bool of_wedge = i >= segments_of_seam;
+        block.friction = of_wedge ? seam.wedge->friction : state.friction.value_or(FrictionOverSlip(seam.strength).peak());
+        block.cohesion = of_wedge ? seam.wedge->cohesion : state.bonded ? seam.strength.cohesion : 0.0;
+        block.dilation = !state.dilates ? 0.0 : of_wedge ? seam.wedge->dilation : seam.dilation;
+
+        Polyline outline{a, b};
+        const Polyline top = surface_between(surface, tops[i], tops[i + 1]);
+        for (auto p = top.rbegin(); p != top.rend(); ++p)
+            if (outline.back() != *p && outline.front() != *p) outline.push_back(*p);
+        const double rock_mass = rock * area_of(outline);
+        block.mass = rock_mass;
+        Point centre = rock_mass > 0.0 ? centroid(Section{outline}) : Point{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+        Force load;
+        add_ground_water(scene, top, load);
+        if (i == 0 && tops.front() != model.path.front() && scene.reservoir)
+            load += hydrostatic_load({model.path.front(), tops.front()}, DamSide::right, scene.reservoir->level, unit_weight).total();
+        if (i + 1 == segments && free_face)
+            load += hydrostatic_load({exit, tops.back()}, DamSide::left, ends.exit, unit_weight).total();
+        if (tops[i].x <= first.x && tops[i + 1].x >= last.x) {
+            dam = i;
+            for (const Load& l : static_loads(scene, scene_load_case(scene)))
+                if (l.kind != LoadKind::weight && l.kind != LoadKind::anchor) load += l.force.total();
+            const double dam_weight = dam_mass(scene);
+            const Point own = centroid(scene.section);
+            block.mass += dam_weight;
+            centre = {(rock_mass * centre.x + dam_weight * own.x) / block.mass,
+                      (rock_mass * centre.y + dam_weight * own.y) / block.mass};
+            const AddedMassIntegral water =
+                scene_added_mass(scene, scene.reservoir ? std::optional(scene.reservoir->level) : std::nullopt);
+            block.added_mass = {water.xx, water.xy, water.yy};
+            model.water_per_a_h = hydrodynamic_force(water, -1.0, 0.0).total();
+        }
+        block.force = {load.x, load.y};
+        load += force_at(centre, 0.0, -block.mass * scene.gravity);
+        model.chain.blocks.push_back(block);
+        model.outlines.push_back(outline);
+        model.loads.push_back(load);
+        model.centroids.push_back(centre);
+        if (i + 1 < segments) {
+            ChainInterface face;
+            face.angle = up;
+            face.length = distance(b, tops[i + 1]);
+            if (kind == InterfaceModel::friction) {
+                face.friction = seam.interface.friction;
+                face.cohesion = seam.interface.cohesion;
+            }
+            face.water = model.pressure.empty()
+                             ? 0.0
+                             : water_in(pressure_at(model.pressure, start + block.length), unit_weight, face.length,
+                                        tops[i + 1].y - b.y)
+                                   .force;
+            model.chain.interfaces.push_back(face);
+        }
+        start += block.length;
+    }
+    if (!dam)
+        refuse(seam, "it bends under the dam, and the face between its blocks cuts the dam.",
+               "kinks whose faces reach the ground outside of heel and toe", "move the kink, or give seam.interface.angle_deg");
+    model.chain.dam = *dam;
+    return model;
+}
+
+ChainStatus chain_status(const Chain& chain, const ChainLaw& law, double a_h, double a_v, double over)
+{
+    if (law.locked || !std::isfinite(a_h)) return ChainStatus::locked;
+    const ChainForces forces = chain_forces(chain, law, a_h, a_v, 0.0, over);
+    const auto pulls = [](double force) { return force < 0.0; };
+    if (std::any_of(forces.normal.begin(), forces.normal.end(), pulls)) return ChainStatus::floats;
+    if (std::any_of(forces.thrust.begin(), forces.thrust.end(), pulls)) return ChainStatus::opens;
+    return ChainStatus::stands;
+}
+
+namespace {
+
+/// Where N acts on each segment, by the moments of its block; thrusts act at a third of their face.
+std::vector<double> resultants(const SeamModel& model, const ChainForces& forces, double a_h)
+{
+    const Chain& chain = model.chain;
+    std::vector<double> places;
+    double start = 0.0;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const ChainBlock& block = chain.blocks[i];
+        const Point foot = model.path[i];
+        Force all = model.loads[i] + force_at(model.centroids[i], block.mass * a_h, 0.0);
+        if (i == chain.dam) all += a_h * model.water_per_a_h;
+        const auto add_face = [&](std::size_t j, double sign) {
+            const ChainInterface& face = chain.interfaces[j];
+            const Point e{std::cos(face.angle), std::sin(face.angle)}, out{e.y, -e.x};
+            const double third = face.length / 3.0;
+            const Point at{model.feet[j].x + third * e.x, model.feet[j].y + third * e.y};
+            const double thrust = forces.thrust[j] + face.water;
+            all += force_at(at, sign * (thrust * out.x - forces.shear[j] * e.x), sign * (thrust * out.y - forces.shear[j] * e.y));
+        };
+        if (i > 0) add_face(i - 1, 1.0);
+        if (i < chain.interfaces.size()) add_face(i, -1.0);
+        const double uplift_moment =
+            model.pressure.empty() ? 0.0 : [&] {
+                PressureProfile own{part(model.pressure, start, start + block.length)};
+                for (ProfilePoint& p : own.points) p.distance -= start;
+                return resultant(own).moment_about_heel;
+            }();
+        // Counter-clockwise about the upstream end of the segment: loads + uplift + N x = 0.
+        places.push_back(-(moment_about(all, foot) + uplift_moment) / forces.normal[i] / block.length);
+        start += block.length;
+    }
+    return places;
+}
+
+/// Least value of a function that has one minimum between lo and hi (golden section).
+template <typename Function>
+double least_between(Function&& value, double lo, double hi)
+{
+    constexpr double golden = 0.61803398874989485;
+    double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo), at_a = value(a), at_b = value(b);
+    while (hi - lo > 1e-7) {
+        if (at_a <= at_b) {
+            hi = b;
+            b = a, at_b = at_a;
+            a = hi - golden * (hi - lo), at_a = value(a);
+        } else {
+            lo = a;
+            a = b, at_a = at_b;
+            b = lo + golden * (hi - lo), at_b = value(b);
+        }
+    }
+    return 0.5 * (lo + hi);
+}
+
+constexpr double scan_step = 0.25 * degree;
+
+/// Angles that are tried: those given, or a scan.
+std::vector<double> angles_of(const SeamWedge& wedge)
+{
+    if (!wedge.angles.empty()) return wedge.angles;
+    std::vector<double> angles;
+    const int steps = std::max(1, static_cast<int>(std::ceil((wedge.search_to - wedge.search_from) / scan_step - 1e-9)));
+    for (int i = 0; i <= steps; ++i)
+        angles.push_back(wedge.search_from + (wedge.search_to - wedge.search_from) * i / steps);
+    return angles;
+}
+
+/// Of the chain with its strengths over its own factor of safety.
+ChainStatus status_at(const Chain& chain, double factor, const GroundState& state)
+{
+    if (!std::isfinite(factor) || !(factor > 0.0)) return ChainStatus::locked;
+    return chain_status(chain, chain_law(chain, factor), state.a_h, state.a_v, factor);
+}
+
+struct Search {
+    const Scene& scene;
+    const Seam& seam;
+    const std::vector<GroundState>& states;
+
+    WedgeTrial tried(double angle) const
+    {
+        WedgeTrial trial{angle, {}, {}, unbounded, ChainStatus::locked};
+        const Chain chain = seam_model(scene, seam, angle).chain;
+        for (const GroundState& state : states) {
+            trial.factors.push_back(chain_factor(chain, state.a_h, state.a_v));
+            trial.statuses.push_back(status_at(chain, trial.factors.back(), state));
+        }
+        const ChainLaw law = chain_law(chain);
+        trial.yield = law.yield();
+        trial.status = chain_status(chain, law, trial.yield, 0.0);
+        return trial;
+    }
+};
+
+/// Index of the least value; none: all are infinite.
+template <typename Value>
+std::optional<std::size_t> least(const std::vector<WedgeTrial>& trials, Value value)
+{
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        if (std::isfinite(value(trials[i])) && (!best || value(trials[i]) < value(trials[*best]))) best = i;
+    return best;
+}
+
+} // namespace
+
+SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<GroundState>& states)
+{
+    SeamPlane plane;
+    plane.name = seam.name;
+    const Search search{scene, seam, states};
+    std::vector<std::optional<double>> angles(states.size() + 1); // of each F, then of the yield
+    if (seam.wedge && seam.exit == SeamExit::wedge) {
+        for (const double angle : angles_of(*seam.wedge)) plane.trials.push_back(search.tried(angle));
+        const std::vector<WedgeTrial> scanned = plane.trials;
+        for (std::size_t k = 0; k <= states.size(); ++k) {
+            // The k-th F, or a_y; infinite where the wedge does not stand.
+            const auto value = [&](const WedgeTrial& t) {
+                const ChainStatus status = k < states.size() ? t.statuses[k] : t.status;
+                return status != ChainStatus::stands ? unbounded : k < states.size() ? t.factors[k] : t.yield;
+            };
+            const std::optional<std::size_t> best = least(scanned, value);
+            if (!best) continue;
+            angles[k] = scanned[*best].angle;
+            if (!seam.wedge->angles.empty()) continue;
+            const bool at_end = *best == 0 || *best + 1 == scanned.size();
+            plane.at_end_of_range = plane.at_end_of_range || at_end;
+            if (at_end) continue;
+            const double angle = least_between([&](double a) { return value(search.tried(a)); },
+                                               scanned[*best - 1].angle, scanned[*best + 1].angle);
+            const WedgeTrial refined = search.tried(angle);
+            if (value(refined) > value(scanned[*best])) continue;
+            angles[k] = angle;
+            plane.trials.push_back(refined);
+        }
+        std::sort(plane.trials.begin(), plane.trials.end(),
+                  [](const WedgeTrial& a, const WedgeTrial& b) { return a.angle < b.angle; });
+        plane.wedge_left_out = !angles.back();
+    }
+    plane.angle = angles.back();
+
+    const bool bare = seam.exit == SeamExit::wedge;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        SeamFactor factor;
+        factor.angle = angles[k];
+        const auto by = [&](std::optional<double> angle, InterfaceModel kind) {
+            return chain_factor(seam_model(scene, seam, angle, {}, kind).chain, states[k].a_h, states[k].a_v);
+        };
+        factor.smooth = by(factor.angle, InterfaceModel::smooth);
+        factor.friction = by(factor.angle, InterfaceModel::friction);
+        factor.factor = seam.interface.model == InterfaceModel::smooth ? factor.smooth : factor.friction;
+        factor.status = status_at(seam_model(scene, seam, factor.angle).chain, factor.factor, states[k]);
+        factor.without_wedge = bare ? by(std::nullopt, seam.interface.model) : factor.factor;
+        plane.factors.push_back(factor);
+    }
+
+    plane.model = seam_model(scene, seam, plane.angle);
+    const Chain& chain = plane.model.chain;
+    const ChainLaw law = chain_law(chain);
+    plane.yield = law.yield();
+    plane.status = chain_status(chain, law, plane.yield, 0.0);
+    if (plane.status == ChainStatus::locked) return plane;
+    plane.yield_per_a_v = -law.per_a_v / law.drive;
+    plane.slip_factor = law.factor();
+    plane.forces = chain_forces(chain, law, plane.yield, 0.0);
+    plane.resultants = resultants(plane.model, plane.forces, plane.yield);
+    plane.shares = resistance_shares(chain, law, plane.forces);
+    plane.valid_slip = unbounded;
+    plane.yield_upstream = unbounded;
+    if (!chain.interfaces.empty()) {
+        plane.growth = yield_growth(chain, scene.foundation->material.density);
+        if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
+    }
+    if (chain.dam == 0) {
+        Chain body = chain;
+        body.blocks.resize(1);
+        body.interfaces.clear();
+        RigidBlock alone;
+        alone.mass = body.blocks[0].mass;
+        alone.added_mass = body.blocks[0].added_mass;
+        alone.gravity = chain.gravity;
+        alone.horizontal_force = body.blocks[0].force.x;
+        alone.vertical_force = -body.blocks[0].force.y;
+        alone.uplift = body.blocks[0].uplift;
+        alone.friction = body.blocks[0].friction;
+        alone.cohesion_force = body.blocks[0].cohesion * body.blocks[0].length;
+        alone.base_inclination = body.blocks[0].dip;
+        plane.yield_upstream = yield_upstream(alone).law.constant;
+        plane.impact = chain_law(body).mass / law.mass;
+    }
+    const auto excess = [&](double friction) {
+        SeamState state;
+        state.friction = friction;
+        return chain_factor(seam_model(scene, seam, angles[0], state).chain) - 1.0;
+    };
+    double high = 1.0;
+    while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
+    plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
+    plane.stages =
+        seam_stages(scene, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
+    return plane;
+}
+
+SlipStages seam_stages(const Scene& scene, const Seam& seam, std::optional<double> angle, double growth)
+{
+    // Slips at which something changes, and the friction from there on.
+    struct Piece {
+        double from = 0.0, friction = 0.0;
+        bool bonded = true;
+    };
+    const FrictionOverSlip law(seam.strength);
+    std::vector<double> at;
+    std::vector<Piece> pieces;
+    const std::vector<FrictionOverSlip::Piece> given = law.pieces();
+    const bool loses = seam.strength.cohesion > 0.0 && seam.strength.cohesion_lost_at_slip;
+    if (loses) pieces.push_back({0.0, law.peak(), true});
+    constexpr int parts = 16; // of a slope: the law of a chain is not linear in friction
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const int count = given[i].slope != 0.0 && i + 1 < given.size() ? parts : 1;
+        const double length = i + 1 < given.size() ? given[i + 1].from_slip - given[i].from_slip : 0.0;
+        for (int k = 0; k < count; ++k) {
+            const double from = given[i].from_slip + length * k / count;
+            pieces.push_back({from, given[i].friction + given[i].slope * (from - given[i].from_slip), !loses});
+        }
+    }
+    const auto split = [&](std::optional<double> slip) {
+        if (!slip) return;
+        const auto next = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.from > *slip; });
+        const auto last = std::prev(next);
+        if (last->from != *slip || *slip == 0.0) pieces.insert(next, {*slip, law.at(*slip), last->bonded && (*slip == 0.0 || !loses)});
+    };
+    const std::optional<double> drains_lost = scene.drains ? scene.drains->lost_at_slip : std::nullopt;
+    split(drains_lost);
+    split(seam.dilation_slip);
+
+    SlipStages stages;
+    for (const Piece& piece : pieces) {
+        SeamState state;
+        state.friction = piece.friction;
+        state.bonded = piece.bonded;
+        const bool moved = !stages.empty(); // a later stage from the same slip holds from the first movement on
+        state.dilates = !(seam.dilation_slip && moved && piece.from >= *seam.dilation_slip);
+        if (drains_lost && moved && piece.from >= *drains_lost) state.drains = DrainState::ineffective;
+        const Chain chain = seam_model(scene, seam, angle, state).chain;
+        SlipStage stage;
+        stage.from_slip = piece.from;
+        stage.block = chain_block(chain, chain_law(chain));
+        // The yield grows by κ per slip: as the weight of the block does, so by its friction.
+        stage.block.friction += growth * piece.from / chain.gravity;
+        stage.friction_slope = growth / chain.gravity;
+        stages.push_back(stage);
+    }
+    // Friction linear over the slip: between the laws at both ends of a piece, at rest vertically.
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+        const double length = stages[i + 1].from_slip - stages[i].from_slip;
+        const auto piece = std::find_if(given.rbegin(), given.rend(), [&](const FrictionOverSlip::Piece& p) {
+            return p.from_slip <= stages[i].from_slip;
+        });
+        if (length <= 0.0 || piece == given.rend() || piece->slope == 0.0) continue;
+        const double rise = yield_acceleration(stages[i + 1].block) - yield_acceleration(stages[i].block);
+        stages[i].friction_slope = rise / length / scene.gravity;
+    }
+    if (stages.back().friction_slope != 0.0) {
+        // The last stage may not go on for ever; the geometry is good for less than the length of the seam.
+        SlipStage end = stages.back();
+        const double reach = 10.0 * base_length(scene.section);
+        end.block.friction += end.friction_slope * reach;
+        end.from_slip += reach;
+        end.friction_slope = 0.0;
+        stages.push_back(end);
+    }
+    return stages;
+}
+
+} // namespace damslip::sliding
