@@ -182,7 +182,7 @@ void tell_time(double wall, const FragilityArguments& a, const Streams& streams)
 {
     const int threads = thread_count(a.jobs);
     const double solvers = seconds_in_solvers(), share = solvers / (wall * threads);
-    if (!streams.quiet)
+    if (!streams.quiet && streams.form != Form::text)
         streams.talk << fmt::format("{:.3g} s on {} threads, {:.1f} % of it in solvers\n", wall, threads,
                                     100.0 * share);
     const nlohmann::ordered_json times = {

@@ -211,6 +211,7 @@ Answer accuracy_answer(const AccuracyReportInput& in)
             std::find_if(rungs.columns.begin(), rungs.columns.end(), [](const Column& c) { return c.key == "front"; }) -
             rungs.columns.begin())]);
     });
+    std::reverse(front.rows.begin(), front.rows.end()); // the finest first
     front.title = "Model levels that none as fast beats";
     all.add(front, {{"rung", "slip_mm", "error_mm", "deviation_percent", "seconds", "status"}}, text(rungs) + "\n");
     all.add(models, {{"model", "limit_mm", "open_mm", "off_top_percent"}}, text(models) + "\n");
