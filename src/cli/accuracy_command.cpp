@@ -165,8 +165,10 @@ int run_one(const AccuracyArguments& a, const Loaded& loaded, const RungRunner& 
     ClimbCalls calls;
     calls.run = [&](const Rung& r) { return runner.run(r); };
     const RungResult result = run_repeatedly(rung, 1, calls);
-    streams.out << (streams.form == Form::json ? one_rung_json(result, *loaded.records).dump(2) + "\n"
-                                               : one_rung_text(result, *loaded.records));
+    if (streams.form == Form::json)
+        streams.out << one_rung_json(result, *loaded.records).dump(2) << "\n";
+    else
+        put_answer(one_rung_answer(result, *loaded.records), "--out DIR", streams);
     if (!a.out.empty()) {
         write_file(a.out / "scene.toml", resolved_toml(scene_of(loaded.scene, rung)));
         if (!streams.quiet && rung.family == RungFamily::finite_elements)
@@ -242,7 +244,10 @@ int accuracy(const AccuracyArguments& a, const Streams& streams)
     const std::string command = judgement.choice ? command_of(a, results[*judgement.choice].rung) : "";
     const AccuracyReportInput answer{loaded.scene, *loaded.records, results, judgement, a.tolerance, command, messages};
     const std::string json = accuracy_json(answer).dump(2) + "\n";
-    streams.out << (streams.form == Form::json ? json : accuracy_text(answer));
+    if (streams.form == Form::json)
+        streams.out << json;
+    else
+        put_answer(accuracy_answer(answer), "--out DIR", streams);
     const auto page = [&] { return page_html(accuracy_page(answer)); };
     const std::string figure = cost_figure(results, judgement, a.tolerance, figure_title(loaded.scene, *loaded.records),
                                            FigureStyle::standalone);
@@ -364,7 +369,10 @@ int accuracy_of_probability(const AccuracyArguments& a, const Streams& streams)
                                 study.input.intensity.level_unit,
                                 study.input.intensity.level_unit_text};
     const std::string json = interval_cost_json(view).dump(2) + "\n";
-    streams.out << (streams.form == Form::json ? json : interval_cost_text(view));
+    if (streams.form == Form::json)
+        streams.out << json;
+    else
+        put_answer(interval_cost_answer(view), "--out DIR", streams);
     const auto page = [&] { return page_html(interval_cost_page(view)); };
     if (!a.out.empty()) {
         write_file(a.out / "accuracy.csv",

@@ -24,6 +24,21 @@ bool put_json_document(const Streams& streams, const std::string& what,
     return true;
 }
 
+void put_answer(pages::Answer answer, const std::string& files, const Streams& streams, std::ostream* to)
+{
+    std::ostream& out = to ? *to : streams.out;
+    if (streams.form == Form::full) {
+        out << answer.full();
+    } else if (streams.quiet) {
+        out << answer.line();
+    } else {
+        for (const std::string& line : streams.held ? *streams.held : std::vector<std::string>{})
+            answer.note_in_brief(line.starts_with("note: ") ? line.substr(6) : line);
+        if (streams.held) streams.held->clear();
+        out << answer.brief(files);
+    }
+}
+
 void add_scene(CLI::App& sub, RunInputs& in)
 {
     sub.add_option("SCENE", in.scene, "scene file (TOML); -: standard input")->required();

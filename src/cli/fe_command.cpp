@@ -61,7 +61,10 @@ void put_answer(FeAnswer answer, const FeArguments& arguments, const Scene& scen
         answer.json["response_spectrum"] = spectrum_json(*spectrum);
         answer.text += "\n" + spectrum_text(*spectrum);
     }
-    streams.out << (streams.form == Form::json ? answer.json.dump(2) + "\n" : answer.text);
+    if (streams.form == Form::json)
+        streams.out << answer.json.dump(2) << "\n";
+    else
+        put_answer(answer.text, "--out DIR", streams);
     if (!arguments.reports()) return;
     Page report = page();
     if (spectrum) report.sections.push_back(spectrum_section(*spectrum));
@@ -106,8 +109,7 @@ int run_contact(const FeArguments& arguments, const Ready& ready, const Spectrum
     std::optional<FeReport> page;
     if (arguments.reports()) page.emplace(shared);
     ModelNotes of_model(ready.scene, model);
-    if (!streams.quiet) // before the time is spent
-        for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.talk << note << "\n";
+    for (const std::string& note : bond_messages(ready.scene, model.model().mesh)) streams.remark(note);
     const std::vector<ContactRun> runs = all.run([&](ContactRun& r, const GroundMotion& motion) {
         of_model.add(r.record, motion);
         keep_contact_run(arguments.out, shared, r, fields);
@@ -196,9 +198,9 @@ int fe(const FeArguments& arguments, const Streams& streams)
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::finite_elements, {.reduced = arguments.reduced, .stop = streams.stop});
     if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
-    if (!streams.quiet && ready.reservoir) streams.talk << ready.reservoir->reason << "\n";
-    if (!streams.quiet && ready.dam_period)
-        streams.talk << fmt::format("added mass for the dam's own period {:.5g} s\n", 1 / ready.dam_period->frequency);
+    if (ready.reservoir) streams.remark(ready.reservoir->reason);
+    if (ready.dam_period)
+        streams.remark(fmt::format("added mass for the dam's own period {:.4g} s", 1 / ready.dam_period->frequency));
     const std::shared_ptr<const SpectrumLevel> found = find_spectrum_level(arguments.spectrum, spectra, ready);
     if (arguments.reduced) return run_reduced(arguments, ready, found.get(), streams);
     return arguments.base == "tied" ? run_tied(arguments, ready, found.get(), streams)

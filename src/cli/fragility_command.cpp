@@ -182,7 +182,7 @@ void tell_time(double wall, const FragilityArguments& a, const Streams& streams)
 {
     const int threads = thread_count(a.jobs);
     const double solvers = seconds_in_solvers(), share = solvers / (wall * threads);
-    if (!streams.quiet)
+    if (!streams.quiet && streams.form != Form::text)
         streams.talk << fmt::format("{:.3g} s on {} threads, {:.1f} % of it in solvers\n", wall, threads,
                                     100.0 * share);
     const nlohmann::ordered_json times = {
@@ -200,7 +200,7 @@ int finish_fragility(const FragilityArguments& a, const FragilityStudy& study, c
     if (streams.form == Form::json)
         streams.out << fragility_json(view).dump(2) << "\n";
     else
-        streams.out << fragility_text(view);
+        put_answer(fragility_answer(view), "--out DIR", streams);
     if (!a.out.empty()) write_files(a.out, view, fragility_identity(plan, study.text, study.method.id));
     if (!a.pdf.empty()) {
         print_pdf(page_html(fragility_page(view)), a.pdf);
@@ -225,7 +225,7 @@ int fragility(const FragilityArguments& a, const Streams& streams)
         return write_slurm(a, streams);
     }
     const FragilityStudy study = open_fragility(text, std::move(scene), std::move(input), a.method);
-    if (!study.suite.made.empty() && !streams.quiet) streams.talk << study.suite.made << "\n";
+    if (!study.suite.made.empty()) streams.remark(study.suite.made);
     if (!a.out.empty()) make_folder(a.out);
     const std::size_t samples = a.budget    ? samples_by_budget(a, study, streams)
                                 : a.samples ? static_cast<std::size_t>(*a.samples)

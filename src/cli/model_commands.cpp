@@ -42,7 +42,10 @@ int modes(const ModesArguments& arguments, const Streams& streams)
     need_section(given, "damslip modes", "a wedge is rigid; damslip screen SCENE gives its slip");
     const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
     const ModesResult result = compute_modes(ready, {arguments.count, arguments.frequency_response});
-    streams.out << (streams.form == Form::json ? modes_json(given, result).dump(2) + "\n" : modes_text(given, result));
+    if (streams.form == Form::json)
+        streams.out << modes_json(given, result).dump(2) << "\n";
+    else
+        put_answer(modes_answer(given, result), arguments.out.empty() ? "" : "--out DIR", streams);
     if (!arguments.out.empty()) write_modes(arguments.out, given, result);
     return result.complete() ? exit_ok : exit_no_answer;
 }
@@ -99,6 +102,7 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
     fe2d::ContactExtension extension;
     if (scene.contact.sliding == JointPath::finite) extension.downstream = scene.contact.max_slip;
     const fe2d::Mesh mesh = fe2d::build_mesh(scene, extension);
+    const fe2d::MeshQuality quality = fe2d::measure_quality(mesh);
     Table table = mesh_table(mesh);
     for (std::string& note : note_texts(given.notes)) table.notes.push_back(std::move(note));
     if (scene.mesh.file) table.notes.push_back(import_note(scene, fe2d::import_mesh(scene, extension).summary));
@@ -114,7 +118,15 @@ int mesh(const MeshArguments& arguments, const Streams& streams)
         j["notes"] = note_texts(given.notes);
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << given.title << "\n\n" << text(table);
+        Answer answer;
+        answer += given.title + "\n\n" + text(table);
+        answer.headline_in_brief({fmt::format("{} nodes, {} elements, edges from {:.3g} to {:.3g} m.", mesh.nodes.size(),
+                                              mesh.element_count(), quality.smallest_edge, quality.largest_edge)});
+        answer.add(table, {{"nodes", "quadrilaterals", "triangles", "dam_elements", "base_nodes_dam", "base_nodes_rock",
+                            "smallest_angle_deg", "smallest_scaled_jacobian"}},
+                   "");
+        for (const std::string& note : table.notes) answer.note_in_brief(note);
+        put_answer(std::move(answer), "--out FILE.msh", streams);
     }
     return exit_ok;
 }

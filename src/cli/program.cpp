@@ -74,9 +74,14 @@ void check_names(const std::vector<std::string>& arguments)
 } // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out, std::ostream& raw_talk,
-                bool talk_is_terminal, std::span<const Command> rows)
+                bool talk_is_terminal, std::span<const Command> rows, bool out_is_terminal)
 {
     VisibleStream out(raw_out), talk(raw_talk);
+    std::vector<std::string> held;
+    const auto print_held = [&] { // of a command that ends without an answer to print them below
+        for (const std::string& line : held) talk << line << "\n";
+        held.clear();
+    };
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     const Form form = json ? Form::json : Form::text;
     try {
@@ -91,8 +96,17 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
             return start_verifier(arguments);
         };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
+        streams.out_is_terminal = out_is_terminal;
+        if (invocation.form == Form::text) streams.held = &held;
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
-        int code = invocation.run(streams);
+        int code = exit_ok;
+        try {
+            code = invocation.run(streams);
+        } catch (...) {
+            print_held();
+            throw;
+        }
+        print_held();
         if (interrupt.interrupted() && code == exit_ok) {
             talk << "Interrupted: the answer is of what was finished.\n";
             code = exit_no_answer;
@@ -192,7 +206,7 @@ int run_process(int argc, char** argv, std::span<const Command> rows)
     std::ios::sync_with_stdio(false);
     std::signal(SIGPIPE,
                 SIG_IGN); // a reader that went away is a failed write: files are finished, and the code says it
-    return run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(2) != 0, rows);
+    return run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(2) != 0, rows, isatty(1) != 0);
 }
 
 } // namespace damslip::cli

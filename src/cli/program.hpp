@@ -11,8 +11,9 @@ namespace damslip::cli {
 /// The whole program but for the process around it. @returns an ExitCode
 /// @param talk_is_terminal  progress is drawn on it
 /// @param rows              its commands
+/// @param out_is_terminal   a person reads `out`: `sweep` prints its answer there, else its rows
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& talk, bool talk_is_terminal,
-                std::span<const Command> rows = commands());
+                std::span<const Command> rows = commands(), bool out_is_terminal = false);
 
 /// A program of this project from main() on: settings of the process (BLAS threads, memory, signals), then run_program().
 int run_process(int argc, char** argv, std::span<const Command> rows);

@@ -12,6 +12,7 @@
 #include "records/transform/transform.hpp"
 #include "records/write/write_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -115,7 +116,18 @@ int record_info(const RecordInfoArguments& arguments, const Streams& streams)
         streams.out << j.dump(2) << "\n";
         return exit_ok;
     }
-    streams.out << text(without_checksums(std::move(table)));
+    Answer answer;
+    answer.add(table, {{"name", "component", "samples", "dt_s", "duration_s", "pga_m_s2", "pgv_m_s", "arias_intensity_m_s",
+                        "duration_5_95_s", "mean_period_s"},
+                       "pga_m_s2"},
+               text(without_checksums(table)));
+    double peak = 0.0;
+    for (const Record& record : records)
+        for (const double a : record.acceleration) peak = std::max(peak, std::abs(a));
+    answer.headline_in_brief({fmt::format("{} accelerogram{}, at most {:.4g} m/s².", records.size(),
+                                          records.size() == 1 ? "" : "s", peak)});
+    for (const std::string& note : table.notes) answer.note_in_brief(note);
+    put_answer(std::move(answer), "", streams);
     return exit_ok;
 }
 
@@ -205,7 +217,16 @@ int record_spectrum(const RecordSpectrumArguments& arguments, const Streams& str
         j["points"] = json_of(table);
         streams.out << j.dump(2) << "\n";
     } else if (arguments.out.empty()) {
-        streams.out << text(table);
+        Answer answer;
+        answer.add(table, {{"period_s", "pseudo_acceleration_m_s2", "absolute_acceleration_m_s2", "velocity_m_s"},
+                           "pseudo_acceleration_m_s2"},
+                   text(table));
+        const auto peak = std::max_element(table.rows.begin(), table.rows.end(), [](const auto& a, const auto& b) {
+            return std::get<double>(a[1]) < std::get<double>(b[1]);
+        });
+        answer.headline_in_brief({fmt::format("{}: at most {:.4g} m/s² (PSA), at a period of {:.4g} s.", table.title,
+                                              std::get<double>((*peak)[1]), std::get<double>((*peak)[0]))});
+        put_answer(std::move(answer), "--out FILE.csv", streams);
     }
     return exit_ok;
 }

@@ -1,6 +1,7 @@
 #include "cli/record_command.hpp"
 
 #include "analysis/suite/record_suite.hpp"
+#include "cli/command.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "pages/record/record_tables.hpp"
@@ -103,7 +104,7 @@ int record_suite(const RecordSuiteArguments& a, const Streams& streams)
     std::optional<SuiteTarget> target;
     if (a.pga) target = target_of(a);
     RecordSuite suite = read_suite(a.patterns.front());
-    if (!suite.list.made.empty() && !streams.quiet) streams.talk << suite.list.made << "\n";
+    if (!suite.list.made.empty()) streams.remark(suite.list.made);
     std::vector<Table> tables{suite_index_table(suite.rows)};
     std::vector<std::string> names{"records"}, notes = suite.list.notes, comments{"damslip record suite"};
     std::vector<SuiteLine> lines;
@@ -138,8 +139,21 @@ int record_suite(const RecordSuiteArguments& a, const Streams& streams)
         j["out"] = a.out.string();
         streams.out << j.dump(2) << "\n";
     } else {
-        for (const Table& table : tables) streams.out << text(table) << "\n";
-        for (const std::string& note : notes) streams.out << note << "\n";
+        Answer answer;
+        for (auto table = tables.rbegin(); table != tables.rend(); ++table) // what was chosen first
+            answer.add(*table, {{"name", "event", "factor", "misfit", "pga_m_s2", "pgv_m_s", "arias_intensity_m_s",
+                                 "duration_5_95_s", "mean_period_s", "period_s", "target_m_s2", "mean_m_s2",
+                                 "mean_over_target"},
+                                "pga_m_s2"},
+                       "");
+        for (const Table& table : tables) answer += text(table) + "\n";
+        for (const std::string& note : notes) {
+            answer += note + "\n";
+            answer.note_in_brief(note);
+        }
+        answer.headline_in_brief({target ? fmt::format("{} of {} records selected.", lines.size(), suite.rows.size())
+                                         : fmt::format("{} records.", suite.rows.size())});
+        put_answer(std::move(answer), "--out FILE.csv", streams);
         if (!a.out.empty() && !streams.quiet)
             streams.talk << fmt::format("{}: {} records; read it with  --records {}\n", a.out.string(), lines.size(),
                                         a.out.string());

@@ -213,8 +213,10 @@ int ablate(const ExplainArguments& arguments, const Streams& streams)
     TerminalWatch watch(streams);
     const AblationRuns runs = run_ablations(plan, ready.pairs, arguments.jobs, watch);
     const Ablations ablations{plan, ready.records(), runs, ready.reservoir ? ready.reservoir->reason : std::string()};
-    streams.out << (streams.form == Form::json ? ablation_json(ablations, given, ready.plan).dump(2) + "\n"
-                                               : ablation_text(ablations, ready.plan));
+    if (streams.form == Form::json)
+        streams.out << ablation_json(ablations, given, ready.plan).dump(2) << "\n";
+    else
+        put_answer(ablation_answer(ablations, ready.plan), "--report FILE.html", streams);
     if (!arguments.report.empty()) {
         write_file(arguments.report, page_html(ablation_page(ablations, given, ready.plan)));
         name_report(arguments.report, streams);
@@ -233,7 +235,10 @@ int explain(const ExplainArguments& arguments, const Streams& streams)
     Explained out{given, arguments.method, make_effect_plan(given, method), {}, {}, {}, note_texts(given.notes)};
     if (method == Method::finite_elements)
         add_model(prepare(given, method, records_at_hand(given), {.stop = streams.stop}), out);
-    streams.out << (streams.form == Form::json ? explain_json(out).dump(2) + "\n" : explain_text(out));
+    if (streams.form == Form::json)
+        streams.out << explain_json(out).dump(2) << "\n";
+    else
+        put_answer(explain_answer(out), "", streams);
     return exit_ok;
 }
 

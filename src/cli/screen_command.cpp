@@ -65,8 +65,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         need_section(given, "damslip screen --response-spectrum", "a wedge is rigid: leave the flag out");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
     const Ready ready = prepare(given, Method::rigid_block, options);
-    if (!streams.quiet)
-        for (const std::string& warning : record_warnings(ready.records())) streams.talk << "note: " << warning << "\n";
+    for (const std::string& warning : record_warnings(ready.records())) streams.remark("note: " + warning);
 
     const std::shared_ptr<const SpectrumLevel> spectrum =
         spectrum_of_elements(arguments.spectrum, spectra, given, ready, streams);
@@ -75,7 +74,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
     const ScreenReportInput in{
         ready.given, ready.scene, s, ready.records(), arguments.jobs, spectrum.get(), arguments.mean_polarity};
-    streams.out << (streams.form == Form::json ? screen_json(in).dump(2) + "\n" : screen_text(in));
+    if (streams.form == Form::json)
+        streams.out << screen_json(in).dump(2) << "\n";
+    else
+        put_answer(screen_answer(in), "--out DIR", streams);
     if (!arguments.out.empty()) {
         write_screening(arguments.out, in);
         if (!streams.quiet)
@@ -146,7 +148,10 @@ int assess_dam(const AssessArguments& a, const Streams& streams)
     TerminalWatch watch(streams);
     const Assessment assessment = assess(given, {a.budget, a.jobs}, watch);
     const std::string json = assess_json(assessment, given).dump(2) + "\n";
-    streams.out << (streams.form == Form::json ? json : assess_text(assessment, given));
+    if (streams.form == Form::json)
+        streams.out << json;
+    else
+        put_answer(assess_answer(assessment, given), "--out DIR", streams);
     if (!a.out.empty()) {
         write_file(a.out / "assess.json", json);
         write_file(a.out / "scene.resolved.toml", resolved_toml(given));
@@ -217,8 +222,16 @@ int regress(const RegressArguments& a, const Streams& streams)
         if (coefficients) j["k_allowable"] = pages::json_of(*coefficients);
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << pages::text(pages::regression_summary(rows)) << "\n";
-        if (coefficients) streams.out << pages::text(*coefficients) << "\n";
+        Answer answer;
+        answer.add(pages::regression_summary(rows),
+                   {{"model", "slip_mm", "slip_minus_sigma_mm", "slip_plus_sigma_mm", "remark"}, "slip_mm"});
+        if (coefficients) answer.add(*coefficients, {{"id", "model", "k_allowable", "k_allowable_over_pga"}});
+        const RegressionRow& weighted = rows.back();
+        answer.headline_in_brief(
+            weighted.median ? Headline{fmt::format("Weighted median {:.4g} mm ({}).", *weighted.median / units::mm,
+                                                   weighted.remark)}
+                            : Headline{"No regression gives a slip: " + weighted.status + "."});
+        put_answer(std::move(answer), "", streams);
     }
     return rows.back().valid ? exit_ok : exit_no_answer;
 }

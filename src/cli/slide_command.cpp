@@ -146,8 +146,7 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
         files.back().horizontal = file;
     }
     files.insert(files.end(), list.records.begin(), list.records.end());
-    if (!streams.quiet)
-        for (const std::string& note : list.notes) streams.talk << "note: " << note << "\n";
+    for (const std::string& note : list.notes) streams.remark("note: " + note);
     if (files.empty() && !a.record_list.empty())
         refuse_usage(fmt::format("--records {}: there is no record here.", a.record_list),
                      "a folder, a pattern in quotes such as 'suite/*.AT2', or a CSV with horizontal",
@@ -163,9 +162,7 @@ std::vector<GroundMotion> motions_of(const SlideArguments& a, const Streams& str
         const std::string& name = file.name;
         options.column = file.column.empty() ? a.column : file.column;
         const Record record = records::read_record(file.horizontal, options);
-        if (!streams.quiet)
-            for (const std::string& warning : record.warnings)
-                streams.talk << "note: " << name << ": " << warning << "\n";
+        for (const std::string& warning : record.warnings) streams.remark("note: " + name + ": " + warning);
         records::MotionOptions scaling;
         scaling.scale = a.scale;
         if (a.pga_g) scaling.scale_to_pga = *a.pga_g * standard_gravity;
@@ -247,7 +244,17 @@ int slide_on_yield(const SlideArguments& a, const Streams& streams)
         j["notes"] = table.notes;
         streams.out << j.dump(2) << "\n";
     } else {
-        streams.out << pages::text(table) << "\n";
+        pages::Answer answer;
+        answer.add(table, {{"yield_g", "record", "method", "yield_over_pga", "slip_mm", "slip_inverse_mm",
+                            "slip_mean_mm", "status"},
+                           "slip_mm"},
+                   pages::text(table) + "\n");
+        double largest = 0.0;
+        for (const GivenYieldRow& row : rows)
+            for (const sliding::SlideResult* r : {&row.normal, &row.inverse})
+                largest = std::max(largest, reported(r->status, r->max_slip).value_or(0.0));
+        answer.headline_in_brief({fmt::format("Slip {:.4g} mm at most, of both polarities.", largest / units::mm)});
+        put_answer(std::move(answer), "", streams);
     }
     StatusCount statuses;
     for (const GivenYieldRow& row : rows) {

@@ -244,6 +244,30 @@ struct Job {
     std::filesystem::path named() const { return shard ? store_of(arguments.out, shard) : arguments.out; }
 };
 
+/// The rows go to standard output where no file is named, unless a person reads it and did not ask for all.
+bool rows_on_out(const SweepArguments& a, const Streams& streams)
+{
+    return a.out.empty() && streams.form != Form::json && !(streams.form == Form::text && streams.out_is_terminal);
+}
+
+std::string rows_line(const Job& job, std::size_t rows)
+{
+    return fmt::format("{} rows{}, {}\n", rows, job.named().empty() ? "" : " in " + job.named().string(),
+                       polarity_words(job.axes.polarity));
+}
+
+/// The answer in brief on standard output where that has no rows, else beside them; in full, and of a part, it is talk.
+void put_sweep_answer(const Job& job, const std::string& full, const SweepReportInput& in, const Streams& streams)
+{
+    const bool aside = rows_on_out(job.arguments, streams);
+    if (streams.form == Form::text && !job.shard && !in.rows.rows.empty()) {
+        if (!aside || !streams.quiet)
+            put_answer(sweep_answer(in, full), "--out FILE.csv", streams, aside ? &streams.talk : nullptr);
+    } else if (!streams.quiet) {
+        streams.talk << full;
+    }
+}
+
 /// A part has no report, nor has a table too large to be looked at.
 /// @param compared  FE against the rigid block
 void put_report(const Job& job, const std::vector<RecordPair>& records, const Table& compared, const Table& table,
@@ -263,19 +287,18 @@ int finish(const Job& job, const SweepIdentity& identity, const Grid& grid, cons
     Table compared;
     if (outcome.fe && !job.shard) compared = comparison_table(grid, compare_with_rigid(job.scene, grid, outcome));
     if (streams.form == Form::json) streams.out << sweep_json(job.scene, table, compared, outcome).dump(2) << "\n";
-    if (!job.shard && (streams.form != Form::json || !job.arguments.out.empty()))
+    if (!job.shard && (!job.arguments.out.empty() || rows_on_out(job.arguments, streams)))
         put(job.arguments.out, csv(table, csv_comments(identity)), streams);
-    if (!streams.quiet) {
-        if (outcome.fe && !job.shard) streams.talk << fe_sweep_text(*outcome.fe, compared);
-        if (const std::optional<Table> rules = opening_water_table(table)) streams.talk << text(*rules) << "\n";
-        if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
-            !job.shard && !needed.rows.empty())
-            streams.talk << text(needed) << "\n";
-        streams.talk << fmt::format("{} rows{}, {}\n", outcome.rows.size(),
-                                    job.named().empty() ? "" : " in " + job.named().string(),
-                                    polarity_words(job.axes.polarity));
-    }
-    talk_of_answers(table, outcome, streams);
+    std::string full;
+    if (outcome.fe && !job.shard) full += fe_sweep_text(*outcome.fe, compared);
+    if (const std::optional<Table> rules = opening_water_table(table)) full += text(*rules) + "\n";
+    if (const Table needed = needed_friction_table(sweep_view(table), job.scene.criteria.allowable_slip);
+        !job.shard && !needed.rows.empty())
+        full += text(needed) + "\n";
+    full += rows_line(job, outcome.rows.size());
+    const SweepReportInput of_rows{&job.scene, table, {}, records, job.arguments.out};
+    put_sweep_answer(job, full, of_rows, streams);
+    if (streams.form != Form::text || streams.quiet || job.shard) talk_of_answers(table, outcome, streams);
     put_report(job, records, compared, table, wanted, outcome, streams);
     return outcome.complete() && outcome.all_good() ? exit_ok : exit_no_answer;
 }
@@ -308,7 +331,9 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     UnansweredRows unanswered;
     const std::size_t rows_of_friction = job.tasks.rows() / job.tasks.friction;
     std::optional<RowsOut> rows; // of a part there is no table
-    if (!job.shard) rows.emplace(job.arguments.out, identity, listed.columns, streams);
+    if (!job.shard && (!job.arguments.out.empty() || rows_on_out(job.arguments, streams)))
+        rows.emplace(job.arguments.out, identity, listed.columns, streams);
+    const bool in_brief = streams.form == Form::text && !job.shard;
     TerminalWatch watch(streams);
     const SweepTotals totals = run_long_sweep(
         inputs, std::move(grid), wanted, store, job.arguments.jobs, watch,
@@ -318,7 +343,7 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
             for_each_sweep_row(held, ids, part, false, [&](const std::vector<Cell>& row, const FinishedRow* finished) {
                 if (rows) rows->add(row);
                 const bool drawn = *id++ / rows_of_friction % every == 0;
-                if (reported) drawn ? all.add(row) : all.leave_out(row);
+                if (reported || in_brief) drawn ? all.add(row) : all.leave_out(row);
                 if (listed.rows.size() < listed_rows) listed.rows.push_back(row);
                 if (finished && !finished->good)
                     unanswered.add(static_cast<std::int64_t>(finished->id), status_of(*finished));
@@ -329,14 +354,12 @@ int run_long(const Job& job, const Sweep& inputs, const SweepIdentity& identity,
     if (store) talk_of_damage(*store, streams);
     if (!totals.complete() && store) return stopped(totals.rows, totals.wanted, streams);
     if (rows) rows->finish();
-    if (!streams.quiet)
-        streams.talk << fmt::format("{} rows{}, {}\n", totals.rows,
-                                    job.named().empty() ? "" : " in " + job.named().string(),
-                                    polarity_words(job.axes.polarity));
+    const SweepView view = reported || in_brief ? all.view() : SweepView();
+    const SweepReportInput of_rows{&job.scene, listed, {}, *inputs.records, job.arguments.out, {}, &view};
+    put_sweep_answer(job, rows_line(job, totals.rows), of_rows, streams);
     if (totals.bad) streams.talk << unanswered.words() << "\n";
     if (reported) {
-        const SweepView view = all.view();
-        put_pages(job.arguments, {&job.scene, listed, {}, *inputs.records, job.arguments.out, {}, &view}, streams);
+        put_pages(job.arguments, of_rows, streams);
     } else if (reports(job.arguments) && !job.shard && !streams.quiet) {
         streams.talk << fmt::format("no report: {} rows are more than the {} it draws\n", totals.rows, largest_report);
     }

@@ -177,14 +177,12 @@ std::optional<Diagnostic> unusual_argument(const std::string& subject, const std
 void say(const std::vector<Diagnostic>& notes, bool strict, const Streams& streams)
 {
     if (strict && !notes.empty()) throw InputError(notes);
-    if (streams.quiet) return;
-    for (const Diagnostic& note : notes) streams.talk << "note: " << note_text(note) << "\n";
+    for (const Diagnostic& note : notes) streams.remark("note: " + note_text(note));
 }
 
 void say_base(const Scene& scene, const Streams& streams)
 {
-    if (streams.quiet) return;
-    if (const std::optional<std::string> note = base_note(scene)) streams.talk << "warning: " << *note << "\n";
+    if (const std::optional<std::string> note = base_note(scene)) streams.remark("warning: " + *note);
 }
 
 void need_scene_file(const RunInputs& inputs, const std::string& flag)

@@ -110,6 +110,15 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
+void Streams::remark(const std::string& line) const
+{
+    if (quiet) return;
+    if (held)
+        held->push_back(line);
+    else
+        talk << line << "\n";
+}
+
 Progress::Progress(const Streams& streams, std::string label, double total, std::chrono::milliseconds line_every)
     : streams_(streams), label_(std::move(label)), total_(total), line_every_(line_every),
       start_(std::chrono::steady_clock::now()), drawn_(start_)

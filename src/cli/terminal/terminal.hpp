@@ -10,6 +10,7 @@
 #include <ostream>
 #include <streambuf>
 #include <string>
+#include <vector>
 
 namespace damslip::cli {
 
@@ -40,7 +41,11 @@ public:
     static void set_farewell(std::string talk, std::string out);
 };
 
-enum class Form { text, json };
+enum class Form {
+    text, ///< the answer in brief
+    full, ///< all tables
+    json
+};
 
 /// Where a command puts what it has to say: data on `out`, talk and progress on `talk`. Control characters other than
 /// newline and tab reach neither of them.
@@ -48,13 +53,18 @@ struct Streams {
     std::ostream& out;
     std::ostream& talk;
     Form form = Form::text;
-    bool quiet = false;          ///< no talk but errors
+    bool quiet = false;          ///< no talk but errors; in brief the answer's line alone
     bool terminal = false;       ///< `talk` is a terminal: progress is drawn
     std::ostream* bar = nullptr; ///< the terminal itself, for a bar that is drawn over; null: no terminal
     StopAsked stop = {};         ///< does the user want the command to end? empty: never
     /// Hands the whole command line to damslip-verify, the second program; does not come back unless that cannot be started.
     /// @throws InputError where it is not installed
     std::function<int()> hand_on = {};
+    bool out_is_terminal = false;
+    std::vector<std::string>* held = nullptr; ///< remarks that wait for the answer in brief; null: they are printed at once
+
+    /// A line of talk on what the answer rests on: "note: ...". In brief it is one of the answer's notes.
+    void remark(const std::string& line) const;
 };
 
 /// How far a command is. On a terminal a bar with percentage and time left, at most ten times a second; elsewhere a

@@ -2,6 +2,7 @@
 
 #include "analysis/ablation/ablation_rows.hpp"
 #include "core/status.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -56,6 +57,6 @@ StatusCount unanswered_runs(const AblationRuns& runs);
 Page ablation_page(const Ablations& in, const Scene& given, const EffectPlan& effects);
 
 nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, const EffectPlan& effects);
-std::string ablation_text(const Ablations& in, const EffectPlan& effects);
+Answer ablation_answer(const Ablations& in, const EffectPlan& effects);
 
 } // namespace damslip::pages

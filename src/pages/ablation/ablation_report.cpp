@@ -211,14 +211,25 @@ nlohmann::ordered_json ablation_json(const Ablations& in, const Scene& given, co
     return j;
 }
 
-std::string ablation_text(const Ablations& in, const EffectPlan& effects)
+Answer ablation_answer(const Ablations& in, const EffectPlan& effects)
 {
-    std::vector<Table> tables{effect_table(effects), removal_table(in)};
-    if (in.plan.method == Method::rigid_block) tables.push_back(yield_change_table(in));
-    for (std::size_t r = 0; r < in.records.size(); ++r) tables.push_back(change_table(in, r));
-    tables.push_back(seconds_table(in));
-    std::string all = in.plan.full.title + "\n\n" + texts(tables);
-    for (const std::string& note : ablation_notes(in)) all += "note: " + note + "\n";
+    Answer all;
+    all += in.plan.full.title + "\n\n" + texts({effect_table(effects), removal_table(in)}) + "\n";
+    if (in.plan.method == Method::rigid_block) {
+        const Table yields = yield_change_table(in);
+        const std::vector<std::string> columns{"effect", "yield_acceleration_m_s2", "change_percent"};
+        all.add(yields, {in.records.empty() ? columns : std::vector<std::string>(), "change_percent"}, text(yields) + "\n");
+    }
+    for (std::size_t r = 0; r < in.records.size(); ++r) {
+        const Table changes = change_table(in, r);
+        all.add(changes, {{"effect", "status", "slip_mm", "slip_error_mm", "change_mm", "change_error_mm",
+                           "change_percent", "remark"},
+                          "change_mm"},
+                text(changes) + "\n");
+    }
+    all += text(seconds_table(in));
+    all.headline_in_brief(headline(in));
+    for (const std::string& note : ablation_notes(in)) all.note(note);
     return all;
 }
 

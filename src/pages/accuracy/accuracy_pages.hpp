@@ -3,6 +3,7 @@
 #include "analysis/accuracy/accuracy.hpp"
 #include "analysis/prepare/records.hpp"
 #include "core/csv.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,14 +21,14 @@ struct AccuracyReportInput {
 };
 
 nlohmann::ordered_json accuracy_json(const AccuracyReportInput& input);
-std::string accuracy_text(const AccuracyReportInput& input);
+Answer accuracy_answer(const AccuracyReportInput& input);
 
 /// The rungs as a CSV file, with what is finished.
 std::string accuracy_csv(const Scene& scene, const std::vector<RungResult>& results, const Judgement& judgement);
 
 /// One rung alone.
 nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector<RecordPair>& records);
-std::string one_rung_text(const RungResult& result, const std::vector<RecordPair>& records);
+Answer one_rung_answer(const RungResult& result, const std::vector<RecordPair>& records);
 
 /// The ladder as a page: the answer, error against seconds, convergence of each model, the tables.
 Page accuracy_page(const AccuracyReportInput& input);

@@ -200,13 +200,26 @@ nlohmann::ordered_json accuracy_json(const AccuracyReportInput& in)
     return j;
 }
 
-std::string accuracy_text(const AccuracyReportInput& in)
+Answer accuracy_answer(const AccuracyReportInput& in)
 {
-    std::string all = in.scene.title + "\n\n" + text(rung_table(in.results, in.judgement)) + "\n" +
-                      text(model_table(in.results, in.judgement)) + "\n" +
-                      choice_sentence(in.results, in.judgement, in.tolerance) + "\n";
+    Answer all;
+    const Table rungs = rung_table(in.results, in.judgement), models = model_table(in.results, in.judgement);
+    all += in.scene.title + "\n\n";
+    Table front = rungs; // no model level as fast deviates less
+    std::erase_if(front.rows, [&](const std::vector<Cell>& row) {
+        return !std::holds_alternative<bool>(row[static_cast<std::size_t>(
+            std::find_if(rungs.columns.begin(), rungs.columns.end(), [](const Column& c) { return c.key == "front"; }) -
+            rungs.columns.begin())]);
+    });
+    std::reverse(front.rows.begin(), front.rows.end()); // the finest first
+    front.title = "Model levels that none as fast beats";
+    all.add(front, {{"rung", "slip_mm", "error_mm", "deviation_percent", "seconds", "status"}}, text(rungs) + "\n");
+    all.add(models, {{"model", "limit_mm", "open_mm", "off_top_percent"}}, text(models) + "\n");
+    all += choice_sentence(in.results, in.judgement, in.tolerance) + "\n";
+    all.headline_in_brief(headline(in));
     if (!in.command.empty()) all += "  " + in.command + "\n";
-    for (const std::string& message : in.messages) all += "note: " + message + "\n";
+    all.next(in.command);
+    for (const std::string& message : in.messages) all.note(message);
     return all;
 }
 
@@ -226,10 +239,21 @@ nlohmann::ordered_json one_rung_json(const RungResult& result, const std::vector
     return j;
 }
 
-std::string one_rung_text(const RungResult& result, const std::vector<RecordPair>& records)
+Answer one_rung_answer(const RungResult& result, const std::vector<RecordPair>& records)
 {
-    return text(one_rung_table(result, records)) + "status: " + word(result.status) + "\n" +
-           (result.remark.empty() ? "" : "note: " + result.remark + "\n");
+    Answer answer;
+    const Table table = one_rung_table(result, records);
+    answer.add(table, {{"record", "polarity", "slip_mm", "seconds"}, "slip_mm"}, text(table));
+    answer += "status: " + word(result.status) + "\n";
+    const auto worst = std::max_element(result.slip.begin(), result.slip.end(),
+                                        [](double a, double b) { return std::abs(a) < std::abs(b); });
+    answer.headline_in_brief({worst == result.slip.end()
+                                  ? "Model level " + rung_id(result.rung) + " has no slip."
+                                  : fmt::format("Model level {}: slip {:.4g} mm at most.", rung_id(result.rung),
+                                                *worst / units::mm),
+                              Outcome::none, word(result.status)});
+    if (!result.remark.empty()) answer.note(result.remark);
+    return answer;
 }
 
 } // namespace damslip::pages

@@ -283,24 +283,30 @@ nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given)
     return j;
 }
 
-std::string assess_text(const Assessment& a, const Scene& given)
+Answer assess_answer(const Assessment& a, const Scene& given)
 {
-    const Headline head = assess_headline(a);
-    std::vector<Table> tables{level_table(a)};
-    if (a.spectrum) tables.push_back(spectrum_table(*a.spectrum));
-    if (!a.assumptions.empty()) tables.push_back(assumption_table(a));
-    std::string all = given.title + "\n\n" + texts(tables);
+    Answer all;
+    all += given.title + "\n\n";
+    const std::string gap = a.spectrum || !a.assumptions.empty() ? "\n" : "";
+    all.add(level_table(a), {{"record", "level", "how", "polarity", "slip_mm", "low_mm", "high_mm", "status"}, "slip_mm"},
+            text(level_table(a)) + gap);
+    if (a.spectrum) all += text(spectrum_table(*a.spectrum)) + (a.assumptions.empty() ? "" : "\n");
+    if (!a.assumptions.empty())
+        all.add(assumption_table(a), {{"assumption", "slip_mm", "change_mm", "status"}, "change_mm"},
+                text(assumption_table(a)));
     for (const auto& [title, sentences] : answers(a)) {
         if (sentences.empty()) continue;
         all += "\n" + title + "\n";
         for (const std::string& s : sentences) all += "  " + s + "\n";
+        all.point(title, sentences.front());
     }
     all += "\nNot considered, for the scene does not name it\n";
     for (const std::string& s : not_named(a)) all += "  " + s + "\n";
     all += "\nOff by a choice of scene or method\n";
     for (const std::string& s : taken_off(a)) all += "  " + s + "\n";
-    all += "\n" + head.sentence + "\n" + head.verdict + "\n";
-    for (const std::string& note : assess_notes(a)) all += "note: " + note + "\n";
+    all += "\n";
+    all.headline(assess_headline(a));
+    for (const std::string& note : assess_notes(a)) all.note(note);
     return all;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/assess/assess.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -26,6 +27,6 @@ Headline assess_headline(const Assessment& a);
 /// @param given  the scene as read
 Page assess_page(const Assessment& a, const Scene& given);
 nlohmann::ordered_json assess_json(const Assessment& a, const Scene& given);
-std::string assess_text(const Assessment& a, const Scene& given);
+Answer assess_answer(const Assessment& a, const Scene& given);
 
 } // namespace damslip::pages

@@ -102,19 +102,33 @@ nlohmann::ordered_json explain_json(const Explained& in)
     return j;
 }
 
-std::string explain_text(const Explained& in)
+Answer explain_answer(const Explained& in)
 {
     const auto& effects = in.plan.effects;
     const auto on = std::count_if(effects.begin(), effects.end(), [](const PlannedEffect& e) { return e.on; });
-    std::string all =
-        in.given.title + "\n\n" + text(effect_table(in.plan)) +
-        fmt::format("\n{} of {} effects on; the others are neither read, built nor stored.\n", on, effects.size());
+    const Table plan = effect_table(in.plan);
+    Table shown = plan;
+    shown.rows.clear();
+    for (std::size_t i = 0; i < effects.size(); ++i)
+        if (effects[i].on) shown.rows.push_back(plan.rows[i]);
+    Answer all;
+    all += in.given.title + "\n\n";
+    all.add(shown, {{"effect", "reason", "cost"}}, text(plan));
+    const std::string sentence =
+        fmt::format("{} of {} effects on; the others are neither read, built nor stored.", on, effects.size());
+    all += "\n" + sentence + "\n";
+    all.headline_in_brief({sentence});
     if (in.model)
         all += "\n" + text(model_counts(in)) +
                "  tied base; `damslip fe` without --base tied keeps both sides of the contact plane.\n";
     if (in.model && !in.model->mesh.lifts.empty()) all += "\n" + text(joint_table(in));
     if (in.cost) all += "\n" + cost_text(*in.cost);
-    for (const std::string& note : in.notes) all += "note: " + note + "\n";
+    if (in.cost && !in.cost->records.empty()) {
+        double seconds = in.cost->set_up_seconds;
+        for (const ContactCost::OfRecord& r : in.cost->records) seconds += 3 * r.pass_seconds;
+        all.point("a run of damslip fe", fmt::format("{:.2g} s for each polarity, estimated", seconds));
+    }
+    for (const std::string& note : in.notes) all.note(note);
     return all;
 }
 

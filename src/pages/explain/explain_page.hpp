@@ -3,6 +3,7 @@
 #include "analysis/fe/contact_run.hpp"
 #include "fe2d/fluid/fluid_model.hpp"
 #include "fe2d/model/model.hpp"
+#include "pages/report/answer.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -22,6 +23,6 @@ struct Explained {
 };
 
 nlohmann::ordered_json explain_json(const Explained& in);
-std::string explain_text(const Explained& in);
+Answer explain_answer(const Explained& in);
 
 } // namespace damslip::pages

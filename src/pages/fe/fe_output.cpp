@@ -88,8 +88,8 @@ FeAnswer begin_fe_answer(FeKind kind, const FePageFrame& frame)
 {
     const Table counts = count_table(frame.model.counts, frame.water);
     const std::optional<std::string> first = frame.slides ? base_note(frame.scene) : std::nullopt;
-    FeAnswer answer{json_header("fe", frame.scene, frame.plan.scene_hash),
-                    (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts)};
+    FeAnswer answer{json_header("fe", frame.scene, frame.plan.scene_hash)};
+    answer.text += (first ? *first + "\n\n" : "") + frame.scene.title + "\n\n" + text(counts);
     answer.json["base"] = kind == FeKind::tied ? "tied" : "contact";
     if (kind == FeKind::reduced) answer.json["reduced"] = true;
     answer.json["effects"] = json_of(effect_table(frame.plan));
@@ -114,7 +114,7 @@ void add_verdict(const Headline& headline, const std::vector<ContactRun>& runs, 
 void end_fe_answer(const std::vector<std::string>& messages, FeAnswer& answer)
 {
     answer.json["messages"] = messages;
-    for (const std::string& message : messages) answer.text += "note: " + message + "\n";
+    for (const std::string& message : messages) answer.text.note(message);
 }
 
 std::string run_file(const std::string& kind, const Scene& scene, const std::string& record, const std::string& suffix)

@@ -12,6 +12,7 @@
 #include "fe2d/output/vtu.hpp"
 #include "fe2d/run/earthquake_run.hpp"
 #include "pages/report/json.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 #include "scene/effect_plan.hpp"
 #include "scene/scene.hpp"
@@ -56,6 +57,11 @@ Table run_out_table(const std::vector<ContactRun>& runs);
 
 /// For people: "walked >= 512" in place of a slip that a dam which goes on by itself has not.
 void write_walked_slips(Table& run_table);
+
+/// Of contact_run_table() and the table of reduced runs.
+extern const InBrief run_columns_in_brief;
+/// What governs the slip of contact runs, and what is to be looked at.
+void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer);
 
 /// Columns of contact_run_table() for people: the answer, and how it was computed.
 Table answer_part(const Table& run_table);
@@ -187,7 +193,7 @@ enum class FeKind { contact, reduced, tied };
 /// The answer of `fe`: one object for --json and summary.json, and text for a terminal.
 struct FeAnswer {
     nlohmann::ordered_json json;
-    std::string text;
+    Answer text = {};
 };
 
 /// Scene, base, effects and counts of the model.
@@ -258,9 +264,6 @@ std::string write_frames(const std::filesystem::path& folder, const FrameModel& 
 /// @param combinations  Ready::combinations() @param step  what the step's part of the error holds
 Headline fe_headline(const Scene& scene, const std::vector<ContactRun>& runs,
                      const std::vector<sliding::Equilibrium>& combinations = {}, const std::string& step = "step");
-
-/// Sentence and verdict for a terminal.
-std::string headline_text(const Headline& headline);
 
 /// Slips, friction, opening of the worst run: for the top of the page.
 std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& scene,

@@ -204,11 +204,6 @@ std::vector<std::pair<std::string, std::string>> fe_key_figures(const Scene& sce
     return list;
 }
 
-std::string headline_text(const Headline& headline)
-{
-    return headline.sentence + "\n" + headline.verdict + "\n";
-}
-
 namespace {
 
 /// Without the load combinations.
@@ -453,6 +448,29 @@ std::vector<std::string> bond_messages(const Scene& scene, const fe2d::Mesh& mes
     return messages;
 }
 
+const InBrief run_columns_in_brief{{"record", "polarity", "slip_mm=slip at end", "total_error_mm=±",
+                                    "max_slip_m=largest slip", "slip_rigid_mm=rigid block", "error_parts", "status", "verdict"},
+                                   "slip_mm"};
+
+void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer)
+{
+    answer.next(fmt::format("damslip assess {}", scene.file.string()));
+    if (runs.empty()) return;
+    const ContactRun& worst = worst_of(runs);
+    const SlipError error = slip_error(worst);
+    std::string governs = record_of(worst);
+    if (const auto& open = worst.fe.history.open_length; !open.empty())
+        governs += fmt::format("; {:.3g} m of the base open at most", *std::max_element(open.begin(), open.end()));
+    if (!worst.fe.stages.empty())
+        governs += fmt::format("; without earthquake it needs a friction of {:.3g}, given {:.3g}",
+                               worst.fe.stages.back().critical_friction, scene.contact.friction);
+    answer.point("governs", governs);
+    constexpr double wide = 0.1; // of the slip
+    if (error.total > wide * std::abs(worst.fe.max_slip))
+        answer.point("look at", error.mesh > error.step ? "the ±, most of it the mesh's: a smaller mesh.size_m"
+                                                        : "the ±, most of it the step's: a smaller time.slip_tolerance");
+}
+
 FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>& runs,
                         const std::vector<std::string>& messages, const std::string& spread)
 {
@@ -487,16 +505,24 @@ FeAnswer contact_answer(const FeReport::Input& in, const std::vector<ContactRun>
     if (!flow.rows.empty()) j["joint_flow"] = json_of(flow);
     if (gives_way) j["contact_law"] = json_of(law);
 
-    std::vector<Table> shown{stages, answer_part(table), solution_part(table), slips, run_out};
-    if (!events.rows.empty()) shown.insert(shown.begin() + 2, events);
-    if (has_lifts) shown.push_back(lifts);
-    if (!in.scene.anchors.empty()) shown.push_back(anchors);
-    if (!water.rows.empty()) shown.push_back(water);
-    if (!flow.rows.empty()) shown.push_back(flow);
-    if (gives_way) shown.push_back(law);
     answer.text += fmt::format("  {} contact pairs; damping a_M = {:.5g} 1/s, b_K = {:.5g} s\n  {}\n\n", pairs,
-                               damping.mass, damping.stiffness, rock_line(in.scene, in.model)) +
-                   texts(shown) + "\n" + headline_text(headline) + (spread.empty() ? "" : spread + "\n");
+                               damping.mass, damping.stiffness, rock_line(in.scene, in.model));
+    answer.text += text(stages) + "\n";
+    answer.text.add(answer_part(table), run_columns_in_brief);
+    answer.text.add(events);
+    for (const Table& shown : {solution_part(table), slips, run_out}) answer.text += text(shown) + "\n";
+    if (has_lifts)
+        answer.text.add(lifts, {{"record", "polarity", "plane", "name", "slip_mm=slip at end", "total_error_mm=±",
+                         "largest_slip_mm=largest slip", "verdict"},
+                        "largest_slip_mm"},
+                        text(lifts) + "\n");
+    if (!in.scene.anchors.empty()) answer.text += text(anchors) + "\n";
+    for (const Table* shown : {&water, &flow}) answer.text.add(*shown);
+    if (gives_way) answer.text += text(law) + "\n";
+    answer.text.headline(headline);
+    answer.text += spread.empty() ? "" : spread + "\n";
+    answer.text.point("", spread);
+    add_points(in.scene, runs, answer.text);
     j["model_spread"] = spread;
     end_fe_answer(messages, answer);
     return answer;

@@ -140,8 +140,11 @@ FeAnswer reduced_answer(const ReducedReportInput& in)
     answer.json["run_out"] = json_of(run_out);
     Table shown = table;
     write_walked_slips(shown);
-    answer.text +=
-        "  " + rock_line(in.scene, in.full) + "\n\n" + texts({stages, shown, run_out}) + "\n" + headline_text(headline);
+    answer.text += "  " + rock_line(in.scene, in.full) + "\n\n" + text(stages) + "\n";
+    answer.text.add(shown, run_columns_in_brief, text(shown) + "\n");
+    answer.text += text(run_out) + "\n";
+    answer.text.headline(headline);
+    add_points(in.scene, runs, answer.text);
     end_fe_answer(in.messages, answer);
     return answer;
 }

@@ -188,10 +188,15 @@ FeAnswer tied_answer(const FePageFrame& frame, const fe2d::StaticSolution& stati
     answer.json["stages"] = json_of(stages);
     answer.json["runs"] = json_of(table);
     for (const TiedRun& r : runs) answer.json["notes"][r.record] = r.notes;
-    answer.text += "\n" + texts({stages, table});
+    answer.text += "\n" + text(stages) + "\n";
+    answer.text.add(table, {{"record", "polarity", "peak_crest_x_mm", "peak_crest_accel_x_m_s2", "peak_base_shear_kN_m",
+                             "energy_imbalance", "status"},
+                            "peak_crest_x_mm"},
+                    text(table));
+    answer.text.headline_in_brief(headline(runs));
     end_fe_answer(note_texts(frame.scene.notes), answer);
     for (const TiedRun& r : runs)
-        for (const std::string& note : r.notes) answer.text += "note: " + r.record + ": " + note + "\n";
+        for (const std::string& note : r.notes) answer.text.note(r.record + ": " + note);
     return answer;
 }
 

@@ -3,6 +3,7 @@
 #include "analysis/fragility/fragility_study.hpp"
 #include "analysis/fragility/interval_cost.hpp"
 #include "core/csv.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <limits>
@@ -47,7 +48,7 @@ inline FragilityView view_of(const FragilityStudy& study, const FragilityPlan& p
 }
 
 nlohmann::ordered_json fragility_json(const FragilityView& view);
-std::string fragility_text(const FragilityView& view);
+Answer fragility_answer(const FragilityView& view);
 /// Curves with stripes and bands, rate by intensity, what P comes from, the tables.
 Page fragility_page(const FragilityView& view);
 /// OpenQuake's model (NRML 0.5): lognormal curves; P at the levels where a curve does not hold or two of them cross. Of a cloud: empty.
@@ -68,7 +69,7 @@ struct IntervalCostView {
 /// One row an estimator and number of runs.
 Table interval_cost_table(const IntervalCostView& view);
 nlohmann::ordered_json interval_cost_json(const IntervalCostView& view);
-std::string interval_cost_text(const IntervalCostView& view);
+Answer interval_cost_answer(const IntervalCostView& view);
 Page interval_cost_page(const IntervalCostView& view);
 
 enum class CostAxis { seconds, runs };

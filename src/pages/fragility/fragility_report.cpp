@@ -239,22 +239,35 @@ nlohmann::ordered_json fragility_json(const FragilityView& view)
     return j;
 }
 
-std::string fragility_text(const FragilityView& view)
+Answer fragility_answer(const FragilityView& view)
 {
-    std::string out;
-    const auto add = [&out](const std::vector<Table>& tables) {
-        for (const Table& table : tables)
-            if (!table.rows.empty()) out += text(table) + "\n";
+    Answer out;
+    const auto add = [&out](const std::vector<Table>& tables, InBrief brief = {}) {
+        for (const Table& table : tables) {
+            InBrief of_table = brief;
+            if (!brief.columns.empty()) of_table.columns.insert(of_table.columns.begin(), table.columns.front().key);
+            out.add(table, std::move(of_table));
+        }
     };
-    add(probability_tables(view));
-    add(rate_tables(view));
+    add(probability_tables(view), {{"probability", "sampling_lower", "sampling_upper", "runs", "failures",
+                                    "missing", "fitted", "median", "beta", "fit"}});
+    add(rate_tables(view), {{"rate_lower", "rate_upper", "in_50_years", "in_50_years_upper"}});
     add(by_first_column(rate_part_table(view)));
     add(cause_tables(view));
     out += fmt::format("{} runs by {}: {}\n", view.plan.samples.size(), view.method, status_words(view));
     out += fmt::format("share of the draws that do not stand without an earthquake: {:.4g}\n", view.estimate.p_static);
-    for (const LimitEstimate& limit : view.estimate.limits) out += answer_sentence(view, limit) + "\n";
+    Headline headline;
+    for (const LimitEstimate& limit : view.estimate.limits) {
+        const std::string sentence = answer_sentence(view, limit);
+        out += sentence + "\n";
+        headline.sentence += sentence + "; ";
+    }
     out += fmt::format("by {}\n", method_words(view));
-    for (const std::string& note : view.notes) out += "note: " + note + "\n";
+    headline.sentence += fmt::format("by {}.", method_words(view));
+    out.headline_in_brief(headline);
+    out.point("runs", fmt::format("{} by {}: {}; {:.3g} of the draws do not stand without an earthquake",
+                                  view.plan.samples.size(), view.method, status_words(view), view.estimate.p_static));
+    for (const std::string& note : view.notes) out.note(note);
     return out;
 }
 
@@ -419,9 +432,14 @@ nlohmann::ordered_json interval_cost_json(const IntervalCostView& view)
     return j;
 }
 
-std::string interval_cost_text(const IntervalCostView& view)
+Answer interval_cost_answer(const IntervalCostView& view)
 {
-    return text(interval_cost_table(view)) + "\n" + answer_on_cost(view) + "\n";
+    Answer answer;
+    const Table table = interval_cost_table(view);
+    answer.add(table, {{"estimator", "runs", "seconds", "probability", "lower", "upper", "half_width", "gain"}}, text(table) + "\n");
+    answer += answer_on_cost(view) + "\n";
+    answer.headline_in_brief({answer_on_cost(view)});
+    return answer;
 }
 
 Chart interval_cost_chart(const std::vector<IntervalPoint>& points, CostAxis axis, const std::string& title,

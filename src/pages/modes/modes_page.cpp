@@ -225,13 +225,22 @@ nlohmann::ordered_json modes_json(const Scene& given, const ModesResult& m)
     return j;
 }
 
-std::string modes_text(const Scene& given, const ModesResult& m)
+Answer modes_answer(const Scene& given, const ModesResult& m)
 {
-    std::vector<Table> tables{frequency_table(m), damping_table(m),
-                              count_table(m.model.counts, m.water ? &*m.water : nullptr)};
-    if (!m.transfer.empty()) tables.push_back(transfer_table(m));
-    std::string all = given.title + "\n\n" + texts(tables);
-    for (const std::string& note : modes_notes(given, m)) all += "note: " + note + "\n";
+    const Table modes = frequency_table(m), damping = damping_table(m);
+    Answer all;
+    all += given.title + "\n\n";
+    all.add(modes, {{"mode", "frequency_Hz", "period_s", "of", "share_x_percent", "cumulative_x_percent",
+                     "share_y_percent", "dam_share_x_percent"}},
+            text(modes) + "\n");
+    all.add(damping, {{"method", "mass_coefficient_1_s", "stiffness_coefficient_s", "remark"}}, text(damping) + "\n");
+    all += text(count_table(m.model.counts, m.water ? &*m.water : nullptr));
+    if (!m.transfer.empty()) all += "\n" + text(transfer_table(m));
+    const Eigen::VectorXd& frequency = m.coupled ? m.coupled->frequency : m.modes.frequency;
+    all.headline_in_brief({frequency.size() > 0 ? fmt::format("The first mode has {:.4g} Hz, a period of {:.4g} s (tied base).",
+                                                              frequency[0], 1.0 / frequency[0])
+                                                : "No mode was found."});
+    for (const std::string& note : modes_notes(given, m)) all.note(note);
     return all;
 }
 

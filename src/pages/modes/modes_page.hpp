@@ -2,6 +2,7 @@
 
 #include "analysis/modes/modes.hpp"
 #include "core/csv.hpp"
+#include "pages/report/answer.hpp"
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +17,7 @@ Table transfer_table(const ModesResult& result);
 
 /// @param given  the scene as read
 nlohmann::ordered_json modes_json(const Scene& given, const ModesResult& result);
-std::string modes_text(const Scene& given, const ModesResult& result);
+Answer modes_answer(const Scene& given, const ModesResult& result);
 
 /// Shapes for ParaView, and the transfer functions as a CSV file.
 void write_modes(const std::filesystem::path& folder, const Scene& given, const ModesResult& result);

@@ -66,7 +66,7 @@ enum class Outcome { none, pass, fail, unresolved };
 struct Headline {
     std::string sentence;
     Outcome outcome = Outcome::none;
-    std::string verdict; ///< "PASS", or why there is none
+    std::string verdict = {}; ///< "PASS", or why there is none
 };
 
 /// The verdict on the slip joined with that on the load combinations: "Slip: PASS; load combinations: FAIL usual 2.95 < 3.0".

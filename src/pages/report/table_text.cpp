@@ -9,13 +9,12 @@
 
 namespace damslip::pages {
 
-namespace {
-
-/// Characters as a terminal counts them: UTF-8 continuation bytes take no place.
-std::size_t width(const std::string& s)
+std::size_t text_width(const std::string& s)
 {
     return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
+
+namespace {
 
 /// Fixed notation for everyday magnitudes, scientific beyond: 0.0123, 12.3, 1230, 1.23e+07.
 std::string number_text(double value, int digits)
@@ -30,7 +29,7 @@ std::string number_text(double value, int digits)
 
 std::string padded(const std::string& s, std::size_t to, bool right)
 {
-    const std::string fill(to - std::min(to, width(s)), ' ');
+    const std::string fill(to - std::min(to, text_width(s)), ' ');
     return right ? fill + s : s + fill;
 }
 
@@ -43,7 +42,7 @@ std::vector<std::size_t> widths_of(const std::vector<TextLine>& lines, std::size
 {
     std::vector<std::size_t> widths(columns, 0);
     for (const TextLine& line : lines)
-        for (std::size_t j = 0; j < line.size(); ++j) widths[j] = std::max(widths[j], width(line[j]));
+        for (std::size_t j = 0; j < line.size(); ++j) widths[j] = std::max(widths[j], text_width(line[j]));
     return widths;
 }
 
@@ -107,7 +106,7 @@ std::string broken_lines(const std::string& sentence, const std::string& indent)
     for (std::size_t from = 0; from <= sentence.size();) {
         const std::size_t end = std::min(sentence.find(' ', from), sentence.size());
         const std::string next = sentence.substr(from, end - from);
-        if (!line.empty() && width(line) + 1 + width(next) > widest) {
+        if (!line.empty() && text_width(line) + 1 + text_width(next) > widest) {
             out += line + "\n";
             line.clear();
         }

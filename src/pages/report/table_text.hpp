@@ -7,6 +7,9 @@
 
 namespace damslip::pages {
 
+/// Characters as a terminal counts them: UTF-8 continuation bytes take no place.
+std::size_t text_width(const std::string& s);
+
 /// One value for people: significant digits, "–" for nothing, "yes" and "no".
 std::string cell_text(const Cell& cell, int digits);
 

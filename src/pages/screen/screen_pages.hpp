@@ -5,6 +5,7 @@
 #include "analysis/screen/regression_rows.hpp"
 #include "analysis/screen/screening.hpp"
 #include "core/csv.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/chart.hpp"
 #include "pages/report/page.hpp"
 #include "sliding/empirical/regression.hpp"
@@ -80,7 +81,7 @@ Page screen_page(const ScreenReportInput& input);
 std::string screen_report(const ScreenReportInput& input);
 
 nlohmann::ordered_json screen_json(const ScreenReportInput& input);
-std::string screen_text(const ScreenReportInput& input);
+Answer screen_answer(const ScreenReportInput& input);
 
 /// summary.json, displacements.csv, flexible_block.csv of a flexible mass, scene.resolved.toml, report.html.
 void write_screening(const std::filesystem::path& folder, const ScreenReportInput& input);

@@ -456,15 +456,36 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
     return j;
 }
 
-std::string screen_text(const ScreenReportInput& in)
+namespace {
+
+/// What governs, and what is to be looked at.
+void add_points(const ScreenReportInput& in, Answer& answer)
+{
+    const Screening& s = in.screening;
+    if (const SlipRow* worst = largest(s)) {
+        const double yield = s.bases.front().model.downstream.law.constant;
+        answer.point("governs", fmt::format("record {}, polarity {:+d}: PGA {:.3g} g, it yields at {:.3g} g", worst->record,
+                                            worst->polarity, worst->pga / standard_gravity, yield / standard_gravity));
+    }
+    double friction = 0.0;
+    for (const NeededRow& row : s.needed) friction = std::max(friction, row.friction.value_or(0.0));
+    if (friction > 0.0)
+        answer.point("look at", fmt::format("friction: {:.3g} keeps the rigid block's slip within {:.4g} mm, given {:.3g}",
+                                            friction, in.scene.criteria.allowable_slip.value_or(0.0) / mm,
+                                            in.scene.contact.friction));
+    if (!in.scene.wedge && in.scene.dam.young_modulus) answer.next("damslip fe " + in.scene.file.string());
+}
+
+} // namespace
+
+Answer screen_answer(const ScreenReportInput& in)
 {
     const Screening& s = in.screening;
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
-    std::string out = in.scene.title + "   (" + in.scene.file.string() + ", scene " + s.plan.scene_hash.substr(0, 12) +
-                      ")\n" + effects_line(s.plan) + "\n";
-    const auto show = [&out](const Table& table) {
-        if (!table.rows.empty()) out += text(table) + "\n";
-    };
+    Answer out;
+    out += in.scene.title + "   (" + in.scene.file.string() + ", scene " + s.plan.scene_hash.substr(0, 12) + ")\n" +
+           effects_line(s.plan) + "\n";
+    const auto show = [&out](const Table& table) { out.add(table); };
     if (in.scene.wedge) {
         const RigidModel& model = s.bases.front().model;
         show(wedge_stability_table(in.scene, model));
@@ -485,7 +506,8 @@ std::string screen_text(const ScreenReportInput& in)
     }
     if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
     show(regression_summary(s.regressions));
-    show(slip_table(s, allowable));
+    out.add(slip_table(s, allowable),
+            {{"record", "polarity", "slip_h_mm", "slip_hv_mm", "max_slip_m", "status", "verdict"}, "max_slip_m"});
     if (in.mean_polarity) show(mean_slip_table(s));
     if (has_rocking(s)) show(rocking_table(s, allowable));
     if (!s.slips_without_bond.empty()) show(bond_table(s, allowable));
@@ -496,8 +518,9 @@ std::string screen_text(const ScreenReportInput& in)
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
     const Headline headline = screen_headline(in.scene, s);
-    out += headline.sentence + "\n" + headline.verdict + "\n";
-    for (const std::string& warning : s.warnings) out += "note: " + warning + "\n";
+    out.headline(headline);
+    add_points(in, out);
+    for (const std::string& warning : s.warnings) out.note(warning);
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include "core/csv.hpp"
 #include "core/status.hpp"
 #include "pages/report/chart.hpp"
+#include "pages/report/answer.hpp"
 #include "pages/report/page.hpp"
 
 #include <cstdint>
@@ -206,6 +207,9 @@ Page sweep_page(const SweepReportInput& input);
 
 /// The page as one HTML file.
 std::string sweep_report(const SweepReportInput& input);
+
+/// What the terminal says of the rows. @param full  of --full, beside the rows
+Answer sweep_answer(const SweepReportInput& input, const std::string& full);
 
 /// A sweep as tables.
 

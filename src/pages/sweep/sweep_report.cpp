@@ -374,6 +374,65 @@ std::vector<std::pair<std::string, std::string>> provenance(const SweepReportInp
 
 } // namespace
 
+namespace {
+
+/// What is to be known beside the rows.
+std::vector<std::string> all_warnings(const SweepReportInput& in, const SweepView& view)
+{
+    std::vector<std::string> list;
+    if (in.scene) {
+        if (const std::optional<std::string> rigid_base = base_note(*in.scene); rigid_base && finite_elements(view))
+            list.push_back(*rigid_base + ".");
+        for (std::string& note : note_texts(in.scene->notes)) list.push_back(std::move(note));
+    }
+    if (const std::string thinned = thinned_words(view, in.csv); !thinned.empty()) list.push_back(thinned);
+    for (std::string& w : warnings(view)) list.push_back(std::move(w));
+    for (std::string& w : record_warnings(in.records)) list.push_back(std::move(w));
+    return list;
+}
+
+/// Keys of the axes that have several values in the rows, then what the rows answer.
+std::vector<std::string> brief_row_columns(const Table& rows)
+{
+    std::vector<std::string> keys{"record", "polarity"};
+    for (const char* axis : {"friction", "level_m", "uplift", "opening_water", "reservoir", "size", "scale", "method"}) {
+        const auto at = std::find_if(rows.columns.begin(), rows.columns.end(), [&](const Column& c) { return c.key == axis; });
+        const auto j = static_cast<std::size_t>(at - rows.columns.begin());
+        if (at != rows.columns.end() &&
+            std::any_of(rows.rows.begin(), rows.rows.end(), [&](const auto& row) { return row[j] != rows.rows[0][j]; }))
+            keys.emplace_back(axis);
+    }
+    for (const char* key : {"max_slip_m", "slip_error_m", "truncation_error_m", "walked_at_least_m", "status"})
+        keys.emplace_back(key);
+    return keys;
+}
+
+} // namespace
+
+Answer sweep_answer(const SweepReportInput& in, const std::string& full)
+{
+    const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
+    const SweepView& view = in.view ? *in.view : own;
+    const std::optional<double> allowable = in.scene ? in.scene->criteria.allowable_slip : std::nullopt;
+    Answer answer;
+    answer += full;
+    answer.headline_in_brief(headline(view, allowable));
+    Table rows = in.rows;
+    rows.title = in.view ? fmt::format("The first {} rows", rows.rows.size()) : "Rows, those with the largest slips";
+    answer.add(rows, {brief_row_columns(in.rows), "max_slip_m"}, "");
+    answer.add(needed_friction_table(view, allowable),
+               {{"variant", "method", "friction", "friction_error", "friction_low", "friction_high", "record", "polarity"}},
+               "");
+    if (const std::optional<Table> rules = opening_water_table(in.rows)) {
+        std::vector<std::string> keys;
+        for (const Column& column : rules->columns) keys.push_back(column.key);
+        answer.add(*rules, {keys, "apart_mm"}, "");
+    }
+    for (const std::string& note : all_warnings(in, view)) answer.note_in_brief(note);
+    if (in.scene && !finite_elements(view)) answer.next(fmt::format("damslip sweep {} --method rigid,fe", in.scene->file.string()));
+    return answer;
+}
+
 Page sweep_page(const SweepReportInput& in)
 {
     const SweepView own = in.view ? SweepView() : sweep_view(in.rows);
@@ -399,16 +458,7 @@ Page sweep_page(const SweepReportInput& in)
                                                           {"Records", fmt::format("{}", view.records.size())},
                                                           {"Methods", fmt::format("{}", view.methods.size())}})
         page.key_figures.push_back(std::move(count));
-    if (in.scene) {
-        const std::optional<std::string> rigid_base = base_note(*in.scene);
-        if (rigid_base &&
-            std::any_of(view.rows.begin(), view.rows.end(), [](const SweepRow& r) { return r.finite_elements(); }))
-            page.warnings.push_back(*rigid_base + ".");
-        for (std::string& note : note_texts(in.scene->notes)) page.warnings.push_back(std::move(note));
-    }
-    if (const std::string thinned = thinned_words(view, in.csv); !thinned.empty()) page.warnings.push_back(thinned);
-    for (std::string& w : warnings(view)) page.warnings.push_back(std::move(w));
-    for (std::string& w : record_warnings(in.records)) page.warnings.push_back(std::move(w));
+    page.warnings = all_warnings(in, view);
     if (view.rows.empty()) return page;
 
     if (Table table = needed_friction_table(view, allowable); !table.rows.empty())

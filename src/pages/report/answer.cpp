@@ -1,0 +1,314 @@
+#include "pages/report/answer.hpp"
+
+#include "core/text.hpp"
+#include "pages/report/table_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace damslip::pages {
+
+namespace {
+
+constexpr int most_digits = 4;
+
+std::size_t place_of(const Table& table, const std::string& key)
+{
+    const auto at = std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.key == key; });
+    return static_cast<std::size_t>(at - table.columns.begin());
+}
+
+/// The columns in their order, without those that have nothing to show.
+Table part_of(const Table& table, const std::vector<std::string>& keys)
+{
+    Table part{table.title, {}, std::vector<std::vector<Cell>>(table.rows.size()), {}};
+    for (const std::string& word : keys) {
+        const std::size_t sign = word.find('='), at = place_of(table, word.substr(0, sign));
+        if (at == table.columns.size() || std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+                return std::holds_alternative<std::monostate>(row[at]);
+            }))
+            continue;
+        part.columns.push_back(table.columns[at]);
+        if (sign != std::string::npos) part.columns.back().heading = word.substr(sign + 1);
+        for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][at]);
+    }
+    return part;
+}
+
+double rounded(double value)
+{
+    if (value == 0.0 || !std::isfinite(value)) return value;
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - most_digits);
+    return unit > 1.0 ? std::round(value / unit) * unit : value; // decimals are the column's
+}
+
+/// Slips, and all lengths of a table that has millimetres, in millimetres; four digits at most.
+void for_a_glance(Table& table)
+{
+    const bool millimetres = std::any_of(table.columns.begin(), table.columns.end(), [](const Column& c) {
+        return c.unit == "mm" || (c.unit == "m" && c.key.find("slip") != std::string::npos);
+    });
+    for (std::size_t j = 0; j < table.columns.size(); ++j) {
+        Column& column = table.columns[j];
+        const double factor = millimetres && column.unit == "m" ? 1e3 : 1.0;
+        if (factor != 1.0) column.unit = "mm";
+        column.digits = std::min(column.digits, most_digits);
+        for (std::vector<Cell>& row : table.rows)
+            if (double* value = std::get_if<double>(&row[j])) *value = rounded(*value * factor);
+    }
+}
+
+/// Cut to so many characters, the last of them an ellipsis.
+std::string cut(const std::string& text, std::size_t characters)
+{
+    if (text_width(text) <= characters) return text;
+    std::size_t at = 0, seen = 0;
+    while (at < text.size() && seen + 1 < characters) {
+        ++at;
+        while (at < text.size() && (text[at] & 0xC0) == 0x80) ++at;
+        ++seen;
+    }
+    return text.substr(0, at) + "…";
+}
+
+/// Texts shortened, and in the end columns left out, until a line holds the table.
+void fit(Table& table)
+{
+    const auto wanted = [&](std::size_t j) {
+        std::size_t most = std::max(text_width(table.columns[j].heading), text_width(table.columns[j].unit));
+        for (const auto& row : table.rows) most = std::max(most, text_width(cell_text(row[j], table.columns[j].digits)));
+        return most;
+    };
+    for (;;) {
+        constexpr std::size_t least_text = 10;
+        std::size_t sum = 0, widest = table.columns.size(), most = least_text;
+        for (std::size_t j = 0; j < table.columns.size(); ++j) {
+            const std::size_t w = wanted(j);
+            sum += w + 2;
+            const bool text = std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+                return std::holds_alternative<std::string>(row[j]);
+            });
+            if (text && w > most && text_width(table.columns[j].heading) < w) most = w, widest = j;
+        }
+        if (sum <= brief_columns + 2) return;
+        if (widest == table.columns.size()) {
+            table.columns.pop_back();
+            for (auto& row : table.rows) row.pop_back();
+            continue;
+        }
+        const std::size_t to = std::max(least_text, most - std::min(most, sum - brief_columns - 2));
+        for (auto& row : table.rows)
+            if (std::string* words = std::get_if<std::string>(&row[widest]))
+                *words = cut(visible(*words, LineEnds::replaced), to);
+    }
+}
+
+/// So many rows, in their order: the first, or those with the largest numbers in a column.
+Table with_rows(const Table& table, std::size_t count, const std::string& largest)
+{
+    if (table.rows.size() <= count) return table;
+    std::vector<std::size_t> order(table.rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (const std::size_t at = place_of(table, largest); at < table.columns.size()) {
+        const auto size = [&](std::size_t i) { // a word in place of a number, "at least 310", is looked at first
+            if (const double* value = std::get_if<double>(&table.rows[i][at])) return std::abs(*value);
+            return std::holds_alternative<std::string>(table.rows[i][at]) ? HUGE_VAL : -1.0;
+        };
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+    }
+    order.resize(count);
+    std::sort(order.begin(), order.end());
+    Table part{table.title, table.columns, {}, {}};
+    for (const std::size_t i : order) part.rows.push_back(table.rows[i]);
+    return part;
+}
+
+/// A sentence in at most so many lines, the last one cut.
+std::string lines_of(const std::string& sentence, std::size_t most, const std::string& indent = "")
+{
+    std::string words; // a path is one word, however long
+    for (std::size_t from = 0; from <= sentence.size();) {
+        const std::size_t end = std::min(sentence.find(' ', from), sentence.size());
+        words += (from ? " " : "") + cut(sentence.substr(from, end - from), brief_columns - text_width(indent) - 2);
+        from = end + 1;
+    }
+    const std::string all = broken_lines(words, indent);
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < most; ++k) at = std::min(all.find('\n', at), all.size() - 1) + 1;
+    if (at >= all.size()) return all;
+    const std::size_t begin = at < 2 ? 0 : all.rfind('\n', at - 2) + 1; // of the last line
+    const std::string last = all.substr(begin, at - 1 - begin);
+    return all.substr(0, begin) + cut(last + " …", brief_columns) + "\n";
+}
+
+std::size_t count_lines(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Without what stands in parentheses.
+std::string without_asides(const std::string& sentence)
+{
+    std::string out;
+    int depth = 0;
+    for (const char c : sentence) {
+        if (c == '(') {
+            while (depth == 0 && !out.empty() && out.back() == ' ') out.pop_back();
+            ++depth;
+        }
+        if (depth == 0) out += c;
+        if (c == ')') depth = std::max(0, depth - 1);
+    }
+    return out;
+}
+
+/// As many whole clauses as fit; a first clause that is longer is cut.
+std::string clauses(const std::string& sentence, std::size_t characters)
+{
+    std::size_t end = 0;
+    for (std::size_t at = 0; at < sentence.size(); ++at) {
+        const bool ends = at + 1 == sentence.size() ||
+                          (std::string_view(",;.:").find(sentence[at]) != std::string_view::npos && sentence[at + 1] == ' ');
+        if (!ends) continue;
+        const std::size_t here = std::string_view(",;.:").find(sentence[at]) != std::string_view::npos ? at : at + 1;
+        if (text_width(sentence.substr(0, here)) > characters) break;
+        end = here;
+    }
+    return end ? sentence.substr(0, end) : cut(sentence, characters);
+}
+
+std::string without_stop(std::string text)
+{
+    while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
+    return text;
+}
+
+} // namespace
+
+Answer& Answer::operator+=(const std::string& text)
+{
+    full_ += text;
+    return *this;
+}
+
+void Answer::add(const Table& table)
+{
+    if (!table.rows.empty()) full_ += text(table) + "\n";
+}
+
+void Answer::add(const Table& table, InBrief brief, std::string text)
+{
+    full_ += text;
+    Table part = part_of(table, brief.columns);
+    if (part.rows.empty() || part.columns.empty()) return;
+    const std::size_t rows = part.rows.size();
+    tables_.push_back({std::move(part), rows, std::move(brief.largest)});
+}
+
+void Answer::add(const Table& table, InBrief brief)
+{
+    add(table, std::move(brief), table.rows.empty() ? "" : text(table) + "\n");
+}
+
+void Answer::headline(const Headline& headline)
+{
+    headline_ = headline;
+    full_ += headline.sentence + "\n" + headline.verdict + "\n";
+}
+
+void Answer::point(const std::string& name, const std::string& sentence)
+{
+    if (!sentence.empty()) points_.push_back(name.empty() ? sentence : name + ": " + sentence);
+}
+
+void Answer::note(const std::string& note)
+{
+    full_ += "note: " + note + "\n";
+    note_in_brief(note);
+}
+
+void Answer::note_in_brief(const std::string& note)
+{
+    const auto same = [&](const std::string& other) { return without_stop(other) == without_stop(note); };
+    if (std::none_of(notes_.begin(), notes_.end(), same)) notes_.push_back(note);
+}
+
+void Answer::next(const std::string& command)
+{
+    next_ = command;
+}
+
+std::string Answer::line() const
+{
+    const std::string verdict = clauses(without_stop(without_asides(headline_.verdict)), brief_columns / 2),
+                      sentence = without_stop(without_asides(visible(headline_.sentence, LineEnds::replaced)));
+    const std::string begin = verdict.empty() || sentence.empty() ? verdict : verdict + ": ";
+    return begin + clauses(sentence, brief_columns - text_width(begin)) + "\n";
+}
+
+std::string Answer::in_room(const Room& room, const std::string& files) const
+{
+    constexpr std::size_t verdict_lines = 2, sentence_lines = 6;
+    std::string out;
+    if (!headline_.verdict.empty()) out += lines_of(headline_.verdict, verdict_lines);
+    if (!headline_.sentence.empty()) out += lines_of(visible(headline_.sentence, LineEnds::replaced), sentence_lines);
+    for (std::size_t k = 0; k < std::min(room.tables, tables_.size()); ++k) {
+        Table shown = with_rows(tables_[k].table, room.rows, tables_[k].largest);
+        for_a_glance(shown);
+        fit(shown);
+        shown.title = cut(shown.title, brief_columns);
+        if (shown.rows.size() < tables_[k].rows)
+            shown.notes.push_back(fmt::format("{} more rows", tables_[k].rows - shown.rows.size()));
+        out += (out.empty() ? "" : "\n") + text(shown);
+    }
+    if (!out.empty()) out += "\n";
+    for (const std::string& point : points_) out += lines_of(visible(point, LineEnds::replaced), room.point_lines);
+    const std::size_t notes = std::min(room.notes, notes_.size());
+    for (std::size_t k = 0; k < notes; ++k)
+        out += lines_of("note: " + visible(notes_[k], LineEnds::replaced), room.note_lines);
+    std::string rest = "more: --full prints all tables";
+    if (notes < notes_.size()) rest += fmt::format(" and {} more note{}", notes_.size() - notes, notes + 1 < notes_.size() ? "s" : "");
+    if (!files.empty()) rest += fmt::format("; {} writes them", files);
+    out += rest + "\n";
+    if (!next_.empty()) out += cut("next: " + next_, brief_columns) + "\n";
+    return out;
+}
+
+std::string Answer::brief(const std::string& files) const
+{
+    constexpr std::size_t most = 1000, few_rows = 6, least_rows = 3;
+    Room room{brief_lines, most, 3, tables_.size(), 2};
+    for (;;) {
+        std::string out = in_room(room, files);
+        const std::size_t lines = count_lines(out);
+        if (lines <= brief_lines) return out;
+        if (room.notes > notes_.size()) room.notes = notes_.size();
+        if (room.note_lines > 1) // what can wait longest goes first
+            --room.note_lines;
+        else if (room.notes > 4)
+            --room.notes;
+        else if (room.rows > few_rows)
+            --room.rows;
+        else if (room.tables > 2)
+            --room.tables;
+        else if (room.notes > 2)
+            --room.notes;
+        else if (room.rows > least_rows)
+            --room.rows;
+        else if (room.tables > 1)
+            --room.tables, room.rows = brief_lines;
+        else if (room.point_lines > 1)
+            --room.point_lines;
+        else if (room.notes > 0)
+            --room.notes;
+        else { // a headline that is longer than any
+            std::size_t at = 0;
+            for (std::size_t k = 0; k + 1 < brief_lines; ++k) at = out.find('\n', at) + 1;
+            return out.substr(0, at) + "more: --full prints the rest\n";
+        }
+    }
+}
+
+} // namespace damslip::pages
