@@ -23,7 +23,7 @@ const char* const exit_codes = "Exit codes: 0 ok, 1 internal error, 2 command li
 
 struct Parser {
     CLI::App app{"How far does this concrete gravity dam slide in this earthquake, and how sure are we?", "damslip"};
-    bool json = false, full = false, quiet = false, cache = true;
+    bool json = false, full = false, brief = false, quiet = false, cache = true;
     std::map<const CLI::App*, Run> runs; ///< of the commands that run something
 };
 
@@ -51,8 +51,10 @@ void add(const Command& command, CLI::App& parent, Parser& p, const Wanted& want
     }
     if (!wanted(command)) return;
     CLI::Option* json = sub.add_flag("--json", p.json, "one JSON object on standard output, for machines");
-    sub.add_flag("--full", p.full, "all tables on the terminal, in place of the answer in brief")->excludes(json);
-    sub.add_flag("-q,--quiet", p.quiet, "the line of the answer alone (with --full: the tables); no progress, no talk");
+    CLI::Option* full =
+        sub.add_flag("--full", p.full, "all tables on a terminal too, in place of the answer in brief")->excludes(json);
+    sub.add_flag("--brief", p.brief, "the answer in brief in a pipe too, in place of all tables")->excludes(json, full);
+    sub.add_flag("-q,--quiet", p.quiet, "no progress, no talk; of the answer in brief its line alone");
     sub.add_flag("!--no-cache", p.cache,
                  "make reduced rock anew: do not use the cache folder ($XDG_CACHE_HOME/damslip or ~/.cache/damslip)");
     p.runs[&sub] = command.declare(sub);
@@ -183,7 +185,7 @@ Invocation parse_arguments(const std::vector<std::string>& arguments, std::span<
         throw usage_error(parser.app, arguments, error.what());
     }
     const Form form = parser.json ? Form::json : parser.full ? Form::full : Form::text;
-    return {chosen(parser), form, parser.quiet, parser.cache};
+    return {chosen(parser), form, parser.quiet, parser.cache, parser.brief};
 }
 
 std::vector<CommandSummary> command_summaries()

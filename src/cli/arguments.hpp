@@ -16,6 +16,7 @@ struct Invocation {
     Form form = Form::text;
     bool quiet = false;
     bool cache = true; ///< the user's cache folder may be used
+    bool brief = false; ///< the answer in brief, wherever it goes
 };
 
 /// Help or version text to print before leaving with exit code 0.

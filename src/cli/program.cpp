@@ -89,7 +89,10 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         const Invocation invocation = parse_arguments(arguments, rows);
         prepare_farewell(form);
         const InterruptGuard interrupt;
-        Streams streams{out, talk, invocation.form, invocation.quiet, talk_is_terminal && !invocation.quiet};
+        // A person at a terminal reads the answer in brief; what goes on in a pipe is all tables.
+        const bool in_brief = out_is_terminal || invocation.brief;
+        const Form answer_form = invocation.form == Form::text && !in_brief ? Form::full : invocation.form;
+        Streams streams{out, talk, answer_form, invocation.quiet, talk_is_terminal && !invocation.quiet};
         if (streams.terminal) streams.bar = &raw_talk;
         streams.hand_on = [&] {
             raw_out.flush(), raw_talk.flush();
@@ -97,7 +100,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         };
         streams.stop = [&interrupt] { return interrupt.interrupted(); };
         streams.out_is_terminal = out_is_terminal;
-        if (invocation.form == Form::text) streams.held = &held;
+        if (answer_form == Form::text) streams.held = &held;
         use_cache_folder(invocation.cache ? user_cache_folder() : std::filesystem::path());
         int code = exit_ok;
         try {

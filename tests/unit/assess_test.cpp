@@ -220,7 +220,7 @@ TEST(Assess, WhatIsLeftOutIsNamedInEveryForm)
     judge_assessment(a);
     const std::string sentence =
         "Not run (3 s would not do): finite elements, without uplift; finite elements, without separation.";
-    EXPECT_NE(pages::assess_text(a, a.ready.given).find(sentence), std::string::npos);
+    EXPECT_NE(pages::assess_answer(a, a.ready.given).full().find(sentence), std::string::npos);
     const auto notes = pages::assess_json(a, a.ready.given)["notes"];
     EXPECT_NE(std::find(notes.begin(), notes.end(), sentence), notes.end());
     const std::vector<std::string> warnings = pages::assess_page(a, a.ready.given).warnings;

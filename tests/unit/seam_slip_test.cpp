@@ -4,7 +4,7 @@
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/planes/seam.hpp"
-#include "support/source_dir.hpp"
+#include "source_dir.hpp"
 
 #include <array>
 #include <cmath>
