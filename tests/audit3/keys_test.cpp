@@ -340,7 +340,9 @@ TEST_F(Audit3Keys, A1_EveryNumberIsHonouredBySomeMethod)
     SectionInput section;
     for (const KeyGroup& group : key_groups(section))
         for (const Key& key : group.keys)
-            if (!key.units.empty()) EXPECT_NE(honoured_by(group.name, key.name), 0u) << group.name << "." << key.name;
+            if (!key.units.empty()) {
+                EXPECT_NE(honoured_by(group.name, key.name), 0u) << group.name << "." << key.name;
+            }
 }
 
 /// What a method leaves out is named beside its slip, and no PASS rests on it: in the terminal, the JSON and the page.

@@ -40,12 +40,12 @@ Scene dam_on_seam()
 
 double slip(const Scene& scene, bool vertical, int polarity)
 {
-    const std::string records = std::string(source_dir()) + "/records/data/ec8_3.0_";
+    const std::string folder = std::string(source_dir()) + "/records/data/ec8_3.0_";
     GroundMotion motion;
-    const Record h = read_record(records + "h.csv");
+    const Record h = records::read_record(folder + "h.csv");
     motion.dt = h.dt;
-    motion.accel_h = h.accel;
-    if (vertical) motion.accel_v = read_record(records + "v.csv").accel;
+    motion.accel_h = h.samples;
+    if (vertical) motion.accel_v = records::read_record(folder + "v.csv").samples;
     sliding::SlideOptions options;
     options.polarity = polarity;
     options.sliding.two_way = false;
