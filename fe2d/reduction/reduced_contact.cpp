@@ -46,10 +46,25 @@ void ReducedContact::right_hand_side(const StepConstants& c, const GroundAcceler
     const double drag_h = w * ground.drag_h - alpha * state_.ground.drag_h,
                  drag_v = w * ground.drag_v - alpha * state_.ground.drag_v;
     rates_ = cv * s.q_v + ca * s.q_a;
-    damped_.noalias() = system_.modes.dam_mass * rates_;
+    const Index dam = system_.water ? system_.water_begin : rates_.size(); // mass beyond is not the dam's
+    damped_.setZero(rates_.size());
+    damped_.head(dam).noalias() = system_.modes.dam_mass.topLeftCorner(dam, dam) * rates_.head(dam);
     load_ = h * system_.modes.ground_x - v * system_.modes.ground_y + drag_h * system_.modes.dam_x -
             drag_v * system_.modes.dam_y + c.a2 * s.q_v + c.a3 * s.q_a + a_m * damped_ +
             system_.modes.omega2.cwiseProduct((b_k * cv) * s.q_v + (b_k * ca) * s.q_a - s.q);
+    if (const ReducedWater* water = system_.water.get()) {
+        const auto of_water = [&](auto& vector) { return vector.segment(system_.water_begin, water->count()); };
+        const auto weighted = [&](double GroundAcceleration::*part) {
+            return w * ground.*part - alpha * state_.ground.*part;
+        };
+        auto load = of_water(load_);
+        water_ = c.a2 * of_water(s.q_v) + c.a3 * of_water(s.q_a);
+        load.noalias() = water->mass * water_;
+        load.noalias() -= water->stiffness * of_water(s.q);
+        load += weighted(&GroundAcceleration::displacement_v) * water->displacement_y -
+                weighted(&GroundAcceleration::velocity_h) * water->velocity_x +
+                weighted(&GroundAcceleration::velocity_v) * water->velocity_y;
+    }
     system_.add_radiation(rates_, load_);
     massless_ = (b_k * cv) * s.p_v + (b_k * ca) * s.p_a - s.p;
     known_ = alpha * s.contact.force + rest_force_;
@@ -178,6 +193,11 @@ const ReducedRun::Estimators& ReducedRun::estimators() const
         if (model_->system().modes.complete) return;
         DamModes reference = dam_modes(full_.structure(), reference_modes(wanted_));
         if (!reference.regular) return;
+        if (water_) {
+            estimators_.reference = std::make_unique<const ReducedModel>(
+                model_->plane(), system_of(std::move(reference)), scheme_of(scene_.time));
+            return;
+        }
         const auto coarse = [&](const ReducedSystem& system) {
             return std::make_unique<const ReducedModel>(coarse_.plane(), coarse_.coarsened(system),
                                                         scheme_of(scene_.time));
@@ -189,11 +209,25 @@ const ReducedRun::Estimators& ReducedRun::estimators() const
     return estimators_;
 }
 
-std::optional<double> ReducedRun::truncation_error(const Motion& motion, const Start& start) const
+std::optional<double> ReducedRun::truncation_error(const Motion& motion, const Start& start,
+                                                   const std::vector<double>& first) const
 {
     if (model_->system().modes.complete) return 0.0;
     const Estimators& systems = estimators();
-    if (!systems.kept) return std::numeric_limits<double>::quiet_NaN(); // the modes beyond did not converge
+    if (!systems.reference) return std::numeric_limits<double>::quiet_NaN(); // the modes beyond did not converge
+    const double modes = static_cast<double>(model_->system().dam_modes - 3);
+    const double more = static_cast<double>(systems.reference->system().dam_modes - 3);
+    if (water_) {
+        Motion coarsest = motion;
+        coarsest.parts = 1 << motion.halvings.value_or(0);
+        Strength strength(start.contact, model_->plane());
+        strength.follow(start.rest);
+        ReducedResult result;
+        shake(coarsest, *systems.reference, strength, start.rest, nullptr, result);
+        if (result.status == Status::interrupted) return std::nullopt;
+        const double to_more = largest_difference(first, result.history.slip);
+        return systems.reference->system().modes.complete ? to_more : to_more / (1.0 - modes / more);
+    }
     const ContactMemory memory = coarse_.shut(start.rest);
     Motion coarse_motion = motion;
     coarse_motion.contact.landing = Landing::ringing; // few pairs land together: jolts that the full plane has not
@@ -206,8 +240,6 @@ std::optional<double> ReducedRun::truncation_error(const Motion& motion, const S
         interrupted = interrupted || result.status == Status::interrupted;
         return result.history.slip;
     };
-    const double modes = static_cast<double>(systems.kept->system().dam_modes - 3);
-    const double more = static_cast<double>(systems.reference->system().dam_modes - 3);
     const double fewer = static_cast<double>(systems.fewer->system().dam_modes - 3);
     const std::vector<double> kept = slips(*systems.kept);
     const double to_more = largest_difference(kept, slips(*systems.reference));

@@ -63,7 +63,7 @@ private:
 
     // Work space.
     Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, rates_, damped_, tangential_,
-        elastic_;
+        elastic_, water_;
     Eigen::VectorXd gaps_, gaps_of_massless_;
     Eigen::VectorXd no_load_, no_force_;         ///< zeros
     Eigen::VectorXd force_before_, slip_before_; ///< of the step

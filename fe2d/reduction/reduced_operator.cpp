@@ -2,7 +2,9 @@
 
 #include "fe2d/solver/dense_product.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 namespace damslip::fe2d {
 
@@ -11,12 +13,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, const RunDamping& run_damping,
-                             const ReducedRock* radiating)
-    : modes(std::move(kept)), dam_modes(modes.count()), flexibility(modes.residual), damping(run_damping),
-      weights(structure.plane().weights())
+                             const ReducedRock* radiating, std::shared_ptr<const ReducedWater> reduced_water,
+                             double highest)
+    : modes(std::move(kept)), dam_modes(modes.count()), water(std::move(reduced_water)), flexibility(modes.residual),
+      damping(run_damping), weights(structure.plane().weights())
 {
+    if (water) add_water();
     if (radiating)
-        add_rock(*radiating);
+        add_rock(*radiating, highest);
     else if (structure.has_rock())
         flexibility += structure.rock_flexibility();
     const SlipDamping slip(structure, damping);
@@ -26,24 +30,55 @@ ReducedSystem::ReducedSystem(const ContactStructure& structure, DamModes kept, c
     mean_motion = modes.momentum * (damping.constants.mass / slip_damping); // m̂ = M r / (k'/a_M)
 }
 
-void ReducedSystem::add_rock(const ReducedRock& rock)
+void ReducedSystem::add_water()
 {
-    const Index dam = modes.count(), all = dam + rock.count();
-    const auto longer = [&](VectorXd& vector) { vector.conservativeResizeLike(VectorXd::Zero(all)); };
-    for (VectorXd* vector :
-         {&modes.omega2, &modes.crest, &modes.ground_x, &modes.ground_y, &modes.dam_x, &modes.dam_y, &modes.momentum})
-        longer(*vector);
-    modes.omega2.tail(rock.count()) = rock.stiffness;
-    modes.on_plane.conservativeResize(Eigen::NoChange, all);
-    modes.on_plane.rightCols(rock.count()) = -rock.modes;
-    modes.dam_mass.conservativeResizeLike(MatrixXd::Zero(all, all));
+    const Index shapes = water->pressures();
+    const MatrixXd pressures = water->face.leftCols(shapes),
+                   attached = modes.attach(modes.face_residual, pressures, -water->mass.topLeftCorner(shapes, shapes),
+                                           flexibility);
+    water_begin = modes.count();
+    of_face = MatrixXd::Zero(water_begin, water->count());
+    of_face.topLeftCorner(dam_modes, shapes) = -modes.face * pressures;
+    of_face.bottomLeftCorner(attached.rows(), shapes) = -attached;
+    modes.lengthen(water->count());
+}
+
+void ReducedSystem::add_rock(const ReducedRock& rock, double highest)
+{
+    const Index base = rock.base(), floor = rock.floor, count = rock.count();
+    modes.lengthen(count);
+    modes.omega2.tail(count) = rock.stiffness;
+    modes.on_plane.rightCols(count) = -rock.modes.topRows(base);
     radiation = rock.damping;
-    flexibility += rock.residual;
+    MatrixXd residual = rock.residual.topLeftCorner(base, base);
+    if (floor > 0 && water) {
+        constexpr double stiffer = 10.0; // than what answers at the highest frequency
+        const Index shapes = water->pressures();
+        const MatrixXd pressures = water->floor.leftCols(shapes), soft = rock.residual.bottomRightCorner(floor, floor);
+        const FaceResidual rest{
+            soft, soft / std::pow(stiffer * highest, 2), -rock.residual.topRightCorner(base, floor), {}};
+        const MatrixXd attached = modes.attach(rest, pressures, -water->mass.topLeftCorner(shapes, shapes), residual);
+        const Index all = count + attached.rows();
+        of_floor = MatrixXd::Zero(all, water->count());
+        of_floor.topLeftCorner(count, shapes) = -rock.modes.bottomRows(floor).transpose() * pressures;
+        of_floor.bottomLeftCorner(attached.rows(), shapes) = -attached;
+        radiation.conservativeResizeLike(MatrixXd::Zero(all, all));
+    }
+    flexibility += residual;
 }
 
 void ReducedSystem::add_radiation(const VectorXd& velocity, VectorXd& force) const
 {
     if (radiation.size() > 0) force.tail(radiation.rows()).noalias() += radiation * velocity.tail(radiation.rows());
+    if (!water) return;
+    const auto of_water = velocity.segment(water_begin, water->count());
+    auto on_water = force.segment(water_begin, water->count());
+    on_water.noalias() += water->damping * of_water;
+    on_water.noalias() += of_face.transpose() * velocity.head(water_begin);
+    force.head(water_begin).noalias() += of_face * of_water;
+    if (of_floor.size() == 0) return;
+    on_water.noalias() += of_floor.transpose() * velocity.tail(of_floor.rows());
+    force.tail(of_floor.rows()).noalias() += of_floor * of_water;
 }
 
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants)
@@ -58,7 +93,20 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
     const Index rock = system.radiation.rows();
     if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
-    inverse_ = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
+    if (system.water) {
+        const Index first = system.water_begin, water = system.water->count(), floor = system.of_floor.rows();
+        d.block(first, first, water, water) = constants.a0 * system.water->mass +
+                                              (w * constants.a1) * system.water->damping + w * system.water->stiffness;
+        d.block(0, first, first, water) = (w * constants.a1) * system.of_face;
+        if (floor > 0) d.block(d.rows() - floor, first, floor, water) = (w * constants.a1) * system.of_floor;
+        d.middleRows(first, water) = d.middleCols(first, water).transpose().eval();
+        if (rock > 0 && floor == 0) split_ = d.rows() - rock;
+        const VectorXd scale = d.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse(); // it is quasi-definite
+        d = (scale.asDiagonal() * d * scale.asDiagonal()).eval();
+        inverse_ = scale.asDiagonal() * d.partialPivLu().inverse() * scale.asDiagonal();
+    } else {
+        inverse_ = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
+    }
     inverse_ = (0.5 * (inverse_ + inverse_.transpose())).eval();
     MatrixXd flexibility = massless_factor_ * system.flexibility;
     flexibility.noalias() += (on_plane * inverse_) * on_plane.transpose();
@@ -83,6 +131,18 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     stiffness_ = std::make_shared<const MatrixXd>(std::move(stiffness));
 }
 
+void ReducedOperator::soften(const VectorXd& load, VectorXd& step) const
+{
+    if (split_ == 0) {
+        step.noalias() = inverse_ * load;
+        return;
+    }
+    const Index rest = load.size() - split_;
+    step.resize(load.size());
+    step.head(split_).noalias() = inverse_.topLeftCorner(split_, split_) * load.head(split_);
+    step.tail(rest).noalias() = inverse_.bottomRightCorner(rest, rest) * load.tail(rest);
+}
+
 void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known, Work& work,
                                   VectorXd& stuck) const
 {
@@ -90,11 +150,11 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless
     work.modal.setZero(load.size());
     to_modes_.add(massless, work.modal);
     work.modal = load - work.modal;
-    work.moved.noalias() = inverse_ * work.modal;
+    soften(work.modal, work.moved);
     stuck = massless;
     add_product(stiff_modes_, work.moved, stuck);
     if (system_.slips_damped()) {
-        work.moved.noalias() = inverse_ * load;
+        soften(load, work.moved);
         const double mean = system_.mean_motion.dot(work.moved);
         stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
     }
@@ -110,7 +170,7 @@ void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, con
     if (system_.slips_damped()) { // as in DynamicOperator::finish
         const VectorXd& weights = system_.weights;
         const Index m = weights.size();
-        work.moved.noalias() = inverse_ * load;
+        soften(load, work.moved);
         const double mean = system_.mean_motion.dot(work.moved);
         tilde.tail(m) -= (k_ * (slip - mean - k_ * zeta_ * slip)) * weights;
         const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
@@ -119,7 +179,7 @@ void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, con
     work.modal = load;
     to_modes_.add(tilde, work.modal);
     if (system_.slips_damped()) work.modal += (k_ * slip) * system_.mean_motion;
-    modal_step.noalias() = inverse_ * work.modal;
+    soften(work.modal, modal_step);
     massless_step = massless_factor_ * (tilde + massless);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe2d/reduction/dam_modes.hpp"
+#include "fe2d/reduction/reduced_water.hpp"
 #include "fe2d/run/dynamic_operator.hpp"
 #include "fe2d/run/static_contact.hpp"
 #include "fe2d/solver/dense_product.hpp"
@@ -15,10 +16,20 @@ namespace damslip::fe2d {
 /// What a reduced run needs beside the step size: modes, and the massless body on the plane. Radiating rock joins with its own
 /// modes, of mass 1 too, after the dam's: pushed the other way by the same forces, -Φ of the rock is its part of the
 /// gaps. Its damping couples them; its residual flexibility belongs to the massless body.
+///
+/// Acoustic water (ReducedWater) stands between the dam's modes, which then end in attachment modes for the pressures on the
+/// face, and the rock's. It has mass and stiffness of its own, of the other sign, is coupled by -s φᵀH V as CoupledSystem
+/// is, and has no part in the gaps. Where the floor is the rock's, the rock ends in attachment modes for the pressures there;
+/// its residual flexibility has no inertia to tell: they get that of ten times the water's highest frequency.
 struct ReducedSystem {
     DamModes modes;
-    Eigen::Index dam_modes = 0;  ///< of `modes` those of the dam, the first ones; the rest is the rock's
-    Eigen::MatrixXd radiation;   ///< damping of the rock's modes without b_K [1/s]; empty: the rock does not radiate
+    Eigen::Index dam_modes = 0; ///< of `modes` those of the dam alone, the first ones
+    Eigen::MatrixXd
+        radiation; ///< damping of the last modes, the rock's, without b_K [1/s]; empty: the rock does not radiate
+    std::shared_ptr<const ReducedWater> water; ///< null: none
+    Eigen::Index water_begin = 0;              ///< its first shape among `modes`
+    Eigen::MatrixXd of_face,
+        of_floor; ///< damping between the dam's modes, those of the rock, and the water's shapes; empty: none
     Eigen::MatrixXd flexibility; ///< F_s = rock K_c⁻¹ or F_res + residual of the dam, in series, 2m x 2m [m²/N]
     RunDamping damping;
     double slip_damping = 0.0;   ///< k' of SlipDamping [N s/m per m]; 0: none
@@ -26,17 +37,26 @@ struct ReducedSystem {
     Eigen::VectorXd weights;     ///< ω of SlipDamping
 
     /// @param radiating  rock of the motion on the plane; null: massless rock, or none
+    /// @param water  acoustic, of the structure's; null: none @param highest  ω up to which its pressures are right [rad/s]
     ReducedSystem(const ContactStructure& structure, DamModes modes, const RunDamping& damping,
-                  const ReducedRock* radiating = nullptr);
-    void add_rock(const ReducedRock& rock);
-    /// force += damping of the rock's modes by `velocity`.
+                  const ReducedRock* radiating = nullptr, std::shared_ptr<const ReducedWater> water = {},
+                  double highest = 0.0);
+    /// force += radiation, the water's own damping and its coupling by `velocity`.
     void add_radiation(const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
     bool slips_damped() const { return slip_damping != 0.0; }
+
+private:
+    void add_water();
+    void add_rock(const ReducedRock& rock, double highest);
 };
 
 /// One step size of the reduced run: DynamicOperator with A_d = d, n x n, and the massless body
 ///
 ///     d = a0 + w a1 (a_M φᵀM_damφ + radiation) + w (1 + a1 b_K) diag(ω²),   Δq = d⁻¹ (b + Φᵀ λ̃ + k μ s_Δ),   Φ = D φ
+///
+/// (acoustic water: its own mass and stiffness in place of 1 and ω²; d is then quasi-definite, and its inverse still positive
+/// definite on all that has a part in the gaps)
+///
 ///     w (1 + a1 b_K) Δp = λ̃ + π,   Δg = Φ Δq + F_s Δp,   p: elastic force of the massless body
 ///
 /// so W = Φ d⁻¹ Φᵀ + F, F = F_s/(w (1 + a1 b_K)), and with the free step q* = d⁻¹ b
@@ -69,10 +89,13 @@ public:
                 Eigen::VectorXd& massless_step) const;
 
 private:
+    void soften(const Eigen::VectorXd& load, Eigen::VectorXd& step) const;
+
     const ReducedSystem& system_;
     StepConstants constants_;
-    TransposedProduct to_modes_;  ///< Φᵀ
-    Eigen::MatrixXd inverse_;     ///< d⁻¹
+    TransposedProduct to_modes_; ///< Φᵀ
+    Eigen::MatrixXd inverse_;    ///< d⁻¹
+    Eigen::Index split_ = 0; ///< of two blocks of d⁻¹, dam with water and rock, the second one's begin; 0: one block
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
     Eigen::VectorXd z_; ///< Φ d⁻¹ μ

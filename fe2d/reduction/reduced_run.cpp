@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace damslip::fe2d {
 
@@ -56,11 +57,19 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
                "the nodes of dam and rock do not face each other along the base, as a reduced run needs them to.",
                "the same nodes on both sides",
                "let dam and rock share the curve from heel to toe, or run without --reduced");
-    if (!full.why_not().empty() || full.structure().slides_far() || full.structure().water() ||
-        full.in_motion().rock_moves())
-        return;
+    why_not_ = obstacle();
+    if (!why_not_.empty()) return;
     DamModes kept = dam_modes(full.structure(), wanted_);
-    if (!kept.regular) return;
+    if (!kept.regular) why_not_ = "The dam's modes did not converge.";
+    if (const WaterBody* water = full.structure().water(); water && why_not_.empty()) {
+        try {
+            water_ = std::make_shared<const ReducedWater>(reduce_water(*water, kept.face, highest_frequency()));
+            if (!water_->report.passed()) why_not_ = water_->missed_gate();
+        } catch (const std::runtime_error& error) {
+            why_not_ = fmt::format("The acoustic water cannot be reduced, {}: run without --reduced.", error.what());
+        }
+    }
+    if (!why_not_.empty()) return;
     const Plane& plane = full.structure().plane();
     model_ = std::make_unique<const ReducedModel>(plane, system_of(std::move(kept)), scheme_of(scene.time));
     seconds_ = start.seconds();
@@ -68,10 +77,16 @@ ReducedRun::ReducedRun(const EarthquakeRun& full, const Scene& scene, RunOptions
 
 ReducedSystem ReducedRun::system_of(DamModes modes) const
 {
-    return {full_.structure(), std::move(modes), {full_.damping(), scene_.damping.mass}, full_.radiating_on_base()};
+    return {full_.structure(),         std::move(modes), {full_.damping(), scene_.damping.mass},
+            full_.radiating_on_base(), water_,           highest_frequency()};
 }
 
-std::string ReducedRun::why_none() const
+double ReducedRun::highest_frequency() const
+{
+    return 2.0 * std::numbers::pi * options_.wave_frequency;
+}
+
+std::string ReducedRun::obstacle() const
 {
     if (!full_.why_not().empty()) return full_.why_not();
     if (full_.structure().slides_far())
@@ -79,9 +94,7 @@ std::string ReducedRun::why_none() const
     if (full_.in_motion().rock_moves())
         return "A reduced run has no unknowns of a rock box: rock that radiates or is massless, not "
                "foundation.boundary = \"fixed\" or \"viscous\".";
-    if (full_.structure().water())
-        return "A reduced run has modes of the dam alone: water as added mass or hydrostatic, not acoustic.";
-    return "The dam's modes did not converge.";
+    return {};
 }
 
 double ReducedRun::wanted(double largest_slip) const
@@ -89,7 +102,8 @@ double ReducedRun::wanted(double largest_slip) const
     return scene_.time.slip_tolerance * std::max(largest_slip, options_.smallest_slip);
 }
 
-ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, ReducedResult& result) const
+ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start& start, ReducedResult& result,
+                                std::vector<double>& first_slips) const
 {
     const Strength at_start = strength;
     const auto shake_with = [&](int pass) {
@@ -100,6 +114,7 @@ ReducedState ReducedRun::refine(Motion& motion, Strength& strength, const Start&
     };
     const int first = motion.halvings.value_or(0);
     ReducedState end = shake_with(first);
+    first_slips = result.history.slip;
     std::vector<SlipAtStep> slips{{first, result.slip, 0.0}};
     for (int k = first + 1; !motion.halvings && k <= options_.largest_halvings; ++k) {
         const std::vector<double> coarser = result.history.slip;
@@ -119,7 +134,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     ReducedResult result;
     result.seconds.modes = seconds_;
     if (!model_) {
-        result.message = why_none();
+        result.message = why_not_;
         return result;
     }
     const ReducedSystem& system = model_->system();
@@ -142,7 +157,8 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     clock = Stopwatch();
     Motion loop{GroundInput(motion, scene_.damping.mass, full_.damping().mass), scene_.time.dt.value_or(motion.dt), 1,
                 options_.contact, halvings ? halvings : scene_.time.substeps};
-    const ReducedState moved = refine(loop, strength, start, result);
+    std::vector<double> first;
+    const ReducedState moved = refine(loop, strength, start, result, first);
     result.pair_force = moved.contact.force;
     result.pair_slip = moved.contact.slip - start.rest.slip;
     result.pair_opening = moved.contact.opening;
@@ -153,7 +169,7 @@ ReducedResult ReducedRun::run(const GroundMotion& motion, const std::optional<Co
     if (over && result.max_slip - open > length) result.status = Status::runs_away;
     const bool estimated = estimate == TruncationEstimate::made && result.status != Status::self_excited; // no slip
     const std::optional<double> error =
-        !estimated ? std::numeric_limits<double>::quiet_NaN() : truncation_error(loop, start);
+        !estimated ? std::numeric_limits<double>::quiet_NaN() : truncation_error(loop, start, first);
     if (!error) result.status = Status::interrupted;
     result.truncation_error = error.value_or(std::numeric_limits<double>::quiet_NaN());
     result.seconds.dynamics = clock.seconds();

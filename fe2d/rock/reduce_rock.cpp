@@ -336,28 +336,12 @@ private:
         return worst;
     }
 
-    /// Columns that make the snapshots' leading directions orthogonal.
-    MatrixXd leading_directions() const
+    ReducedRock project() const
     {
         const double middle = 0.5 * input_.highest_frequency;
         const SparseMatrix norm = box_.stiffness + middle * middle * box_.mass;
-        const MatrixXd gram = symmetric(product('T', snapshots_, norm * snapshots_));
-        const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
-        const VectorXd values = eigen.eigenvalues().reverse();
-        const MatrixXd vectors = eigen.eigenvectors().rowwise().reverse();
-        VectorXd left = gram.diagonal(); // of each snapshot
-        Index count = 0;
-        const double smallest = 1e-13 * values[0];
-        while (count < values.size() && values[count] > smallest && left.maxCoeff() > kept_) {
-            left -= values[count] * vectors.col(count).cwiseAbs2();
-            ++count;
-        }
-        return vectors.leftCols(count) * values.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
-    }
-
-    ReducedRock project() const
-    {
-        const MatrixXd basis = product('N', snapshots_, leading_directions());
+        const MatrixXd basis =
+            product('N', snapshots_, leading_directions(symmetric(product('T', snapshots_, norm * snapshots_)), kept_));
         const MatrixXd stiffness = symmetric(product('T', basis, box_.stiffness * basis)),
                        mass = symmetric(product('T', basis, box_.mass * basis)),
                        damping = symmetric(product('T', basis, box_.damping * basis));
@@ -398,6 +382,21 @@ private:
 };
 
 } // namespace
+
+MatrixXd leading_directions(const MatrixXd& gram, double kept)
+{
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
+    const VectorXd values = eigen.eigenvalues().reverse();
+    const MatrixXd vectors = eigen.eigenvectors().rowwise().reverse();
+    VectorXd left = gram.diagonal(); // of each snapshot
+    Index count = 0;
+    const double smallest = 1e-13 * values[0];
+    while (count < values.size() && values[count] > smallest && left.maxCoeff() > kept) {
+        left -= values[count] * vectors.col(count).cwiseAbs2();
+        ++count;
+    }
+    return vectors.leftCols(count) * values.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
+}
 
 std::vector<double> sampled_frequencies(const WaveBoxInput& input, double sampling)
 {

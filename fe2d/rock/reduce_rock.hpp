@@ -34,6 +34,10 @@ struct ReductionOptions {
 /// loads, pseudo-random pressures on the floor alone.
 ReducedRock reduce_rock(const WaveBoxInput& input, const WaveBox& box, const ReductionOptions& options = {});
 
+/// Proper orthogonal decomposition: columns that make the leading directions of snapshots orthonormal.
+/// @param gram  of the snapshots @param kept  what may be left of one's square [-]
+Eigen::MatrixXd leading_directions(const Eigen::MatrixXd& gram, double kept);
+
 /// Frequencies ω_k > 0, ascending, the last one the highest [rad/s].
 std::vector<double> sampled_frequencies(const WaveBoxInput& input, double sampling);
 

@@ -196,7 +196,7 @@ int fe(const FeArguments& arguments, const Streams& streams)
         refuse_usage("--frames with --base tied.", "a time series of a dam that slides and opens",
                      "leave one of them out");
     const std::vector<LevelSpectrum> spectra = given_spectra(arguments.spectrum);
-    const Ready ready = prepare(given, Method::finite_elements, {.reduced = arguments.reduced, .stop = streams.stop});
+    const Ready ready = prepare(given, Method::finite_elements, {.stop = streams.stop});
     if (arguments.reduced || arguments.base != "tied") say_base(ready.scene, streams);
     if (ready.reservoir) streams.remark(ready.reservoir->reason);
     if (ready.dam_period)

@@ -164,7 +164,7 @@ std::vector<std::string> water_notes(const Ready& ready)
 {
     std::vector<std::string> notes;
     if (!has_water(ready.given)) return notes;
-    if (ready.reservoir) notes.push_back(ready.reservoir->reason + "; --reduced takes added mass");
+    if (ready.reservoir) notes.push_back(ready.reservoir->reason);
     if (ready.given.reservoir->model == ReservoirModel::acoustic)
         for (std::string& warning : reservoir_warnings(ready.given, 20.0)) notes.push_back(std::move(warning));
     return notes;

@@ -216,8 +216,7 @@ void RungRunner::run_finite_elements(const Scene& given, RungResult& result) con
 {
     const ProcessorClock clock(ProcessorTimeOf::process);
     const bool few_modes = result.rung.modes.has_value();
-    const Ready ready =
-        prepare(given, Method::finite_elements, records_, {.reduced = few_modes, .stop = watch_.stop()});
+    const Ready ready = prepare(given, Method::finite_elements, records_, {.stop = watch_.stop()});
     const fe2d::RunOptions options = ready.run_options(watch_);
     const fe2d::EarthquakeRun full(ready.scene, options);
     std::optional<fe2d::ReducedRun> reduced;

@@ -2,10 +2,10 @@
 
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/sweep/sweep_rows.hpp"
-#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
+#include "core/version.hpp"
 #include "core/watch.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/scene_text.hpp"
@@ -474,8 +474,7 @@ private:
             std::erase_if(changes, [](const KeyChange& change) { return change.key == friction_key; });
             const Scene scene = with_law(text_.with(changes), method_.law, {});
             const InSolver timed;
-            model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs,
-                                        {.reduced = method_.reduced, .stop = watch_.stop()}));
+            model.ready.emplace(prepare(scene, Method::finite_elements, plan_.suite.pairs, {.stop = watch_.stop()}));
             fe2d::RunOptions options = model.ready->run_options(watch_);
             options.progress = [this](const fe2d::RunProgress& p) {
                 meter_.step(p);

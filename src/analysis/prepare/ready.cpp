@@ -202,7 +202,7 @@ Ready prepare(Scene given, Method method, Records records, const PrepareOptions&
     ready.plan = make_effect_plan(given, method);
     ready.scene = called_for(ready.plan, given);
     if (method == Method::finite_elements) {
-        if (!options.reduced) ready.reservoir = resolve_reservoir_model(ready.scene, options.stop);
+        ready.reservoir = resolve_reservoir_model(ready.scene, options.stop);
         if (ready.reservoir) {
             given.reservoir->model = ready.scene.reservoir->model;
             ready.plan = make_effect_plan(given, method); // names what was chosen

@@ -69,7 +69,6 @@ struct Ready {
 };
 
 struct PrepareOptions {
-    bool reduced = false;                        ///< for runs on few modes of the dam: "auto" is added mass there
     bool flexible_modes = false;                 ///< find flexible_block.period_s = "modes", which screening asks for
     std::shared_ptr<SeepageSource> seepage = {}; ///< of scenes that it may serve together; none: one of its own
     std::shared_ptr<KeptStatics> statics = {};   ///< the same for the rigid block's statics, whatever the friction

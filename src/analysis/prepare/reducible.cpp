@@ -33,10 +33,6 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
     if (scene.mesh.rock_contact_size)
         return not_with("mesh.rock_contact_size_m", "facing nodes on both sides of the plane",
                         "delete rock_contact_size_m");
-    if (scene.reservoir && scene.reservoir->model == ReservoirModel::acoustic)
-        return not_with("reservoir.model = \"acoustic\"",
-                        "\"added-mass\", \"hydrostatic\" or \"auto\", the modes are those of the dam alone",
-                        "write  model = \"added-mass\"  in [reservoir]");
     if (scene.time.scheme == TimeScheme::modal || scene.time.scheme == TimeScheme::central_difference)
         return not_with(fmt::format("time.scheme = \"{}\"",
                                     scene.time.scheme == TimeScheme::modal ? "modal" : "central-difference"),

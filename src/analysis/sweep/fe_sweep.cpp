@@ -4,11 +4,11 @@
 #include "analysis/fe/contact_runs.hpp"
 #include "analysis/prepare/reducible.hpp"
 #include "analysis/sweep/sweep_grid.hpp"
-#include "core/version.hpp"
 #include "core/file.hpp"
 #include "core/input_error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "core/version.hpp"
 #include "fe2d/reduction/reduced_run.hpp"
 #include "scene/joint_bond.hpp"
 #include "scene/scene_text.hpp"
@@ -186,8 +186,8 @@ private:
     void make(PreparedModel& model, const GridIndex& at, FeSweepCounts& counts)
     {
         if (!model.full) {
-            const Ready ready = prepare(scene_of(in_, at), Method::finite_elements, in_.records,
-                                        {.reduced = in_.axes.method[at.method].reduced, .stop = watch_.stop()});
+            const Ready ready =
+                prepare(scene_of(in_, at), Method::finite_elements, in_.records, {.stop = watch_.stop()});
             if (ready.reservoir) counts.choices.insert(ready.reservoir->reason);
             model.scene = ready.scene;
             model.options = ready.run_options(watch_);

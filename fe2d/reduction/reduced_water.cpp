@@ -1,0 +1,309 @@
+#include "fe2d/reduction/reduced_water.hpp"
+
+#include "core/watch.hpp"
+#include "fe2d/reduction/dam_modes.hpp"
+#include "fe2d/rock/frequency_solver.hpp"
+#include "fe2d/rock/reduce_rock.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <stdexcept>
+
+namespace damslip::fe2d {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double growth = 0.01; ///< σ/ω of sampled frequencies
+constexpr double samples_per_cut_off = 3.0;
+constexpr int least_samples = 6;
+
+MatrixXd symmetric(const MatrixXd& m)
+{
+    return 0.5 * (m + m.transpose());
+}
+
+MatrixXd projected(const SparseMatrix& matrix, const MatrixXd& basis)
+{
+    return symmetric(basis.transpose() * (matrix * basis).eval());
+}
+
+std::complex<double> growing(double frequency)
+{
+    return {growth * frequency, frequency};
+}
+
+class WaterReduction {
+public:
+    WaterReduction(const WaterBody& body, const MatrixXd& motions, double highest, const WaterReductionOptions& options)
+        : body_(body), water_(body.water), options_(options), highest_(highest), kept_(options.kept),
+          solver_(water_.mass, water_.damping, water_.stiffness), wet_(face_pressures(body))
+    {
+        make_loads();
+        make_trials(motions);
+    }
+
+    ReducedWater run()
+    {
+        const Stopwatch watch;
+        const int count = number_of_samples();
+        if (water_.options.surface == WaterSurface::sloshing) // its waves are far slower than those of pressure
+            for (double slow = 0.5 * std::sqrt(water_.options.gravity / water_.reservoir.depth);
+                 slow < 0.5 * highest_ / count; slow *= 2.0)
+                frequencies_.push_back(slow);
+        for (int k = 1; k <= count; ++k) frequencies_.push_back(highest_ * k / count);
+        for (const double frequency : frequencies_) add_snapshots(frequency, growth * frequency, loads_);
+        add_snapshots(1.3 * highest_, 0.3 * highest_, loads_); // blows are short
+        add_snapshots(2.0 * highest_, highest_, loads_);
+        choose_checks();
+        int rounds = 0;
+        double added = 0.0;
+        for (;;) {
+            project();
+            ++rounds;
+            const Check& worst = check();
+            if (error_ <= options_.wanted || rounds == options_.largest_rounds) break;
+            if (worst.frequency != added) {
+                added = worst.frequency;
+                add_snapshots(added, growth * added, loads_);
+                add_snapshots(added, growth * added, trials_);
+            }
+            kept_ *= 0.3;
+        }
+        ReducedWater result = reduced();
+        result.report = {static_cast<int>(water_.unknowns()),
+                         static_cast<int>(loads_.cols()),
+                         static_cast<int>(frequencies_.size()),
+                         static_cast<int>(basis_.cols()),
+                         rounds,
+                         error_,
+                         options_.wanted,
+                         watch.seconds()};
+        return result;
+    }
+
+private:
+    struct Check {
+        double frequency;
+        MatrixXcd exact; ///< pressures on face and floor
+    };
+
+    /// Unknowns of the water that something pushes or feels.
+    std::vector<Index> seen() const
+    {
+        std::vector<Index> all = wet_;
+        all.insert(all.end(), water_.floor.begin(), water_.floor.end());
+        return all;
+    }
+
+    /// More where waves come back from the far end: as many as the water has modes (Weyl 1911).
+    int number_of_samples() const
+    {
+        const ReservoirMesh& r = water_.reservoir;
+        const auto& nodes = r.mesh.nodes;
+        const double c = water_.options.sound_speed(),
+                     length = std::abs(nodes[r.far_end.front()].x - nodes[r.face.front()].x);
+        double count = samples_per_cut_off * highest_ * r.depth / (std::numbers::pi * c);
+        if (water_.options.far_end != FarEnd::absorbing)
+            count += r.depth * length * highest_ * highest_ / (4.0 * std::numbers::pi * c * c);
+        return std::max(least_samples, static_cast<int>(std::ceil(count)));
+    }
+
+    /// A distribution over boundary unknowns times Legendre polynomials of a place from 0 to 1.
+    static void add_polynomials(const VectorXd& flux, const VectorXd& place, int degrees, std::vector<VectorXd>& loads)
+    {
+        for (int k = 0; k < degrees; ++k) {
+            VectorXd load = flux;
+            for (Index i = 0; i < load.size(); ++i)
+                if (load[i] != 0.0) load[i] *= std::legendre(static_cast<unsigned>(k), 2.0 * place[i] - 1.0);
+            loads.push_back(std::move(load));
+        }
+    }
+
+    /// Where the unknowns of a chain are along it, from 0 to 1.
+    VectorXd places(const NodeChain& chain) const
+    {
+        VectorXd place = VectorXd::Zero(water_.unknowns());
+        for (std::size_t k = 0; k < chain.size(); ++k)
+            if (const int unknown = water_.dofs(chain[k]); unknown != no_dof)
+                place[unknown] = static_cast<double>(k) / static_cast<double>(chain.size() - 1);
+        return place;
+    }
+
+    void make_loads()
+    {
+        std::vector<VectorXd> loads;
+        const VectorXd up = places(water_.reservoir.face);
+        add_polynomials(water_.force_x, up, options_.degrees, loads);
+        if (water_.force_y.norm() > 1e-9 * water_.force_x.norm())
+            add_polynomials(water_.force_y, up, options_.degrees, loads);
+        if (!water_.floor.empty()) {
+            const NodeChain& bottom = water_.reservoir.bottom;
+            const double length =
+                std::abs(water_.reservoir.mesh.nodes[bottom.front()].x - water_.reservoir.mesh.nodes[bottom.back()].x);
+            const int waves =
+                static_cast<int>(std::ceil(highest_ * length / (std::numbers::pi * water_.options.sound_speed())));
+            add_polynomials(boundary_flux(water_.reservoir.mesh, water_.dofs, bottom, {0.0, 1.0}, water_.unknowns()),
+                            places(bottom), options_.degrees + waves, loads);
+        }
+        for (const VectorXd* ground : {&water_.flux_y, &water_.end_y})
+            if (ground->norm() > 0.0) loads.push_back(*ground);
+        loads_.resize(water_.unknowns(), static_cast<Index>(loads.size()));
+        for (Index k = 0; k < loads_.cols(); ++k) loads_.col(k) = loads[static_cast<std::size_t>(k)].normalized();
+    }
+
+    /// Mixtures of the dam's motions, pseudo-random and always the same, and the ground's.
+    void make_trials(const MatrixXd& motions)
+    {
+        trials_ = MatrixXd::Zero(water_.unknowns(), 2 + 3);
+        for (Index load = 0; load < 2; ++load)
+            for (Index i = 0; i < motions.rows(); ++i) {
+                const double share = std::sin(1.0 + 1.7 * static_cast<double>(i * i + 11 * load));
+                for (std::size_t k = 0; k < wet_.size(); ++k)
+                    trials_(wet_[k], load) += share * motions(i, static_cast<Index>(k));
+            }
+        trials_.rightCols(3) << water_.flux_x, water_.flux_y, water_.end_y;
+    }
+
+    /// Pressures on face and floor by the trials, those by the vertical ground motion together: -flux_y v̇ - end_y v.
+    MatrixXcd felt_of(const MatrixXcd& x, std::complex<double> s) const
+    {
+        MatrixXcd p = on_seen(x);
+        p.col(3) += p.col(4) / s;
+        return p.leftCols(4);
+    }
+
+    MatrixXcd solve(double frequency, double rate, const MatrixXd& loads)
+    {
+        if (!solver_.factorise(frequency, rate)) throw std::runtime_error("singular at a frequency");
+        MatrixXcd x = solver_.solve(loads);
+        if (!(solver_.residual() < 1e-8)) throw std::runtime_error("nearly singular at a frequency");
+        return x;
+    }
+
+    void add_snapshots(double frequency, double rate, const MatrixXd& loads)
+    {
+        const MatrixXcd x = solve(frequency, rate, loads);
+        const Index before = snapshots_.cols();
+        snapshots_.conservativeResize(x.rows(), before + 2 * x.cols());
+        for (Index k = 0; k < x.cols(); ++k) {
+            const double energy = std::abs(x.col(k).cwiseProduct(loads.col(k)).sum()),
+                         scale = energy > 0.0 ? 1.0 / std::sqrt(energy) : 0.0;
+            snapshots_.col(before + 2 * k) = scale * x.col(k).real();
+            snapshots_.col(before + 2 * k + 1) = scale * x.col(k).imag();
+        }
+    }
+
+    template <class Matrix>
+    typename Matrix::PlainObject on_seen(const Matrix& x) const
+    {
+        const std::vector<Index> rows = seen();
+        typename Matrix::PlainObject result(static_cast<Index>(rows.size()), x.cols());
+        for (Index i = 0; i < result.rows(); ++i) result.row(i) = x.row(rows[static_cast<std::size_t>(i)]);
+        return result;
+    }
+
+    void choose_checks()
+    {
+        const auto gaps = static_cast<int>(frequencies_.size());
+        for (int k = 0; k < options_.checks; ++k) {
+            const int gap = options_.checks > 1 ? (gaps - 1) * k / (options_.checks - 1) : gaps - 1;
+            const double lower = gap > 0 ? frequencies_[static_cast<std::size_t>(gap - 1)] : 0.0,
+                         frequency = 0.5 * (lower + frequencies_[static_cast<std::size_t>(gap)]);
+            checks_.push_back({frequency, felt_of(solve(frequency, growth * frequency, trials_), growing(frequency))});
+        }
+    }
+
+    void project()
+    {
+        const Index n = water_.unknowns(), momenta = water_.layer_momenta, pressures = n - momenta;
+        const double middle = 0.5 * highest_;
+        const SparseMatrix of_pressures = water_.stiffness + middle * middle * water_.mass;
+        const auto basis_of = [&](const SparseMatrix& norm, Index first, Index count) {
+            MatrixXd part = MatrixXd::Zero(n, snapshots_.cols());
+            part.middleRows(first, count) = snapshots_.middleRows(first, count);
+            return MatrixXd(part * leading_directions(symmetric(part.transpose() * (norm * part).eval()), kept_));
+        };
+        const MatrixXd mesh = basis_of(of_pressures, 0, pressures),
+                       layers = momenta > 0 ? basis_of(-middle * water_.damping, pressures, momenta) : MatrixXd(n, 0);
+        momenta_ = layers.cols();
+        basis_.resize(n, mesh.cols() + layers.cols());
+        basis_ << mesh, layers;
+        mass_ = projected(water_.mass, basis_);
+        damping_ = projected(water_.damping, basis_);
+        stiffness_ = projected(water_.stiffness, basis_);
+    }
+
+    /// @returns the worst; error_ is its error
+    const Check& check()
+    {
+        const Check* worst = &checks_.front();
+        error_ = 0.0;
+        const MatrixXd loads = basis_.transpose() * trials_;
+        for (const Check& c : checks_) {
+            const std::complex<double> s = growing(c.frequency);
+            const MatrixXcd matrix = stiffness_ + s * damping_ + (s * s) * mass_,
+                            p = felt_of(basis_ * matrix.partialPivLu().solve(loads.cast<std::complex<double>>()), s);
+            for (Index load = 0; load < p.cols(); ++load) {
+                const double size = c.exact.col(load).norm(),
+                             error = size > 0.0 ? (p.col(load) - c.exact.col(load)).norm() / size : 0.0;
+                if (error <= error_) continue;
+                error_ = error;
+                worst = &c;
+            }
+        }
+        return *worst;
+    }
+
+    ReducedWater reduced() const
+    {
+        const double s = body_.scale, s2 = s * s;
+        ReducedWater result;
+        result.mass = -s2 * mass_;
+        result.damping = -s2 * damping_;
+        result.stiffness = -s2 * stiffness_;
+        result.velocity_x = s * (basis_.transpose() * water_.flux_x);
+        result.velocity_y = s * (basis_.transpose() * water_.flux_y);
+        result.displacement_y = s * (basis_.transpose() * water_.end_y);
+        const MatrixXd felt = s * on_seen(basis_);
+        result.face = felt.topRows(static_cast<Index>(wet_.size()));
+        result.floor = felt.bottomRows(static_cast<Index>(water_.floor.size()));
+        result.momenta = momenta_;
+        return result;
+    }
+
+    const WaterBody& body_;
+    const FluidModel& water_;
+    WaterReductionOptions options_;
+    double highest_, kept_, error_ = 0.0;
+    FrequencySolver solver_;
+    std::vector<Index> wet_;
+    MatrixXd loads_, trials_; ///< on all unknowns of the water
+    std::vector<double> frequencies_;
+    MatrixXd snapshots_, basis_, mass_, damping_, stiffness_;
+    Index momenta_ = 0;
+    std::vector<Check> checks_;
+};
+
+} // namespace
+
+std::string ReducedWater::missed_gate() const
+{
+    return fmt::format("The acoustic water's reduction errs by {:.2g} %, {:.2g} % are allowed: run without --reduced.",
+                       100.0 * report.error, 100.0 * report.wanted);
+}
+
+ReducedWater reduce_water(const WaterBody& water, const MatrixXd& motions, double highest,
+                          const WaterReductionOptions& options)
+{
+    return WaterReduction(water, motions, highest, options).run();
+}
+
+} // namespace damslip::fe2d

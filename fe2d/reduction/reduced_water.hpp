@@ -1,0 +1,53 @@
+#pragma once
+
+#include "fe2d/rock/reduced_rock.hpp"
+#include "fe2d/run/water_body.hpp"
+
+#include <string>
+
+namespace damslip::fe2d {
+
+struct WaterReductionOptions {
+    double wanted =
+        0.02; ///< gate: largest error of the pressures on face and floor in between the sampled frequencies [-]
+    double kept = 1e-4;     ///< what the basis may leave of a snapshot, of its energy over that of its load [-]
+    int degrees = 8;        ///< polynomials along the face that it is shaken by
+    int checks = 5;         ///< frequencies of the gate
+    int largest_rounds = 6; ///< of adding snapshots where the gate is failed
+};
+
+/// Acoustic water of a dam that slides (WaterBody) on a few shapes φ = V y, by rows of CoupledSystem:
+///
+///     M_w ÿ + G_w ẏ + K_w y - s Vᵀ(Hᵀu̇ + v̇) = ground loads,   p = s V ẏ
+///
+/// V has pressures of the mesh and momenta of an absorbing end apart, so that M_w, G_w and K_w keep the signs that let
+/// energy leave and never come: the reduced water is passive whatever is cut.
+struct ReducedWater {
+    Eigen::MatrixXd mass, damping, stiffness;               ///< -s²VᵀQV, -s²VᵀAV, -s²VᵀLV
+    Eigen::VectorXd velocity_x, velocity_y, displacement_y; ///< loads per ground velocity and displacement
+    Eigen::MatrixXd face;     ///< s V on face_pressures(): what pressure each shape's rate is there [Pa s/m]
+    Eigen::MatrixXd floor;    ///< s V on FluidModel::floor; without rows: the floor is not the rock's
+    Eigen::Index momenta = 0; ///< the last of the shapes are momenta, without mass
+    ReductionReport report;
+
+    Eigen::Index count() const { return mass.rows(); }
+    Eigen::Index pressures() const { return count() - momenta; }
+    std::string missed_gate() const; ///< of one that did not pass its gate: a sentence with the figures and what to do
+};
+
+/// Basis: real and imaginary part of the pressures at frequencies up to the highest (three to the distance of two of the
+/// water's cut-offs) and at two places beyond it, by Legendre polynomials along the face in its two directions, by the
+/// ground's horizontal and vertical motion and, where the floor is the rock's, by polynomials along the floor; proper
+/// orthogonal decomposition in the norm L + (ω_max/2)² Q. The frequencies have growing loads, e^{σt} with σ = ω/100: water
+/// in a closed box without losses has no answer at its own frequencies.
+///
+/// Checked by the water itself, at frequencies in between, for two mixtures of the dam's motions and for the ground's; where
+/// it fails the worst frequency's snapshots go in and a finer cut is made.
+///
+/// @param motions  φᵀH of the dam's motions, one row each (DamModes::face)
+/// @param highest  ω up to which pressures are to be right [rad/s]
+/// @throws std::runtime_error when the water cannot be factorised
+ReducedWater reduce_water(const WaterBody& water, const Eigen::MatrixXd& motions, double highest,
+                          const WaterReductionOptions& options = {});
+
+} // namespace damslip::fe2d
