@@ -44,8 +44,8 @@ double slip(const Scene& scene, bool vertical, int polarity)
     GroundMotion motion;
     const Record h = records::read_record(folder + "h.csv");
     motion.dt = h.dt;
-    motion.accel_h = h.samples;
-    if (vertical) motion.accel_v = records::read_record(folder + "v.csv").samples;
+    motion.accel_h = h.acceleration;
+    if (vertical) motion.accel_v = records::read_record(folder + "v.csv").acceleration;
     sliding::SlideOptions options;
     options.polarity = polarity;
     options.sliding.two_way = false;
