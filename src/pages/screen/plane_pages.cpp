@@ -411,6 +411,15 @@ std::string planes_sentence(const Planes& planes)
 Headline with_planes(Headline headline, const Planes& planes, const Scene& scene)
 {
     if (planes.rows.empty()) return headline;
+    // The largest slip comes first, whatever plane it is on.
+    const PlaneRow& worst = planes.rows[planes.by_slip];
+    const std::optional<double> slip = slip_of(worst);
+    const std::string begin = "The dam slides ";
+    if (worst.kind != PlaneKind::base && slip && headline.sentence.starts_with(begin))
+        headline.sentence = fmt::format("The dam slides {:.4g} mm at most on {} (record {}, polarity {:+d}), by rigid "
+                                        "blocks. On its base: {}",
+                                        *slip / mm, worst.name, worst.worst()->record, worst.worst()->polarity,
+                                        headline.sentence.substr(begin.size()));
     headline.sentence += planes_sentence(planes);
     std::string failed, open;
     for (const PlaneRow& row : planes.rows) {
