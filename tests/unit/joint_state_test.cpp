@@ -8,11 +8,13 @@
 #include "verification/cases/fe_run_scenes.hpp"
 #include "verification/hard/hard_scenes.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <unistd.h>
 
 namespace {
 
@@ -77,7 +79,7 @@ fe2d::RunResult run_of(const Scene& scene, const GroundMotion& motion, const fe2
 
 std::filesystem::path scratch_file(const char* name)
 {
-    return std::filesystem::temp_directory_path() / (std::string("damslip_joint_state_") + name + ".json");
+    return std::filesystem::temp_directory_path() / fmt::format("damslip_joint_state_{}_{}.json", getpid(), name);
 }
 
 fe2d::RunState through_a_file(const Scene& scene, const fe2d::RunState& state)
