@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import termios
+import time
 
 program, root = sys.argv[1], pathlib.Path(sys.argv[2])
 golden = pathlib.Path(__file__).resolve().parent
@@ -104,13 +105,15 @@ def check_shape(name, text):
 def check(name, command, with_golden):
     words = command.split()
     rows = words[0] == "sweep"  # standard output is the rows' where it is a pipe
+    begin = time.monotonic()
     code, out, talk = in_pipe([*words, "--brief"])
+    quick = time.monotonic() - begin < 1.0
     answer = "\n".join(line for line in talk.split("\n") if not re.match(r"\w[\w, ]*: (set-up|\d+ %)", line)) if rows else out
     if code not in (0, 4) or not answer:
         return fail(name, f"exit code {code}: {talk}")
     check_shape(name, answer)
-    if name == "assess":  # many finite-element runs: once
-        return compare(name, f"$ damslip {command}\n{answer}")
+    if not quick:  # finite-element runs: once
+        return compare(name, f"$ damslip {command}\n{answer}") if with_golden else None
     if with_golden and on_terminal(words) != answer:
         fail(name, "a terminal shows another text than a pipe")
     shown = on_terminal([*words, "-q"]) if rows else in_pipe([*words, "--brief", "-q"])[1]
