@@ -27,6 +27,8 @@ UNITS = [{"mm", "cm", "m"}, {"g", "m/s²"}, {"N/m", "kN/m", "MN/m"}, {"Pa", "kPa
 COMMANDS = {
     "screen": "screen examples/own_dam.toml",
     "screen_records": "screen examples/reference_dam.toml --record records/data/rock_1.0_h.csv --record records/data/rock_1.0_v.csv",
+    "screen_seam": "screen examples/seam_dam.toml",
+    "screen_lifts": "screen examples/lifts_dam.toml",
     "screen_wedge": "screen examples/rock_wedge.toml",
     "fe": "fe examples/own_dam.toml",
     "fe_lifts": "fe examples/cracked_upper_block.toml --no-mesh-error",

@@ -506,6 +506,12 @@ Answer screen_answer(const ScreenReportInput& in)
     }
     if (in.spectrum) out += spectrum_text(*in.spectrum) + "\n";
     show(regression_summary(s.regressions));
+    bool first = true; // the table of planes is part of the answer, those of their parts are not
+    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing)) {
+        if (first) out.add(table, {{"plane", "verdict", "factor", "a_y_m_s2", "slip_m", "governs"}, "slip_m"});
+        else show(table);
+        first = false;
+    }
     out.add(slip_table(s, allowable),
             {{"record", "polarity", "slip_h_mm", "slip_hv_mm", "max_slip_m", "status", "verdict"}, "max_slip_m"});
     if (in.mean_polarity) show(mean_slip_table(s));
@@ -514,12 +520,6 @@ Answer screen_answer(const ScreenReportInput& in)
     show(screened_anchor_table(s));
     if (const Table events = event_table(s); !events.rows.empty()) show(events);
     if (s.flexible) show(flexible_table(s, allowable));
-    bool first = true; // the table of planes is part of the answer, those of their parts are not
-    for (const Table& table : plane_tables(s.planes, in.scene, PlaneRows::governing)) {
-        if (first) out.add(table, {{"plane", "verdict", "factor", "a_y_m_s2", "slip_m", "governs"}, "slip_m"});
-        else show(table);
-        first = false;
-    }
     show(needed_table(s.needed, in.scene));
     show(statistics_table(s));
     const Headline headline = screen_headline(in.scene, s);
