@@ -32,7 +32,8 @@ struct ReducedWater {
 
     Eigen::Index count() const { return mass.rows(); }
     Eigen::Index pressures() const { return count() - momenta; }
-    std::string missed_gate() const; ///< of one that did not pass its gate: a sentence with the figures and what to do
+    /// A reduction that missed its gate says here how far it errs, what is allowed and what the user can do.
+    std::string missed_gate() const;
 };
 
 /// Basis: real and imaginary part of the pressures at frequencies up to the highest (three to the distance of two of the

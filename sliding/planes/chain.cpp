@@ -228,6 +228,12 @@ std::vector<double> resistance_shares(const Chain& chain, const ChainLaw& law, c
 RigidBlock chain_block(const Chain& chain, const ChainLaw& law)
 {
     RigidBlock block;
+    if (!std::isfinite(law.yield())) {
+        block.mass = 1.0;
+        block.gravity = chain.gravity;
+        block.cohesion_force = 1e9 * chain.gravity;
+        return block;
+    }
     block.mass = law.drive;
     block.chain_mass = law.mass - law.drive;
     block.gravity = chain.gravity;

@@ -90,7 +90,8 @@ double chain_factor(const Chain& chain, double a_h = 0.0, double a_v = 0.0);
 std::vector<double> resistance_shares(const Chain& chain, const ChainLaw& law, const ChainForces& forces);
 
 /// The block that moves as the chain does in downstream direction: level, M = H, chain_mass = M* - H, friction D_v/H and a
-/// horizontal force that gives the yield. Its N' is no force of the chain; it never lifts off above a_v = -g.
+/// horizontal force that gives the yield. Its N' is no force of the chain; it never lifts off above a_v = -g. For a locked chain
+/// a block that 1e9 g do not move.
 RigidBlock chain_block(const Chain& chain, const ChainLaw& law);
 
 /// Growth of the yield acceleration over the slip while rock crosses the interfaces [1/s^2]; level and smooth

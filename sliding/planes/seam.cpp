@@ -487,14 +487,24 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
     const ChainLaw law = chain_law(chain);
     plane.yield = law.yield();
     plane.status = chain_status(chain, law, plane.yield, 0.0);
-    if (plane.status == ChainStatus::locked) return plane;
+    const auto excess = [&](double friction) {
+        SeamState state;
+        state.friction = friction;
+        return chain_factor(seam_model(scene, seam, angles[0], state).chain) - 1.0;
+    };
+    double high = 1.0;
+    while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
+    plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
+    plane.valid_slip = plane.yield_upstream = unbounded;
+    if (plane.status == ChainStatus::locked) {
+        plane.stages = seam_stages(scene, seam, plane.angle, 0.0);
+        return plane;
+    }
     plane.yield_per_a_v = -law.per_a_v / law.drive;
     plane.slip_factor = law.factor();
     plane.forces = chain_forces(chain, law, plane.yield, 0.0);
     plane.resultants = resultants(plane.model, plane.forces, plane.yield);
     plane.shares = resistance_shares(chain, law, plane.forces);
-    plane.valid_slip = unbounded;
-    plane.yield_upstream = unbounded;
     if (!chain.interfaces.empty()) {
         plane.growth = yield_growth(chain, scene.foundation->material.density);
         if (plane.growth != 0.0) plane.valid_slip = 0.05 * std::abs(plane.yield / plane.growth);
@@ -516,14 +526,6 @@ SeamPlane seam_plane(const Scene& scene, const Seam& seam, const std::vector<Gro
         plane.yield_upstream = yield_upstream(alone).law.constant;
         plane.impact = chain_law(body).mass / law.mass;
     }
-    const auto excess = [&](double friction) {
-        SeamState state;
-        state.friction = friction;
-        return chain_factor(seam_model(scene, seam, angles[0], state).chain) - 1.0;
-    };
-    double high = 1.0;
-    while (high < 1e3 && excess(high) < 0.0) high *= 2.0;
-    plane.holding_friction = excess(0.0) >= 0.0 ? 0.0 : excess(high) < 0.0 ? unbounded : bracketed_root(excess, 0.0, high);
     plane.stages =
         seam_stages(scene, seam, plane.angle, scene.planes.geometry == PlaneGeometry::linear ? plane.growth : 0.0);
     return plane;

@@ -1,10 +1,10 @@
 // Slip on a seam with a passive wedge under a shipped record, against an independent integration of the chain of blocks.
 #include "records/read/read_record.hpp"
-#include "scene/read.hpp"
 #include "sliding/block/slide.hpp"
 #include "sliding/block/yield.hpp"
 #include "sliding/planes/seam.hpp"
 #include "source_dir.hpp"
+#include "verification/exact/reference_scene.hpp"
 
 #include <array>
 #include <cmath>
@@ -16,27 +16,6 @@ namespace damslip {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
-
-/// The reference dam, water to the crest, on a seam 8 m deep; drains 6 m from the heel.
-Scene dam_on_seam()
-{
-    Scene scene = read_scene(std::string(source_dir()) + "/examples/reference_dam.toml");
-    scene.added_mass = {};
-    scene.foundation.emplace().material.density = 2650.0;
-    scene.drains.emplace();
-    scene.drains->distance = 6.0;
-    scene.drains->efficiency = 0.8;
-    Seam seam;
-    seam.name = "D";
-    seam.depth = 8.0;
-    seam.strength.friction = 0.7;
-    seam.exit = SeamExit::wedge;
-    seam.uplift = UpliftModel::drains;
-    seam.wedge.emplace().friction = std::tan(40.0 * deg);
-    seam.wedge->angles = {25.0 * deg};
-    scene.seams = {seam};
-    return scene;
-}
 
 double slip(const Scene& scene, bool vertical, int polarity)
 {
@@ -55,7 +34,7 @@ double slip(const Scene& scene, bool vertical, int polarity)
 
 TEST(SeamSlip, IsThatOfAnIndependentIntegration)
 {
-    Scene scene = dam_on_seam();
+    Scene scene = exact::seam_scene();
     const std::array<std::array<double, 4>, 2> printed{
         {{118.118290, 117.018739, 143.534387, 162.656935}, {24.705912, 40.060308, 41.165871, 65.840039}}};
     for (const std::array<double, 4>& row : printed) {
@@ -68,7 +47,7 @@ TEST(SeamSlip, IsThatOfAnIndependentIntegration)
 
 TEST(SeamSlip, StagesFollowStrengthDrainsAndDilation)
 {
-    Scene scene = dam_on_seam();
+    Scene scene = exact::seam_scene();
     Seam& seam = scene.seams[0];
     seam.strength.cohesion = 50e3;
     seam.strength.residual_friction = 0.6;
@@ -93,7 +72,7 @@ TEST(SeamSlip, StagesFollowStrengthDrainsAndDilation)
 
 TEST(SeamSlip, GeometryMakesTheYieldGrow)
 {
-    Scene scene = dam_on_seam();
+    Scene scene = exact::seam_scene();
     const double small = slip(scene, false, 1);
     const sliding::SeamPlane plane = sliding::seam_plane(scene, scene.seams[0], {{"static"}});
     scene.planes.geometry = PlaneGeometry::linear;
@@ -102,6 +81,25 @@ TEST(SeamSlip, GeometryMakesTheYieldGrow)
     // First order: the yield has grown by κ s, 0.6 % of a_y at the end.
     EXPECT_NEAR(linear / small, 1.0, 0.05);
     EXPECT_NEAR(plane.growth * small * 1e-3 / plane.yield, 0.0061, 2e-4);
+}
+
+/// A path that rises more steeply than its friction lets it slide has no yield, and no slip whatever shakes it.
+TEST(SeamSlip, ALockedPathStaysAndHasItsStatus)
+{
+    Scene scene = exact::seam_scene();
+    Seam& seam = scene.seams[0];
+    seam.wedge.reset();
+    seam.exit = SeamExit::daylight;
+    seam.depth.reset();
+    seam.points = {{0.0, -8.0}, {48.0, -8.0}, {50.0, 0.0}};
+    const sliding::SeamPlane plane = sliding::seam_plane(scene, seam, {{"static"}});
+    EXPECT_EQ(plane.status, sliding::ChainStatus::locked);
+    EXPECT_TRUE(std::isinf(plane.yield));
+    EXPECT_GT(plane.factors[0].factor, 1.0);
+    for (const int polarity : {1, -1}) EXPECT_EQ(slip(scene, true, polarity), 0.0);
+    seam.points.back() = {70.0, 0.0}; // less steep: it slides
+    EXPECT_EQ(sliding::seam_plane(scene, seam, {{"static"}}).status, sliding::ChainStatus::stands);
+    EXPECT_GT(slip(scene, true, -1), 0.0);
 }
 
 } // namespace

@@ -289,25 +289,11 @@ Checks strip_load()
     };
 }
 
-/// Reference dam, water 62.5 m, on a level seam 8 m deep with drains 6 m from the heel, E 0.8, and a wedge at the toe.
+/// The dam of exact::seam_scene(); with friction in the interface.
 Scene dam_on_seam(double delta = 0.0)
 {
-    Scene scene = exact::reference_scene(exact::ReferenceUplift::none, 0.77);
-    scene.added_mass.formula = AddedMassFormula::westergaard;
-    scene.foundation.emplace().material.density = 2650.0;
-    scene.drains.emplace();
-    scene.drains->distance = 6.0;
-    scene.drains->efficiency = 0.8;
-    Seam seam;
-    seam.name = "D";
-    seam.depth = 8.0;
-    seam.strength.friction = 0.7;
-    seam.exit = SeamExit::wedge;
-    seam.uplift = UpliftModel::drains;
-    seam.wedge.emplace().friction = tan_deg(40.0);
-    seam.wedge->angles = {25.0 * degree};
-    if (delta > 0.0) seam.interface = {InterfaceModel::friction, std::nullopt, tan_deg(delta), 0.0};
-    scene.seams = {seam};
+    Scene scene = exact::seam_scene();
+    if (delta > 0.0) scene.seams[0].interface = {InterfaceModel::friction, std::nullopt, tan_deg(delta), 0.0};
     return scene;
 }
 

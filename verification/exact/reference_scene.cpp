@@ -69,6 +69,27 @@ Scene elastic_reference_scene(double scale)
     return scene;
 }
 
+Scene seam_scene()
+{
+    constexpr double degree = std::numbers::pi / 180.0;
+    Scene scene = reference_scene(ReferenceUplift::none, 0.77);
+    scene.added_mass.formula = AddedMassFormula::westergaard;
+    scene.foundation.emplace().material.density = 2650.0;
+    scene.drains.emplace();
+    scene.drains->distance = 6.0;
+    scene.drains->efficiency = 0.8;
+    Seam seam;
+    seam.name = "D";
+    seam.depth = 8.0;
+    seam.strength.friction = 0.7;
+    seam.exit = SeamExit::wedge;
+    seam.uplift = UpliftModel::drains;
+    seam.wedge.emplace().friction = std::tan(40.0 * degree);
+    seam.wedge->angles = {25.0 * degree};
+    scene.seams = {seam};
+    return scene;
+}
+
 Scene bare_scene(Polyline polygon, double density)
 {
     Scene scene;

@@ -21,6 +21,10 @@ Scene reference_scene(ReferenceUplift uplift, double friction, double scale = 1.
 /// the crest. No uplift.
 Scene elastic_reference_scene(double scale = 1.0);
 
+/// The reference dam with Westergaard's series on a level seam 8 m deep, μ 0.7, below rock of 2650 kg/m^3; drains 6 m from the heel, E 0.8;
+/// in front of the toe a wedge of friction 40° at 25°, smooth interface.
+Scene seam_scene();
+
 /// A scene with nothing but a section (counter-clockwise, heel first) of the given density [kg/m^3], g = 9.81 m/s^2.
 Scene bare_scene(Polyline polygon, double density = 2400.0);
 

@@ -7,8 +7,15 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 
 namespace damslip {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+} // namespace
 
 std::vector<std::string> plane_names(const Scene& scene)
 {
@@ -25,6 +32,8 @@ RigidModel plane_model(sliding::SlipStages stages, double length, double amplifi
     model.block = stages.front().block;
     model.stages = std::move(stages);
     model.downstream = sliding::yield_downstream(model.block);
+    // A block that nothing moves stands for a locked chain, whose yield is infinite.
+    if (model.downstream.law.constant > 1e8 * model.block.gravity) model.downstream = {{infinite, 0.0}, 0.0};
     model.upstream = sliding::yield_upstream(model.block);
     model.state = sliding::static_state(model.block);
     model.critical_friction = sliding::critical_friction(model.block);

@@ -17,7 +17,7 @@ std::vector<std::string> plane_names(const Scene& scene);
 /// @param one_way  it is followed downstream only
 RigidModel plane_model(sliding::SlipStages stages, double length, double amplification, bool one_way);
 
-/// The model of a plane by its name. @throws UsageError for a name that is none of plane_names()
+/// The rigid model of the plane that has this name. @throws UsageError where no plane of plane_names() has it
 RigidModel plane_model(const Scene& scene, const std::string& name);
 
 } // namespace damslip

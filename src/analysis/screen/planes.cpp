@@ -118,6 +118,9 @@ void add_seam_warnings(const Scene& scene, const PlaneRow& row, const sliding::S
         warn("no angle lets its wedge stand (its uplift carries it): computed as if nothing lay before the body.");
     if (plane.status == sliding::ChainStatus::floats || plane.status == sliding::ChainStatus::opens)
         warn(fmt::format("at its yield a block {}: no PASS rests on it.", sliding::word(plane.status)));
+    if (plane.status == sliding::ChainStatus::locked)
+        warn("its blocks are locked, no acceleration moves them on this path: the rock breaks another way. Give a path that "
+             "rises less steeply, or a [seam.wedge] whose angle is searched.");
     if (plane.angle && seam->interface.model == InterfaceModel::friction && seam->interface.friction > 0.0) {
         const double to_lock = 0.5 * std::numbers::pi - *plane.angle - std::atan(seam->wedge->friction) -
                                std::atan(seam->interface.friction);

@@ -161,7 +161,7 @@ Table block_table(const Planes& planes)
         const sliding::ChainLaw law = sliding::chain_law(plane.model.chain);
         for (std::size_t i = 0; i < plane.model.chain.blocks.size(); ++i) blocks.push_back({plane, i, law.rates[i]});
     }
-    const auto at_interface = [](const std::vector<double> sliding::ChainForces::*member) {
+    const auto of_forces = [](const std::vector<double> sliding::ChainForces::*member) {
         return [member](const B& b) {
             const std::vector<double>& list = b.plane.forces.*member;
             return b.i < list.size() ? Cell(list[b.i] / kN) : Cell();
@@ -179,10 +179,10 @@ Table block_table(const Planes& planes)
          {{"weight_kN_m", "W", "kN/m", 5},
           [](const B& b) { return b.plane.model.chain.blocks[b.i].mass * b.plane.model.chain.gravity / kN; }},
          {{"uplift_kN_m", "U", "kN/m", 5}, of_segment(&sliding::ChainBlock::uplift, kN)},
-         {{"normal_force_kN_m", "N'", "kN/m", 5}, [](const B& b) { return b.plane.forces.normal[b.i] / kN; }},
-         {{"resistance_kN_m", "R", "kN/m", 5}, [](const B& b) { return b.plane.forces.resistance[b.i] / kN; }},
-         {{"interface_force_kN_m", "E", "kN/m", 5}, at_interface(&sliding::ChainForces::thrust)},
-         {{"interface_shear_kN_m", "X", "kN/m", 5}, at_interface(&sliding::ChainForces::shear)},
+         {{"normal_force_kN_m", "N'", "kN/m", 5}, of_forces(&sliding::ChainForces::normal)},
+         {{"resistance_kN_m", "R", "kN/m", 5}, of_forces(&sliding::ChainForces::resistance)},
+         {{"interface_force_kN_m", "E", "kN/m", 5}, of_forces(&sliding::ChainForces::thrust)},
+         {{"interface_shear_kN_m", "X", "kN/m", 5}, of_forces(&sliding::ChainForces::shear)},
          {{"speed", "q", "–", 4}, &B::rate},
          {{"share", "share", "%", 3},
           [](const B& b) { return b.i < b.plane.shares.size() ? Cell(100.0 * b.plane.shares[b.i]) : Cell(); }}},
@@ -323,14 +323,15 @@ Drawing seam_drawing(const Scene& scene, const sliding::SeamPlane& plane)
         const double weight = model.chain.blocks[i].mass * model.chain.gravity;
         const Point c = model.centroids[i];
         sketch.arrow(c, {c.x, c.y - 0.2 * size * weight / largest}, "force");
-        sketch.text(c, fmt::format("W {:.4g} kN/m", weight / kN), Align::start, 6, 0, "small halo");
+        sketch.text(c, fmt::format("W {:.0f} kN/m", weight / kN), Align::start, 6, 0, "small halo");
     }
     for (std::size_t j = 0; j < model.feet.size() && j < model.tops.size(); ++j) {
         const Point foot = model.feet[j], top = model.tops[j];
         sketch.line({foot, top}, "joint");
+        if (j >= plane.forces.thrust.size()) continue; // a locked chain has no yield
         const Point at{0.67 * foot.x + 0.33 * top.x, 0.67 * foot.y + 0.33 * top.y};
         sketch.arrow({at.x + 0.12 * size, at.y}, at, "force");
-        sketch.text({at.x + 0.12 * size, at.y}, fmt::format("E {:.4g} kN/m", plane.forces.thrust[j] / kN), Align::start, 6, 4,
+        sketch.text({at.x + 0.12 * size, at.y}, fmt::format("E {:.0f} kN/m", plane.forces.thrust[j] / kN), Align::start, 6, 4,
                     "small halo");
     }
     return {fmt::format("Seam {}", plane.name), sketch.svg("Blocks of the seam with water pressure and forces"),
@@ -430,7 +431,7 @@ Headline with_planes(Headline headline, const Planes& planes, const Scene& scene
     }
     if (!failed.empty()) return {headline.sentence, Outcome::fail, "FAIL on " + failed};
     if (!open.empty() && headline.outcome == Outcome::pass)
-        return {headline.sentence, Outcome::unresolved, "Undecided on " + open + ": its blocks do not press on each other."};
+        return {headline.sentence, Outcome::unresolved, "Undecided on " + open + ": its blocks are locked, or do not press on each other."};
     return headline;
 }
 
