@@ -18,9 +18,9 @@ ReducedContact::ReducedContact(const ReducedModel& model, const ContactMemory& r
                                const ContactOptions& options)
     : model_(model), plane_(model.plane()), system_(model.system()), joint_(joint), options_(options),
       rest_force_(rest.force), rest_slip_(rest.slip), normal_force_(rest.force.head(plane_.pairs()).sum()),
-      no_load_(VectorXd::Zero(system_.modes.count())), no_force_(VectorXd::Zero(2 * plane_.pairs()))
+      no_force_(VectorXd::Zero(2 * plane_.pairs()))
 {
-    state_.q = state_.q_v = state_.q_a = no_load_;
+    state_.q = state_.q_v = state_.q_a = VectorXd::Zero(system_.modes.count());
     state_.p = state_.p_v = state_.p_a = no_force_;
     state_.contact = rest;
 }
@@ -98,7 +98,7 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
 
     tangential_ = solution_.displacement.tail(m) + memory.elastic - elastic_;
     const double slip = system_.weights.dot(tangential_);
-    op.finish(load_, massless_, known_, solution_.force, slip, work_, modal_step_, massless_step_);
+    op.finish(massless_, known_, solution_.force, slip, work_, modal_step_, massless_step_);
 
     const auto update = [&](const VectorXd& change, VectorXd& x, VectorXd& velocity, VectorXd& acceleration) {
         x += change;
@@ -132,7 +132,8 @@ ContactReport ReducedContact::advance(double dt, const GroundAcceleration& groun
 double ReducedContact::change_by(const Step& step)
 {
     const double slip = system_.weights.dot(jumps_.displacement.tail(plane_.pairs()));
-    step.shared->finish(no_load_, no_force_, no_force_, jumps_.force, slip, work_, modal_step_, massless_step_);
+    no_load_work_.free.setZero(system_.modes.count());
+    step.shared->finish(no_force_, no_force_, jumps_.force, slip, no_load_work_, modal_step_, massless_step_);
     return slip;
 }
 

@@ -65,11 +65,11 @@ private:
     Eigen::VectorXd load_, massless_, known_, stuck_, modal_step_, massless_step_, rates_, damped_, tangential_,
         elastic_, water_;
     Eigen::VectorXd gaps_, gaps_of_massless_;
-    Eigen::VectorXd no_load_, no_force_;         ///< zeros
+    Eigen::VectorXd no_force_;                   ///< zeros
     Eigen::VectorXd force_before_, slip_before_; ///< of the step
     ContactStates states_before_;
     ContactSolution solution_, jumps_;
-    ReducedOperator::Work work_;
+    ReducedOperator::Work work_, no_load_work_;
 };
 
 } // namespace damslip::fe2d

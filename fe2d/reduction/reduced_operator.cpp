@@ -69,16 +69,16 @@ void ReducedSystem::add_rock(const ReducedRock& rock, double highest)
 
 void ReducedSystem::add_radiation(const VectorXd& velocity, VectorXd& force) const
 {
-    if (radiation.size() > 0) force.tail(radiation.rows()).noalias() += radiation * velocity.tail(radiation.rows());
+    if (radiation.size() > 0) add_product(radiation, velocity.tail(radiation.rows()), force.tail(radiation.rows()));
     if (!water) return;
     const auto of_water = velocity.segment(water_begin, water->count());
     auto on_water = force.segment(water_begin, water->count());
-    on_water.noalias() += water->damping * of_water;
+    add_product(water->damping, of_water, on_water);
     on_water.noalias() += of_face.transpose() * velocity.head(water_begin);
-    force.head(water_begin).noalias() += of_face * of_water;
+    add_product(of_face, of_water, force.head(water_begin));
     if (of_floor.size() == 0) return;
     on_water.noalias() += of_floor.transpose() * velocity.tail(of_floor.rows());
-    force.tail(of_floor.rows()).noalias() += of_floor * of_water;
+    add_product(of_floor, of_water, force.tail(of_floor.rows()));
 }
 
 ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants)
@@ -93,6 +93,7 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
     d.diagonal().array() += constants.a0 + stretch * system.modes.omega2.array();
     const Index rock = system.radiation.rows();
     if (rock > 0) d.bottomRightCorner(rock, rock) += w * constants.a1 * system.radiation;
+    MatrixXd inverse; // d⁻¹
     if (system.water) {
         const Index first = system.water_begin, water = system.water->count(), floor = system.of_floor.rows();
         d.block(first, first, water, water) = constants.a0 * system.water->mass +
@@ -103,21 +104,25 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
         if (rock > 0 && floor == 0) split_ = d.rows() - rock;
         const VectorXd scale = d.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse(); // it is quasi-definite
         d = (scale.asDiagonal() * d * scale.asDiagonal()).eval();
-        inverse_ = scale.asDiagonal() * d.partialPivLu().inverse() * scale.asDiagonal();
+        inverse = scale.asDiagonal() * d.partialPivLu().inverse() * scale.asDiagonal();
     } else {
-        inverse_ = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
+        inverse = d.llt().solve(MatrixXd::Identity(d.rows(), d.cols()));
     }
-    inverse_ = (0.5 * (inverse_ + inverse_.transpose())).eval();
+    inverse = (0.5 * (inverse + inverse.transpose())).eval();
+    inverse_ = split_ == 0 ? inverse : MatrixXd(inverse.topLeftCorner(split_, split_));
+    if (split_ > 0) inverse_of_rock_ = inverse.bottomRightCorner(rock, rock);
     MatrixXd flexibility = massless_factor_ * system.flexibility;
-    flexibility.noalias() += (on_plane * inverse_) * on_plane.transpose();
+    const MatrixXd moving = on_plane * inverse; // Φ d⁻¹
+    to_steps_ = TransposedProduct(moving);
+    flexibility.noalias() += moving * on_plane.transpose();
     MatrixXd stiffness = flexibility.llt().solve(MatrixXd::Identity(2 * m, 2 * m)); // W⁻¹
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     stiff_modes_ = stiffness * on_plane;
     if (system.slips_damped()) {
         k_ = w * constants.a1 * system.slip_damping;
-        const VectorXd q = inverse_ * system.mean_motion;
-        z_ = on_plane * q;
-        zeta_ = q.dot(system.mean_motion);
+        softened_motion_ = inverse * system.mean_motion;
+        z_ = on_plane * softened_motion_;
+        zeta_ = softened_motion_.dot(system.mean_motion);
         // EᵀW⁻¹E, E = I - k z ωᵀ: three rank-one terms
         const VectorXd w_z = stiffness * z_;
         const double z_w_z = z_.dot(w_z);
@@ -134,13 +139,13 @@ ReducedOperator::ReducedOperator(const Plane& plane, const ReducedSystem& system
 void ReducedOperator::soften(const VectorXd& load, VectorXd& step) const
 {
     if (split_ == 0) {
-        step.noalias() = inverse_ * load;
+        set_product(inverse_, load, step);
         return;
     }
-    const Index rest = load.size() - split_;
-    step.resize(load.size());
-    step.head(split_).noalias() = inverse_.topLeftCorner(split_, split_) * load.head(split_);
-    step.tail(rest).noalias() = inverse_.bottomRightCorner(rest, rest) * load.tail(rest);
+    const Index rock = load.size() - split_;
+    step.setZero(load.size());
+    add_product(inverse_, load.head(split_), step.head(split_));
+    add_product(inverse_of_rock_, load.tail(rock), step.tail(rock));
 }
 
 void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless, const VectorXd& known, Work& work,
@@ -150,37 +155,33 @@ void ReducedOperator::stuck_force(const VectorXd& load, const VectorXd& massless
     work.modal.setZero(load.size());
     to_modes_.add(massless, work.modal);
     work.modal = load - work.modal;
-    soften(work.modal, work.moved);
+    soften(work.modal, work.free);
     stuck = massless;
-    add_product(stiff_modes_, work.moved, stuck);
+    add_product(stiff_modes_, work.free, stuck);
     if (system_.slips_damped()) {
-        soften(load, work.moved);
-        const double mean = system_.mean_motion.dot(work.moved);
-        stuck.tail(system_.weights.size()) += (k_ * (mean - z_.dot(stuck))) * system_.weights;
+        work.mean = softened_motion_.dot(load);
+        stuck.tail(system_.weights.size()) += (k_ * (work.mean - z_.dot(stuck))) * system_.weights;
     }
     stuck = (known - stuck) / w;
 }
 
-void ReducedOperator::finish(const VectorXd& load, const VectorXd& massless, const VectorXd& known,
-                             const VectorXd& force, double slip, Work& work, VectorXd& modal_step,
-                             VectorXd& massless_step) const
+void ReducedOperator::finish(const VectorXd& massless, const VectorXd& known, const VectorXd& force, double slip,
+                             Work& work, VectorXd& modal_step, VectorXd& massless_step) const
 {
     VectorXd& tilde = work.plane;
     tilde = (1.0 + constants_.scheme.alpha) * force - known;
     if (system_.slips_damped()) { // as in DynamicOperator::finish
         const VectorXd& weights = system_.weights;
         const Index m = weights.size();
-        soften(load, work.moved);
-        const double mean = system_.mean_motion.dot(work.moved);
-        tilde.tail(m) -= (k_ * (slip - mean - k_ * zeta_ * slip)) * weights;
+        tilde.tail(m) -= (k_ * (slip - work.mean - k_ * zeta_ * slip)) * weights;
         const double z_tilde = z_.dot(tilde) / (1.0 - k_ * z_.tail(m).dot(weights));
         tilde.tail(m) += (k_ * z_tilde) * weights;
     }
-    work.modal = load;
-    to_modes_.add(tilde, work.modal);
-    if (system_.slips_damped()) work.modal += (k_ * slip) * system_.mean_motion;
-    soften(work.modal, modal_step);
-    massless_step = massless_factor_ * (tilde + massless);
+    tilde += massless;
+    modal_step = work.free;
+    to_steps_.add(tilde, modal_step);
+    if (system_.slips_damped()) modal_step += (k_ * slip) * softened_motion_;
+    massless_step = massless_factor_ * tilde;
 }
 
 ReducedModel::ReducedModel(Plane plane, ReducedSystem system, const Scheme& scheme)

@@ -63,14 +63,17 @@ private:
 ///
 ///     W⁻¹ (Φ q* + F π) = π + W⁻¹Φ (q* - d⁻¹ Φᵀπ)
 ///
-/// needs products with Φ and W⁻¹Φ only: 2m x n, nothing 2m x 2m but the contact problem itself. F_s is never inverted.
+/// and Δq = d⁻¹ (b - Φᵀπ) + (Φ d⁻¹)ᵀ(λ̃ + π) + ... need products with Φ, W⁻¹Φ and Φ d⁻¹ only: 2m x n, nothing 2m x 2m but the
+/// contact problem itself. F_s is never inverted.
 ///
 /// Nothing in it changes: runs and threads share it.
 class ReducedOperator {
 public:
     /// What a run lends to the functions below; kept from step to step, it is not allocated again.
     struct Work {
-        Eigen::VectorXd modal, moved, plane;
+        Eigen::VectorXd modal, plane;
+        Eigen::VectorXd free; ///< d⁻¹ (b - Φᵀπ)
+        double mean = 0.0;    ///< μᵀd⁻¹ b [m]
     };
 
     ReducedOperator(const Plane& plane, const ReducedSystem& system, const StepConstants& constants);
@@ -83,10 +86,9 @@ public:
     void stuck_force(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
                      Work& work, Eigen::VectorXd& stuck) const;
 
-    /// Δq and Δp for λ₁ = `force`; `slip` = ωᵀΔg_t [m]. Call after stuck_force().
-    void finish(const Eigen::VectorXd& load, const Eigen::VectorXd& massless, const Eigen::VectorXd& known,
-                const Eigen::VectorXd& force, double slip, Work& work, Eigen::VectorXd& modal_step,
-                Eigen::VectorXd& massless_step) const;
+    /// Δq and Δp for λ₁ = `force`; `slip` = ωᵀΔg_t [m]. @param work  as stuck_force() left it; of no load: zero
+    void finish(const Eigen::VectorXd& massless, const Eigen::VectorXd& known, const Eigen::VectorXd& force, double slip,
+                Work& work, Eigen::VectorXd& modal_step, Eigen::VectorXd& massless_step) const;
 
 private:
     void soften(const Eigen::VectorXd& load, Eigen::VectorXd& step) const;
@@ -94,11 +96,14 @@ private:
     const ReducedSystem& system_;
     StepConstants constants_;
     TransposedProduct to_modes_; ///< Φᵀ
-    Eigen::MatrixXd inverse_;    ///< d⁻¹
-    Eigen::Index split_ = 0; ///< of two blocks of d⁻¹, dam with water and rock, the second one's begin; 0: one block
+    TransposedProduct to_steps_; ///< (Φ d⁻¹)ᵀ
+    Eigen::MatrixXd inverse_;    ///< d⁻¹; of two blocks the first
+    Eigen::Index split_ = 0;     ///< of two blocks, dam with water and rock, where the second begins; 0: there is one
+    Eigen::MatrixXd inverse_of_rock_;
     Eigen::MatrixXd stiff_modes_; ///< W⁻¹Φ
     double k_ = 0.0, zeta_ = 0.0, massless_factor_ = 1.0;
-    Eigen::VectorXd z_; ///< Φ d⁻¹ μ
+    Eigen::VectorXd softened_motion_; ///< d⁻¹ μ
+    Eigen::VectorXd z_;               ///< Φ d⁻¹ μ
     std::shared_ptr<const Eigen::MatrixXd> stiffness_;
 };
 

@@ -175,8 +175,8 @@ double EarthquakeRun::window() const
         if (!in_motion().model().mesh.contact.matching && scene_.mesh.file) {
             // Nodes that do not face each other cannot be tied: the frequency is not known.
         } else if (water_) {
-            const CoupledModes modes = coupled_modes_up_to(coupled_pencil(tied_model(), water_->water), 0.0, 1);
-            frequency = leading_modal_masses(modes, 1).front().frequency;
+            frequency = first_frequency_.value_or(0.0);
+            if (!first_frequency_) frequency = leading_modal_masses(coupled_modes(1), 1).front().frequency;
         } else if (const VectorXd found = bonded_frequencies(1); found.size() > 0)
             frequency = found[0];
         window_ = slide_window(frequency / (2.0 * std::numbers::pi));
@@ -190,6 +190,12 @@ VectorXd EarthquakeRun::bonded_frequencies(int count) const
     const bool lumped = scene_.time.scheme == TimeScheme::central_difference;
     if (const auto found = lumped ? std::nullopt : tied_frequencies(*structure_, count)) return *found;
     return (2.0 * std::numbers::pi) * natural_modes(tied_model(), count).frequency;
+}
+
+/// Of the tied dam and its acoustic water, so that `leading` are the dam's.
+CoupledModes EarthquakeRun::coupled_modes(int leading) const
+{
+    return coupled_modes_up_to(coupled_pencil(tied_model(), water_->water), 0.0, leading);
 }
 
 void EarthquakeRun::find_damping()
@@ -206,7 +212,10 @@ void EarthquakeRun::find_damping()
         return;
     }
     if (water_) { // the leading modes, without those of the water alone
-        damping_.constants = damping_of(scene_, tied_model(), water_->water, {}).constants;
+        const CoupledModes modes = coupled_modes(modes_needed(wanted));
+        damping_.constants = damping_of(scene_, modes, {}).constants;
+        if (const auto leading = leading_modal_masses(modes, 1); !leading.empty())
+            first_frequency_ = leading.front().frequency;
         return;
     }
     const int modes = std::max(wanted.first_mode, wanted.second_mode);

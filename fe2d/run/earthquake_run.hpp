@@ -25,6 +25,7 @@
 namespace damslip::fe2d {
 
 class EarthquakePass;
+struct CoupledModes; // fe2d/fluid/coupled_modes.hpp
 struct PassSteps;
 
 /// What the caller brings from other modules, and what only a run needs. All else is the scene's.
@@ -188,6 +189,7 @@ private:
     Rest rest(const Lane& lane) const;
     Eigen::VectorXd displacement_of(const Eigen::VectorXd& moving, const Eigen::VectorXd& rock) const;
     Model tied_model() const;
+    CoupledModes coupled_modes(int leading) const;
     Eigen::VectorXd bonded_frequencies(int count) const;
     void find_damping();
     std::shared_ptr<const ReducedRock> let_radiate();
@@ -236,6 +238,7 @@ private:
     bool usable_ = false;
     std::string why_not_; ///< of what is not usable
     double seconds_ = 0.0;
+    std::optional<double> first_frequency_; ///< of dam and acoustic water, where the damping asked for it [rad/s]
     mutable std::once_flag window_found_;
     mutable double window_ = 0.0; ///< see window() [s]
 };

@@ -92,7 +92,7 @@ void subtract_four(const double* const a[4], const double* const x, Index rows, 
 
 } // namespace
 
-void add_product(const MatrixXd& matrix, const Eigen::Ref<const VectorXd>& x, VectorXd& y, VectorLevel level)
+void add_product(const MatrixXd& matrix, const Eigen::Ref<const VectorXd>& x, Eigen::Ref<VectorXd> y, VectorLevel level)
 {
     if (level != VectorLevel::avx2) { // runs in this order
         y.noalias() += matrix * x;

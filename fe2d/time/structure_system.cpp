@@ -198,12 +198,17 @@ DampingChoice damping_of(const Scene& scene, const Model& model, const FluidMode
 {
     const int count = modes_needed(scene.damping);
     if (count == 0) return choose_damping(scene.damping, {}, model.total_mass.x(), {});
-    const CoupledModes modes = coupled_modes_up_to(coupled_pencil(model, water), 0.0, count);
+    return damping_of(scene, coupled_modes_up_to(coupled_pencil(model, water), 0.0, count), motion);
+}
+
+DampingChoice damping_of(const Scene& scene, const CoupledModes& modes, const GroundMotion& motion)
+{
     const SpectralAcceleration spectrum = [&](double frequency, double ratio) {
         return records::peak_absolute_acceleration(motion.accel_h, motion.dt, frequency / (2.0 * std::numbers::pi),
                                                    ratio);
     };
-    return choose_damping(scene.damping, leading_modal_masses(modes, count), modes.total_mass.x(), spectrum);
+    return choose_damping(scene.damping, leading_modal_masses(modes, modes_needed(scene.damping)), modes.total_mass.x(),
+                          spectrum);
 }
 
 } // namespace damslip::fe2d

@@ -62,5 +62,7 @@ std::vector<ModalMass> leading_modal_masses(const CoupledModes& modes, int count
 /// Damping of a scene with acoustic water. "Mode n" of damping.rayleigh_modes is the n-th of the leading modes: modes of the water alone
 /// would shift the count with the length of the reservoir.
 DampingChoice damping_of(const Scene& scene, const Model& model, const FluidModel& water, const GroundMotion& motion);
+/// @param modes  with as many leading ones as the damping needs
+DampingChoice damping_of(const Scene& scene, const CoupledModes& modes, const GroundMotion& motion);
 
 } // namespace damslip::fe2d

@@ -160,9 +160,9 @@ class Scene:
         """The scene as TOML with all defaults."""
         return self._opened.resolved()
 
-    def screen(self, rocking=False, jobs=0):
+    def screen(self, rocking=False, jobs=0, rigid_only=False):
         """Rigid block and regressions, as `damslip screen`. jobs: threads, 0: all cores."""
-        return self._opened._screen(jobs, rocking)
+        return self._opened._screen(jobs, rocking, rigid_only)
 
     def fe(self, polarity=None, mesh_error=True, spread=False, progress=None):
         """Finite elements, all records, as `damslip fe`.

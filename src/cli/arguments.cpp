@@ -52,8 +52,8 @@ void add(const Command& command, CLI::App& parent, Parser& p, const Wanted& want
     if (!wanted(command)) return;
     CLI::Option* json = sub.add_flag("--json", p.json, "one JSON object on standard output, for machines");
     CLI::Option* full =
-        sub.add_flag("--full", p.full, "all tables on a terminal too, in place of the answer in brief")->excludes(json);
-    sub.add_flag("--brief", p.brief, "the answer in brief in a pipe too, in place of all tables")->excludes(json, full);
+        sub.add_flag("--full", p.full, "all tables in place of the answer in brief")->excludes(json);
+    sub.add_flag("--brief", p.brief, "the answer in brief, in at most 25 lines of 110 columns (default)")->excludes(json, full);
     sub.add_flag("-q,--quiet", p.quiet, "no progress, no talk; of the answer in brief its line alone");
     sub.add_flag("!--no-cache", p.cache,
                  "make reduced rock anew: do not use the cache folder ($XDG_CACHE_HOME/damslip or ~/.cache/damslip)");

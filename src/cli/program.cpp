@@ -74,7 +74,7 @@ void check_names(const std::vector<std::string>& arguments)
 } // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out, std::ostream& raw_talk,
-                bool talk_is_terminal, std::span<const Command> rows, bool out_is_terminal)
+                bool talk_is_terminal, std::span<const Command> rows, bool out_is_terminal, Form unasked)
 {
     VisibleStream out(raw_out), talk(raw_talk);
     std::vector<std::string> held;
@@ -89,9 +89,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& raw_out
         const Invocation invocation = parse_arguments(arguments, rows);
         prepare_farewell(form);
         const InterruptGuard interrupt;
-        // A person at a terminal reads the answer in brief; what goes on in a pipe is all tables.
-        const bool in_brief = out_is_terminal || invocation.brief;
-        const Form answer_form = invocation.form == Form::text && !in_brief ? Form::full : invocation.form;
+        const Form answer_form = invocation.form == Form::text && !invocation.brief ? unasked : invocation.form;
         Streams streams{out, talk, answer_form, invocation.quiet, talk_is_terminal && !invocation.quiet};
         if (streams.terminal) streams.bar = &raw_talk;
         streams.hand_on = [&] {
@@ -209,7 +207,7 @@ int run_process(int argc, char** argv, std::span<const Command> rows)
     std::ios::sync_with_stdio(false);
     std::signal(SIGPIPE,
                 SIG_IGN); // a reader that went away is a failed write: files are finished, and the code says it
-    return run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(2) != 0, rows, isatty(1) != 0);
+    return run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(2) != 0, rows, isatty(1) != 0, Form::text);
 }
 
 } // namespace damslip::cli

@@ -18,6 +18,7 @@
 #include "pages/screen/screen_pages.hpp"
 #include "scene/write.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,7 @@ struct ScreenArguments {
     RunInputs inputs;
     std::filesystem::path out;  ///< folder for summary.json, tables (CSV) and the resolved scene; empty: none
     std::filesystem::path pdf;  ///< the report on paper; empty: none
+    bool rigid_only = false;    ///< the elastic dam is left out
     bool rocking = false;       ///< the block that rocks, too, where the sliding one holds
     SpectrumArguments spectrum; ///< peaks by the modes, too
     bool mean_polarity = false; ///< a table with the mean of both polarities
@@ -71,6 +73,10 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         spectrum_of_elements(arguments.spectrum, spectra, given, ready, streams);
     Screening s = run_screening(ready, arguments.jobs,
                                 arguments.rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
+    if (!arguments.rigid_only && has_elastic_dam(ready)) {
+        TerminalWatch watch(streams);
+        s.elastic = screen_elastic(ready, arguments.jobs, watch);
+    }
     for (std::string& note : screen_notes(ready)) s.warnings.push_back(std::move(note));
     const ScreenReportInput in{
         ready.given, ready.scene, s, ready.records(), arguments.jobs, spectrum.get(), arguments.mean_polarity};
@@ -90,7 +96,7 @@ int screen(const ScreenArguments& arguments, const Streams& streams)
         print_pdf(screen_report(in), arguments.pdf);
         name_report(arguments.pdf, streams);
     }
-    return statuses_of(s).exit_code();
+    return std::max(statuses_of(s).exit_code(), s.elastic ? exit_code_of(s.elastic->runs) : exit_ok);
 }
 
 void screen_flags(CLI::App& sub, ScreenArguments& a)
@@ -99,6 +105,8 @@ void screen_flags(CLI::App& sub, ScreenArguments& a)
     add_scale(sub, a.inputs);
     add_friction(sub, a.inputs);
     sub.add_option("--scheme", a.inputs.scheme, "of the rigid block: exact (default) or slammer");
+    sub.add_flag("--rigid-only", a.rigid_only,
+                 "leave out the elastic dam (reduced finite elements): faster, and no PASS for a dam");
     sub.add_flag("--rocking", a.rocking,
                  "the block that rocks and slides, too; without it where the sliding block does not hold");
     sub.add_flag("--mean-polarity", a.mean_polarity, "a table with the mean slip of both polarities of each record");

@@ -20,9 +20,11 @@ struct ScreenResult final : Result {
     Ready ready;
     Screening screening;
 
-    ScreenResult(Ready made, int jobs, RockingRuns rocking)
+    ScreenResult(Ready made, int jobs, RockingRuns rocking, bool rigid_only)
         : ready(std::move(made)), screening(run_screening(ready, jobs, rocking))
     {
+        Watch silent;
+        if (!rigid_only && has_elastic_dam(ready)) screening.elastic = screen_elastic(ready, jobs, silent);
         for (std::string& note : pages::screen_notes(ready)) screening.warnings.push_back(std::move(note));
     }
 
@@ -36,6 +38,7 @@ struct ScreenResult final : Result {
         std::vector<std::pair<std::string, Table>> list{{"displacements", slip_table(s, allowable())}};
         if (has_rocking(s)) list.emplace_back("rocking_block", rocking_table(s, allowable()));
         if (s.flexible) list.emplace_back("flexible_block", flexible_table(s, allowable()));
+        if (s.elastic) list.emplace_back("elastic", elastic_table(s, allowable()));
         list.emplace_back("regressions", regression_table(s.regressions));
         list.emplace_back("statistics", statistics_table(s));
         if (!ready.scene.wedge) {
@@ -68,12 +71,13 @@ OpenedScene with(const OpenedScene& scene, const std::vector<std::pair<std::stri
     return {scene.text, scene.written, std::move(changes)};
 }
 
-std::shared_ptr<ScreenResult> screen(const OpenedScene& opened, int jobs, bool rocking)
+std::shared_ptr<ScreenResult> screen(const OpenedScene& opened, int jobs, bool rocking, bool rigid_only)
 {
     PrepareOptions options;
     options.flexible_modes = true;
     return std::make_shared<ScreenResult>(prepare(opened.scene, Method::rigid_block, options), jobs,
-                                          rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold);
+                                          rocking ? RockingRuns::always : RockingRuns::where_sliding_does_not_hold,
+                                          rigid_only);
 }
 
 std::optional<double> slip_of(const Slip& slip)
@@ -99,7 +103,7 @@ void add_scene(py::module_& module)
         .def_property_readonly("notes", [](const OpenedScene& s) { return note_texts(s.scene.notes); })
         .def_property_readonly("allowable_slip", [](const OpenedScene& s) { return s.scene.criteria.allowable_slip; })
         .def("resolved", [](const OpenedScene& s) { return resolved_toml(s.scene); })
-        .def("_screen", &screen, py::arg("jobs"), py::arg("rocking"), py::call_guard<py::gil_scoped_release>());
+        .def("_screen", &screen, py::arg("jobs"), py::arg("rocking"), py::arg("rigid_only"), py::call_guard<py::gil_scoped_release>());
 
     py::class_<Slip>(module, "Slip")
         .def_property_readonly("record", [](const Slip& s) { return s.row->record; })
@@ -111,7 +115,7 @@ void add_scene(py::module_& module)
                                [](const Slip& s) { return reported(s.row->judged().status, s.row->judged().max_slip); })
         .def_property_readonly("method", [](const Slip& s) { return std::string(s.row->governing().method); })
         .def_property_readonly("status", [](const Slip& s) { return word(s.row->judged().status); })
-        .def_property_readonly("verdict", [](const Slip& s) { return word(judge(*s.row, s.of->allowable())); });
+        .def_property_readonly("verdict", [](const Slip& s) { return verdict_word(*s.row, s.of->allowable()); });
 
     py::class_<ScreenResult, Result, std::shared_ptr<ScreenResult>>(module, "ScreenResult")
         .def_property_readonly(

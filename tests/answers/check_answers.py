@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""check_answers.py PROGRAM ROOT: what commands print in brief, in a pipe (--brief) and on a terminal of 110 columns.
+"""check_answers.py PROGRAM ROOT: what commands print in a pipe and on a terminal of 110 columns.
 
 Shape, of any content: at most 25 lines of 110 characters, at most four digits that mean something, one unit for one quantity in a table,
-one line with -q, all tables in a pipe and with --full, the same text on a terminal. Then the golden texts beside this file, which
+one line with -q, all tables with --full, the same text on a terminal. Then the golden texts beside this file, which
 DAMSLIP_UPDATE_GOLDEN=1 writes.
 """
 import difflib
@@ -108,7 +108,7 @@ def check(name, command, with_golden):
     words = command.split()
     rows = words[0] == "sweep"  # standard output is the rows' where it is a pipe
     begin = time.monotonic()
-    code, out, talk = in_pipe([*words, "--brief"])
+    code, out, talk = in_pipe(words)
     quick = time.monotonic() - begin < 1.0
     answer = "\n".join(line for line in talk.split("\n") if not re.match(r"\w[\w, ]*: (set-up|\d+ %)", line)) if rows else out
     if code not in (0, 4) or not answer:
@@ -118,11 +118,11 @@ def check(name, command, with_golden):
         return compare(name, f"$ damslip {command}\n{answer}") if with_golden else None
     if with_golden and on_terminal(words) != answer:
         fail(name, "a terminal shows another text than a pipe")
-    shown = on_terminal([*words, "-q"]) if rows else in_pipe([*words, "--brief", "-q"])[1]
+    shown = on_terminal([*words, "-q"]) if rows else in_pipe([*words, "-q"])[1]
     if shown.count("\n") != 1 or not shown.strip() or len(shown) > COLUMNS + 1:
         fail(name, f"-q: {shown!r}")
     if with_golden:
-        full = in_pipe(words)
+        full = in_pipe([*words, "--full"])
         if len((full[1] + full[2]).split("\n")) <= len(answer.split("\n")) and name not in ("mesh", "slide", "record_info"):
             fail(name, "--full has no more than the answer in brief")
         compare(name, f"$ damslip {command}\n{answer}")
@@ -142,10 +142,10 @@ for name, command in COMMANDS.items():
 for name, command in TIMED.items():
     check(name, command, False)
 for scene in sorted((root / "examples").glob("*.toml")):
-    code, out, talk = in_pipe(["screen", f"examples/{scene.name}", "--brief"])
+    code, out, talk = in_pipe(["screen", f"examples/{scene.name}"])
     check_shape(f"screen {scene.name}", out) if code in (0, 4) else fail(scene.name, talk)
 with tempfile.TemporaryDirectory() as folder:  # rows in a file: the answer has standard output
-    code, out, talk = in_pipe(["sweep", "examples/own_dam.toml", "--out", f"{folder}/rows.csv", "--brief"])
+    code, out, talk = in_pipe(["sweep", "examples/own_dam.toml", "--out", f"{folder}/rows.csv"])
     check_shape("sweep --out", out) if out else fail("sweep --out", talk)
 print("\n".join(wrong))
 sys.exit(1 if wrong else 0)

@@ -22,7 +22,7 @@ std::optional<Diagnostic> why_not_reducible(const Scene& scene)
         return Diagnostic{scene.file.string(),
                           0,
                           0,
-                          "--reduced with " + what + ".",
+                          "A reduced run cannot take " + what + ".",
                           expected,
                           "run without --reduced, or " + otherwise};
     };

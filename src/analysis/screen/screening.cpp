@@ -342,6 +342,18 @@ Verdict judge(const SlipRow& row, const std::optional<double>& allowable)
     return verdict == Verdict::pass && !row.broken_premises.empty() ? Verdict::undecided : verdict;
 }
 
+bool vibrates(const SlipRow& row)
+{
+    const std::string_view method = row.governing().method;
+    return method == "coupled" || method == "decoupled";
+}
+
+std::string verdict_word(const SlipRow& row, const std::optional<double>& allowable)
+{
+    const Verdict verdict = judge(row, allowable);
+    return verdict == Verdict::pass && row.of_dam && !vibrates(row) ? "below" : word(verdict);
+}
+
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b)
 {
     const auto rank = [](const sliding::SlideResult& r) {
@@ -553,7 +565,10 @@ Screening run_screening(const Ready& ready, int jobs, RockingRuns rocking, Flexi
     add_slips_without_bond(scene, seepage, records, rows, s);
     const bool leaves_out = !not_honoured(ready.given, methods::rigid | methods::flexible).empty();
     for (std::vector<SlipRow>* slips : {&s.slips, &s.slips_without_bond})
-        for (SlipRow& row : *slips) row.leaves_out = leaves_out;
+        for (SlipRow& row : *slips) {
+            row.leaves_out = leaves_out;
+            row.of_dam = !scene.section.rock_slope;
+        }
     add_equilibrium(ready, seepage, s);
     add_planes(ready, jobs, s);
     s.regressions = regression_rows(scene, s.bases.front().model, records);

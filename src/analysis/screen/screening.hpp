@@ -3,6 +3,7 @@
 #include "analysis/prepare/flexible_mass.hpp"
 #include "analysis/prepare/ready.hpp"
 #include "analysis/prepare/rigid_model.hpp"
+#include "analysis/screen/elastic.hpp"
 #include "analysis/screen/needed.hpp"
 #include "analysis/screen/planes.hpp"
 #include "analysis/screen/regression_rows.hpp"
@@ -56,6 +57,7 @@ struct SlipRow {
     std::vector<std::string> broken_premises =
         {}; ///< why the sliding block does not hold for the dam in this motion: no PASS rests on it
     bool leaves_out = false; ///< something that the scene asks for (not_honoured()): no PASS rests on it either
+    bool of_dam = false;     ///< elastic, so that the rigid block is no upper bound: "below" in place of PASS
 
     /// Of the rigid block, with the vertical component where there is one.
     const sliding::SlideResult& rigid() const { return with_vertical ? *with_vertical : horizontal; }
@@ -105,6 +107,7 @@ struct Screening {
     double bond_share = 0.0; ///< c A' over c A' + mu N' before the earthquake [-]
     std::vector<SlipRow>
         slips_without_bond; ///< the rows once more with c = 0, where bond_share is above judged_bond_share
+    std::optional<ElasticScreening> elastic; ///< none: not asked for, or no has_elastic_dam()
     Planes planes; ///< of scenes with [lifts] or [[seam]]; else without rows
     std::vector<RegressionRow> regressions;
     std::vector<SetStatistics> statistics;
@@ -126,6 +129,11 @@ Verdict judge(const sliding::SlideResult& slide, const std::optional<double>& al
 
 /// The governing slip against the allowable [m]; no PASS where a premise of the slip is broken.
 Verdict judge(const SlipRow& row, const std::optional<double>& allowable);
+
+/// Does an analysis with the mass's own vibration judge the row, so that it may say PASS of a dam?
+bool vibrates(const SlipRow& row);
+/// The verdict in a word: "below" where a rigid block slips less than is allowed, and stands for a dam.
+std::string verdict_word(const SlipRow& row, const std::optional<double>& allowable);
 
 /// The one that decides: one that is no answer, else one without a slip, else the larger.
 const sliding::SlideResult& worse(const sliding::SlideResult& a, const sliding::SlideResult& b);

@@ -32,21 +32,6 @@ double largest(const std::vector<double>& values)
     return *std::max_element(values.begin(), values.end());
 }
 
-Table with_columns(const Table& from, std::initializer_list<std::string_view> keys)
-{
-    Table t;
-    t.title = from.title;
-    t.rows.resize(from.rows.size());
-    for (const std::string_view key : keys) {
-        const auto at =
-            std::find_if(from.columns.begin(), from.columns.end(), [&](const Column& c) { return c.key == key; });
-        t.columns.push_back(*at);
-        for (std::size_t i = 0; i < from.rows.size(); ++i)
-            t.rows[i].push_back(from.rows[i][static_cast<std::size_t>(at - from.columns.begin())]);
-    }
-    return t;
-}
-
 const ContactColumn record_column{{"record", "record"}, &ContactRun::record};
 const ContactColumn polarity_column{{"polarity", "polarity"}, &ContactRun::polarity};
 
@@ -263,6 +248,21 @@ Table contact_run_table(const std::vector<ContactRun>& runs, const std::optional
     t.notes.push_back("polarity -1: the record's horizontal component is flipped.");
     t.notes.push_back("residual: largest complementarity residual over N'; energy: imbalance at the end over the "
                       "largest term; time without the shared set-up.");
+    return t;
+}
+
+Table with_columns(const Table& from, std::initializer_list<std::string_view> keys)
+{
+    Table t;
+    t.title = from.title;
+    t.rows.resize(from.rows.size());
+    for (const std::string_view key : keys) {
+        const auto at =
+            std::find_if(from.columns.begin(), from.columns.end(), [&](const Column& c) { return c.key == key; });
+        t.columns.push_back(*at);
+        for (std::size_t i = 0; i < from.rows.size(); ++i)
+            t.rows[i].push_back(from.rows[i][static_cast<std::size_t>(at - from.columns.begin())]);
+    }
     return t;
 }
 

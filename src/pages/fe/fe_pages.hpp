@@ -63,6 +63,9 @@ extern const InBrief run_columns_in_brief;
 /// What governs the slip of contact runs, and what is to be looked at.
 void add_points(const Scene& scene, const std::vector<ContactRun>& runs, Answer& answer);
 
+/// Some columns of a table, without its notes. @pre it has them
+Table with_columns(const Table& from, std::initializer_list<std::string_view> keys);
+
 /// Columns of contact_run_table() for people: the answer, and how it was computed.
 Table answer_part(const Table& run_table);
 Table solution_part(const Table& run_table);

@@ -90,6 +90,8 @@ Table yield_table(const Screening& s);
 /// The rigid block above each lift joint: static safety and yield acceleration. Empty without lift joints.
 Table lift_joint_table(const Scene& scene);
 Table slip_table(const Screening& s, const std::optional<double>& allowable);
+/// The elastic dam by reduced finite elements, one row a run. @pre s.elastic
+Table elastic_table(const Screening& s, const std::optional<double>& allowable);
 /// Mean slip of both polarities, of records that have a slip in both.
 Table mean_slip_table(const Screening& s);
 /// The block that rocks and slides, with its energies.

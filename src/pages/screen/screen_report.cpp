@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "pages/fe/fe_pages.hpp"
 #include "pages/report/page.hpp"
 #include "pages/report/table_text.hpp"
 #include "pages/scene/scene_pages.hpp"
@@ -177,6 +178,7 @@ Section slip_section(const ScreenReportInput& in, const std::vector<GroundMotion
 {
     const Screening& s = in.screening;
     Section section{"Slip", {}, Fold::open};
+    if (s.elastic) section.parts.push_back(rows_part(elastic_table(s, in.scene.criteria.allowable_slip)));
     section.parts.push_back(rows_part(slip_table(s, in.scene.criteria.allowable_slip)));
     if (in.mean_polarity) section.parts.push_back(rows_part(mean_slip_table(s)));
     if (has_rocking(s)) section.parts.push_back(rows_part(rocking_table(s, in.scene.criteria.allowable_slip)));
@@ -259,6 +261,53 @@ std::vector<std::string> all_warnings(const ScreenReportInput& in)
     return list;
 }
 
+/// By the rigid block, or the block that vibrates or rocks in its place. @pre there are records
+Headline block_headline(const Scene& scene, const Screening& s)
+{
+    const std::vector<std::string> premises = broken_premises(s);
+    const std::string sentence = slip_sentence(scene, s) + (premises.empty() ? "" : " But it " + premises.front() + ".");
+    if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
+    const std::optional<double>& allowable = scene.criteria.allowable_slip;
+    const auto any = [&](const std::vector<SlipRow>& rows, auto&& is) { return std::any_of(rows.begin(), rows.end(), is); };
+    const auto judged = [&](Verdict verdict) {
+        return any(s.slips, [&](const SlipRow& row) { return judge(row, allowable) == verdict; });
+    };
+    if (judged(Verdict::fail)) return {sentence, Outcome::fail, "FAIL"};
+    if (!allowable) return {sentence, Outcome::none, "No criterion for the slip."};
+    if (any(s.slips, [](const SlipRow& r) { return !r.broken_premises.empty() && r.governing().method != "rocking"; }))
+        return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
+    if (judged(Verdict::undecided) && s.slips.front().leaves_out)
+        return {sentence, Outcome::unresolved, "Undecided: it leaves out what the scene asks for, see the notes."};
+    if (judged(Verdict::undecided))
+        return {sentence, Outcome::unresolved,
+                s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
+                           : "Undecided: the error of SLAMMER's scheme is not known."};
+    if (any(s.slips_without_bond, [&](const SlipRow& row) { return judge(row, allowable) != Verdict::pass; }))
+        return {sentence, Outcome::unresolved, "PASS with its bond only: not for c = 0."};
+    return {sentence, Outcome::pass, "PASS"};
+}
+
+/// By the elastic dam, where it was run, and the block beside it: the worse counts. The block alone is no upper bound of a dam.
+Headline judged_headline(const Scene& scene, const Screening& s)
+{
+    Headline block = block_headline(scene, s);
+    if (!s.slips.front().of_dam) return block;
+    if (s.elastic && !s.elastic->runs.empty()) {
+        Headline elastic = fe_headline(scene, s.elastic->runs, {}, "step and modes");
+        if (!s.elastic->why_not.empty()) elastic.sentence += " " + s.elastic->why_not;
+        if (elastic.outcome == Outcome::fail || block.outcome != Outcome::fail) {
+            if (elastic.outcome == Outcome::pass && !s.elastic->why_not.empty()) return {elastic.sentence, Outcome::unresolved, "Undecided."};
+            return elastic;
+        }
+        block.sentence += " " + elastic.sentence;
+        return block;
+    }
+    if (s.elastic) block.sentence += " The elastic dam was not run: " + s.elastic->why_not;
+    if (block.outcome == Outcome::pass && !std::all_of(s.slips.begin(), s.slips.end(), vibrates))
+        return {block.sentence, Outcome::unresolved, "Below the allowable as a rigid block; elasticity not checked."};
+    return block;
+}
+
 /// Without the load combinations whose checks fail.
 Headline slip_headline(const Scene& scene, const Screening& s)
 {
@@ -297,33 +346,11 @@ Headline slip_headline(const Scene& scene, const Screening& s)
         return {sentence, Outcome::pass, pass};
     }
     const std::string standing = standing_sentence(s);
-    const std::vector<std::string> premises = broken_premises(s);
-    const std::string sentence = slip_sentence(scene, s) +
-                                 (premises.empty() ? "" : " But it " + premises.front() + ".") +
-                                 checks_sentence(checks) + standing;
-    if (statuses_of(s).exit_code() != exit_ok) return {sentence, Outcome::unresolved, "No answer of some runs."};
-    const auto any = [&](Verdict verdict) {
-        return std::any_of(s.slips.begin(), s.slips.end(),
-                           [&](const SlipRow& row) { return judge(row, scene.criteria.allowable_slip) == verdict; });
-    };
-    if (any(Verdict::fail)) return {sentence, Outcome::fail, "FAIL"};
-    if (!scene.criteria.allowable_slip) return {sentence, Outcome::none, "No criterion for the slip."};
-    const bool broken = std::any_of(s.slips.begin(), s.slips.end(), [](const SlipRow& row) {
-        return !row.broken_premises.empty() && row.governing().method != "rocking";
-    });
-    if (broken) return {sentence, Outcome::unresolved, "Undecided: the sliding block does not hold in this motion."};
-    if (any(Verdict::undecided) && s.slips.front().leaves_out)
-        return {sentence, Outcome::unresolved, "Undecided: it leaves out what the scene asks for, see the notes."};
-    if (any(Verdict::undecided))
-        return {sentence, Outcome::unresolved,
-                s.flexible ? "Undecided: the base opens, which the coupled analysis does not follow."
-                           : "Undecided: the error of SLAMMER's scheme is not known."};
-    const bool by_bond = std::any_of(s.slips_without_bond.begin(), s.slips_without_bond.end(), [&](const SlipRow& row) {
-        return judge(row, scene.criteria.allowable_slip) != Verdict::pass;
-    });
-    if (by_bond) return {sentence, Outcome::unresolved, "PASS with its bond only: not for c = 0."};
-    if (!standing.empty()) return {sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
-    return {sentence, Outcome::pass, pass};
+    Headline slip = judged_headline(scene, s);
+    slip.sentence += checks_sentence(checks) + standing;
+    if (slip.outcome != Outcome::pass) return slip;
+    if (!standing.empty()) return {slip.sentence, Outcome::unresolved, "Slip: PASS, but see the load combinations."};
+    return {slip.sentence, slip.outcome, pass};
 }
 
 } // namespace
@@ -436,6 +463,10 @@ nlohmann::ordered_json screen_json(const ScreenReportInput& in)
         if (!in.given.anchors.empty()) j["anchors"] = json_of(anchor_list_table(in.given));
         j["uplift_profiles"] = json_of(sliding::uplift_comparison_table(s.uplifts));
     }
+    if (s.elastic) {
+        j["elastic"] = json_of(elastic_table(s, allowable));
+        if (!s.elastic->why_not.empty()) j["elastic_not_run"] = s.elastic->why_not;
+    }
     j["displacements"] = json_of(slip_table(s, allowable));
     if (in.mean_polarity) j["mean_of_polarities"] = json_of(mean_slip_table(s));
     if (has_rocking(s)) j["rocking_block"] = json_of(rocking_table(s, allowable));
@@ -462,7 +493,9 @@ namespace {
 void add_points(const ScreenReportInput& in, Answer& answer)
 {
     const Screening& s = in.screening;
-    if (const SlipRow* worst = largest(s)) {
+    if (s.elastic && !s.elastic->runs.empty()) {
+        add_points(in.scene, s.elastic->runs, answer);
+    } else if (const SlipRow* worst = largest(s)) {
         const double yield = s.bases.front().model.downstream.law.constant;
         answer.point("governs", fmt::format("record {}, polarity {:+d}: PGA {:.3g} g, it yields at {:.3g} g", worst->record,
                                             worst->polarity, worst->pga / standard_gravity, yield / standard_gravity));
@@ -512,7 +545,9 @@ Answer screen_answer(const ScreenReportInput& in)
         else show(table);
         first = false;
     }
-    out.add(slip_table(s, allowable),
+    if (s.elastic) out.add(elastic_table(s, allowable), run_columns_in_brief);
+    if (s.elastic && !s.elastic->runs.empty()) show(slip_table(s, allowable)); // its slip stands in the elastic dam's
+    else out.add(slip_table(s, allowable),
             {{"record", "polarity", "slip_h_mm", "slip_hv_mm", "max_slip_m", "status", "verdict"}, "max_slip_m"});
     if (in.mean_polarity) show(mean_slip_table(s));
     if (has_rocking(s)) show(rocking_table(s, allowable));
@@ -535,6 +570,7 @@ void write_screening(const std::filesystem::path& folder, const ScreenReportInpu
     const std::optional<double>& allowable = in.scene.criteria.allowable_slip;
     write_file(folder / "summary.json", screen_json(in).dump(2) + "\n");
     write_file(folder / "displacements.csv", csv(slip_table(in.screening, allowable), comments));
+    if (in.screening.elastic) write_file(folder / "elastic.csv", csv(elastic_table(in.screening, allowable), comments));
     if (!in.scene.wedge) {
         write_file(folder / "equilibrium.csv", csv(sliding::equilibrium_table(in.screening.combinations), comments));
         write_file(folder / "verdicts.csv", csv(sliding::verdict_table(in.screening.combinations), comments));

@@ -1,3 +1,4 @@
+#include "pages/fe/fe_pages.hpp"
 #include "pages/screen/screen_pages.hpp"
 
 #include "analysis/screen/regression_rows.hpp"
@@ -40,6 +41,11 @@ Cell verdict_cell(Verdict verdict)
     return verdict == Verdict::none ? Cell() : Cell(word(verdict));
 }
 
+Cell verdict_cell(const SlipRow& row, const std::optional<double>& allowable)
+{
+    return judge(row, allowable) == Verdict::none ? Cell() : Cell(verdict_word(row, allowable));
+}
+
 /// @param slip  one of the slide's slips, in the unit of its column
 Cell slip_cell(const sliding::SlideResult& r, double slip)
 {
@@ -63,7 +69,7 @@ void note_static_sliding(const Screening& s, Table& table)
 Cell rigid_verdict_cell(const SlipRow& row, const std::optional<double>& allowable)
 {
     if (row.governing().method != "rigid") return fmt::format("judged by {}", row.governing().method);
-    return verdict_cell(judge(row, allowable));
+    return verdict_cell(row, allowable);
 }
 
 /// What no PASS may rest on, and what a PASS rests on.
@@ -83,7 +89,8 @@ void note_verdict(const Screening& s, const std::optional<double>& allowable, Ta
 {
     if (!allowable || s.flexible) return;
     table.notes.push_back(
-        fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm.", *allowable / mm));
+        fmt::format("verdict: largest slip against criteria.allowable_slip = {:.4g} mm{}.", *allowable / mm,
+                    s.slips.front().of_dam ? "; below: no PASS, the rigid block is no upper bound of an elastic dam" : ""));
     if (std::any_of(s.slips.begin(), s.slips.end(),
                     [](const SlipRow& row) { return std::isnan(row.governing().error); }))
         table.notes.push_back("undecided: the error of SLAMMER's scheme is not known; --scheme exact has none.");
@@ -208,6 +215,18 @@ Table mean_slip_table(const Screening& s)
         "Mean of both polarities", columns, rows,
         {"slip at the end, positive downstream; the rigid block, and the flexible one's governing analysis. "
          "A verdict rests on the larger of both, not on their mean."});
+}
+
+Table elastic_table(const Screening& s, const std::optional<double>& allowable)
+{
+    Table t = with_columns(contact_run_table(s.elastic->runs, allowable),
+                           {"record", "polarity", "status", "slip_mm", "total_error_mm", "error_parts", "max_slip_m",
+                            "slip_rigid_mm", "dt_s", "verdict"});
+    t.title = "Elastic dam, reduced finite elements";
+    t.notes = {"slip: area mean over the base since the static state, positive downstream; ± total: what steps and modes "
+               "left out leave open (estimate), nothing of the mesh, which  damslip fe  adds."};
+    if (!s.elastic->why_not.empty()) t.notes.push_back(s.elastic->why_not);
+    return t;
 }
 
 Table slip_table(const Screening& s, const std::optional<double>& allowable)
@@ -406,7 +425,7 @@ Table bond_table(const Screening& s, const std::optional<double>& allowable)
          {{"max_slip_mm", "largest slip", "mm", 5},
           [](const R& r) { return slip_cell(r.judged(), r.judged().max_slip / mm); }},
          {{"status", "status"}, [](const R& r) { return word(r.judged().status); }},
-         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(judge(r, allowable)); }}},
+         {{"verdict", "verdict"}, [&](const R& r) { return verdict_cell(r, allowable); }}},
         s.slips_without_bond);
     t.notes.push_back(fmt::format("the bond is {:.0f} % of the resistance before the earthquake; from a third on (a "
                                   "judgement) the slip is judged without it, too.",

@@ -1,0 +1,51 @@
+#include "analysis/screen/elastic.hpp"
+
+#include "analysis/fe/contact_runs.hpp"
+#include "core/input_error.hpp"
+
+#include <fmt/format.h>
+#include <limits>
+
+namespace damslip {
+
+Verdict ElasticScreening::verdict(const std::optional<double>& allowable) const
+{
+    const Verdict verdict = runs.empty() ? Verdict::undecided : verdict_of(runs, allowable);
+    return verdict == Verdict::pass && !why_not.empty() ? Verdict::undecided : verdict;
+}
+
+bool has_elastic_dam(const Ready& ready)
+{
+    return !ready.given.wedge && !ready.given.section.rock_slope && !ready.records().empty();
+}
+
+ElasticScreening screen_elastic(const Ready& ready, int jobs, Watch& watch)
+{
+    ElasticScreening out;
+    if (const auto why_not = why_not_reducible(ready.given)) {
+        out.why_not = why_not->problem;
+        return out;
+    }
+    Scene given = ready.given;
+    given.time.substeps.reset();
+    given.time.slip_tolerance = std::numeric_limits<double>::infinity(); // one halving, for the error estimate
+    try {
+        const Ready elastic =
+            prepare(std::move(given), Method::finite_elements, ready.pairs, {.seepage = ready.seepage, .stop = watch.stop()});
+        ReducedRuns all(elastic, {.mesh_error = false, .jobs = jobs}, watch);
+        all.run([&](ReducedRecord& run) {
+            out.runs.push_back(as_contact_run(run));
+            out.runs.back().fe.history = {};
+            run.result.history = {};
+        });
+        if (out.runs.size() < all.whole())
+            out.why_not = fmt::format("Stopped after {} of {} runs.", out.runs.size(), all.whole());
+    } catch (const InputError& error) {
+        out.why_not = error.diagnostics().front().problem;
+    } catch (const NotConverged& error) {
+        out.why_not = error.diagnostic().problem;
+    }
+    return out;
+}
+
+} // namespace damslip
